@@ -1,0 +1,27 @@
+// Exact signs of determinants of float64 coordinates.
+//
+// Method: Jonathan R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
+// Geometric Predicates" (1997). A float64 filter with a static bound decides the generic case;
+// otherwise the determinant is expanded without rounding, for the sign alone.
+//
+// Range: exact while no product of three coordinate differences overflows or underflows, that is
+// for differences between about 1e-97 and 1e+102 in magnitude (or exactly 0).
+#pragma once
+
+#include "vec.hpp"
+
+namespace satcheck {
+
+// Sign (-1, 0, +1) of det[b - a; c - a; d - a]: +1 when d lies on the side of the plane of the
+// triangle a, b, c to which its counter-clockwise normal (b - a) x (c - a) points.
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+
+// Sign of det[q1 - p1; q2 - p2; q3 - p3], rows being differences of the given points.
+// orientation(a, b, c, d) == determinant_sign(a, b, a, c, a, d).
+int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);
+
+// Sign of the z, x or y component (drop_axis 2, 0, 1) of (b - a) x (c - a): the orientation of the
+// triangle projected along the named axis.
+int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
+
+}  // namespace satcheck

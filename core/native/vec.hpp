@@ -1,0 +1,65 @@
+// Vectors, rotations and rigid poses in float64, world frame right-handed.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace satcheck {
+
+struct Vec3 {
+  double x = 0, y = 0, z = 0;
+
+  double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  bool operator==(const Vec3&) const = default;
+};
+
+inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+inline Vec3 operator*(Vec3 a, double s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Vec3 operator*(double s, Vec3 a) { return a * s; }
+inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double norm_squared(Vec3 a) { return dot(a, a); }
+inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline double max_abs(Vec3 a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
+inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
+
+// Rows of a 3x3 matrix.
+struct Mat3 {
+  Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+};
+
+inline Vec3 operator*(const Mat3& m, Vec3 v) { return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)}; }
+inline Vec3 transpose_times(const Mat3& m, Vec3 v) { return m.row[0] * v.x + m.row[1] * v.y + m.row[2] * v.z; }
+
+// Rigid placement: p_world = rotation * p_local + translation.
+struct Pose {
+  Mat3 rotation;
+  Vec3 translation;
+};
+
+inline Vec3 operator*(const Pose& pose, Vec3 p) { return pose.rotation * p + pose.translation; }
+
+struct Aabb {
+  Vec3 min{INFINITY, INFINITY, INFINITY};
+  Vec3 max{-INFINITY, -INFINITY, -INFINITY};
+
+  void include(Vec3 p) {
+    min = {std::fmin(min.x, p.x), std::fmin(min.y, p.y), std::fmin(min.z, p.z)};
+    max = {std::fmax(max.x, p.x), std::fmax(max.y, p.y), std::fmax(max.z, p.z)};
+  }
+};
+
+// Closed boxes: boxes that share only a face, edge or corner do meet.
+inline bool meet(const Aabb& a, const Aabb& b) {
+  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+         a.min.z <= b.max.z && b.min.z <= a.max.z;
+}
+
+}  // namespace satcheck
