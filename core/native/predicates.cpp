@@ -1,0 +1,172 @@
+// Method: Jonathan R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
+// Geometric Predicates" (1997): a float64 filter, then expansions. Where we deviate: one exact
+// stage instead of an adaptive ladder, since zero elimination already keeps the expansions of
+// grid-like input at one or two terms; and EXPANSION-SUM instead of FAST-EXPANSION-SUM, because it
+// keeps terms nonadjacent through every operation used here (his theorems 12 and 19).
+#include "predicates.hpp"
+
+#include <limits>
+
+namespace satcheck {
+namespace {
+
+// u, the largest relative error of one rounding.
+constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
+
+// A term of the rounded 3x3 determinant carries at most 3 rounded differences, 2 products and
+// 3 additions: |error| <= ((1 + u)^8 - 1) * permanent. The ninth u covers the roundings of the
+// permanent and of the bound.
+constexpr double kDeterminantBound = 9 * kRoundoff;
+
+// Likewise 2 differences, 1 product, 1 addition; the fifth u covers the bound's own roundings.
+constexpr double kOrientation2dBound = 5 * kRoundoff;
+
+// An unevaluated exact sum of nonoverlapping float64 terms, of increasing magnitude, none zero.
+template <int Capacity>
+struct Expansion {
+  double term[Capacity];
+  int size = 0;
+
+  void append(double value) {
+    if (value != 0) term[size++] = value;
+  }
+  int sign() const { return size == 0 ? 0 : term[size - 1] > 0 ? 1 : -1; }
+};
+
+struct Rounded {
+  double value, error;
+};
+
+Rounded two_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  const double a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+
+Rounded two_product(double a, double b) {
+  const double product = a * b;
+  return {product, std::fma(a, b, -product)};
+}
+
+Expansion<2> difference(double a, double b) {
+  const Rounded d = two_sum(a, -b);
+  Expansion<2> result;
+  result.append(d.error);
+  result.append(d.value);
+  return result;
+}
+
+template <int Capacity>
+void grow(Expansion<Capacity>& e, double value) {
+  double carry = value;
+  int kept = 0;
+  for (int i = 0; i < e.size; ++i) {
+    const Rounded s = two_sum(carry, e.term[i]);
+    carry = s.value;
+    if (s.error != 0) e.term[kept++] = s.error;
+  }
+  e.size = kept;
+  e.append(carry);
+}
+
+template <int A, int B>
+Expansion<A + B> sum(const Expansion<A>& e, const Expansion<B>& f) {
+  Expansion<A + B> result;
+  for (int i = 0; i < e.size; ++i) result.term[i] = e.term[i];
+  result.size = e.size;
+  for (int i = 0; i < f.size; ++i) grow(result, f.term[i]);
+  return result;
+}
+
+template <int A>
+Expansion<2 * A> scaled(const Expansion<A>& e, double factor) {
+  Expansion<2 * A> result;
+  if (e.size == 0) return result;
+  Rounded carry = two_product(e.term[0], factor);
+  result.append(carry.error);
+  for (int i = 1; i < e.size; ++i) {
+    const Rounded product = two_product(e.term[i], factor);
+    const Rounded low = two_sum(carry.value, product.error);
+    result.append(low.error);
+    carry = two_sum(product.value, low.value);
+    result.append(carry.error);
+  }
+  result.append(carry.value);
+  return result;
+}
+
+template <int A>
+Expansion<4 * A> product(const Expansion<A>& e, const Expansion<2>& f) {
+  Expansion<4 * A> result;
+  if (f.size == 0) return result;
+  const Expansion<2 * A> low = scaled(e, f.term[0]);
+  if (f.size == 2) return sum(low, scaled(e, f.term[1]));
+  for (int i = 0; i < low.size; ++i) result.term[i] = low.term[i];
+  result.size = low.size;
+  return result;
+}
+
+template <int A>
+Expansion<A> negated(Expansion<A> e) {
+  for (int i = 0; i < e.size; ++i) e.term[i] = -e.term[i];
+  return e;
+}
+
+struct ExactVector {
+  Expansion<2> x, y, z;
+};
+
+ExactVector exact_difference(Vec3 head, Vec3 tail) {
+  return {difference(head.x, tail.x), difference(head.y, tail.y), difference(head.z, tail.z)};
+}
+
+Expansion<16> exact_minor(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
+                          const Expansion<2>& d) {
+  return sum(product(a, d), negated(product(b, c)));  // a d - b c
+}
+
+int exact_determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
+  const ExactVector a = exact_difference(q1, p1);
+  const ExactVector b = exact_difference(q2, p2);
+  const ExactVector c = exact_difference(q3, p3);
+  const Expansion<64> x = product(exact_minor(b.y, b.z, c.y, c.z), a.x);
+  const Expansion<64> y = product(exact_minor(b.z, b.x, c.z, c.x), a.y);
+  const Expansion<64> z = product(exact_minor(b.x, b.y, c.x, c.y), a.z);
+  return sum(sum(x, y), z).sign();
+}
+
+}  // namespace
+
+int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
+  const Vec3 a = q1 - p1, b = q2 - p2, c = q3 - p3;
+  const double yz = b.y * c.z, zy = b.z * c.y;
+  const double zx = b.z * c.x, xz = b.x * c.z;
+  const double xy = b.x * c.y, yx = b.y * c.x;
+  const double determinant = a.x * (yz - zy) + a.y * (zx - xz) + a.z * (xy - yx);
+  const double permanent = std::fabs(a.x) * (std::fabs(yz) + std::fabs(zy)) +
+                           std::fabs(a.y) * (std::fabs(zx) + std::fabs(xz)) +
+                           std::fabs(a.z) * (std::fabs(xy) + std::fabs(yx));
+  const double bound = kDeterminantBound * permanent;
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return exact_determinant_sign(p1, q1, p2, q2, p3, q3);
+}
+
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return determinant_sign(a, b, a, c, a, d); }
+
+int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
+  const int i = drop_axis == 2 ? 0 : drop_axis + 1;
+  const int j = drop_axis == 0 ? 2 : drop_axis - 1;
+  const double left = (b[i] - a[i]) * (c[j] - a[j]);
+  const double right = (b[j] - a[j]) * (c[i] - a[i]);
+  const double determinant = left - right;
+  const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right));
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
+                     difference(c[j], a[j]))
+      .sign();
+}
+
+}  // namespace satcheck
