@@ -1,1 +1,33 @@
-"""satcheck: TODO."""
+"""satcheck.audit: the order of steps. Bodies in, a report out."""
+
+from __future__ import annotations
+
+from satcheck.audit.check import check
+from satcheck.audit.report import (
+    BodyReport,
+    Finding,
+    Issue,
+    PairCounts,
+    PartError,
+    Report,
+    Stage,
+    Summary,
+    Tool,
+    Witness,
+)
+from satcheck.audit.settings import Settings
+
+__all__ = [
+    "BodyReport",
+    "Finding",
+    "Issue",
+    "PairCounts",
+    "PartError",
+    "Report",
+    "Settings",
+    "Stage",
+    "Summary",
+    "Tool",
+    "Witness",
+    "check",
+]

@@ -1,0 +1,290 @@
+"""The report: plain frozen data, `satcheck.report/1`, and its one way into JSON values.
+
+World frame, right-handed, lengths in the units of the files. `normal` is a unit vector from A to
+B; `distance` is a gap > 0; `depth` is how far A has to move, without rotation, until A and B have
+no common interior; `mtv` is the translation to add to A. What was not asked for is None, never 0.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+SCHEMA = "satcheck.report/1"
+
+Vector = tuple[float, float, float]
+Relation = Literal[
+    "separated",
+    "near",
+    "touching",
+    "penetrating",
+    "contains",
+    "inside",
+    "coincident",
+    "indeterminate",
+]
+Quality = Literal["exact", "bounded", "estimate"]
+Severity = Literal["error", "warning", "note", "none"]
+Verdict = Literal["pass", "fail", "incomplete"]
+RELATIONS: tuple[Relation, ...] = (
+    "separated",
+    "near",
+    "touching",
+    "penetrating",
+    "contains",
+    "inside",
+    "coincident",
+    "indeterminate",
+)
+# Relations with a common interior, the ones that have a depth.
+OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
+
+
+@dataclass(frozen=True, slots=True)
+class Tool:
+    name: str
+    version: str
+
+
+@dataclass(frozen=True, slots=True)
+class PairCounts:
+    """total = pruned + decided + allowed + indeterminate.
+
+    Pruned: the world boxes are apart by more than was asked about. Allowed: the scene permits
+    contact, nothing was computed. Pairs within one ignored group are not asked and not counted.
+    """
+
+    total: int
+    pruned: int
+    decided: int
+    allowed: int
+    indeterminate: int
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """by_relation counts every pair that is not allowed; pruned pairs count as separated."""
+
+    verdict: Verdict
+    pairs: PairCounts
+    by_relation: Mapping[Relation, int]
+
+
+@dataclass(frozen=True, slots=True)
+class PartError:
+    """Proven upper bounds, world units: how far parts stick out of the mesh, and it out of them."""
+
+    outside: float
+    missing: float
+
+
+@dataclass(frozen=True, slots=True)
+class BodyReport:
+    """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
+
+    An unreadable body has None everywhere but id, name and file. `convex` is None where no pair
+    had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
+    input in world units.
+    """
+
+    id: str
+    name: str
+    file: str
+    sha256: str | None
+    path: str | None
+    triangles: int | None
+    health: Mapping[str, bool | int | float | str | None] | None
+    resolution: float | None
+    convex: bool | None
+    parts: int | None
+    part_error: PartError | None
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """One step of a pair's plan: what ran, what it found, what it cost, why it settled nothing."""
+
+    stage: str
+    result: str
+    microseconds: float
+    detail: str
+
+
+@dataclass(frozen=True, slots=True)
+class Witness:
+    """World points, one per body: where the gap is smallest, or a common point."""
+
+    a: Vector
+    b: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One pair.
+
+    relation: with the touch band; exact_relation: without it (None where a capped ladder left it
+    open). tolerance: the touch band of this pair.
+    quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
+    is proven, the depth is a proven interval; estimate: not proven.
+    depth: the upper end of depth_bounds, which always contains the true depth. mtv is a little
+    longer where it had to be: it is rounded, and lengthened until the moved mesh is verified free.
+    """
+
+    id: str
+    a: str
+    b: str
+    rule: str | None
+    severity: Severity
+    relation: Relation
+    exact_relation: Relation | None
+    tolerance: float | None
+    distance: float | None
+    depth: float | None
+    depth_bounds: tuple[float, float] | None
+    quality: Quality | None
+    normal: Vector | None
+    mtv: Vector | None
+    mtv_moves: Literal["a"] | None
+    mtv_verified: bool | None
+    witness: Witness | None
+    volume: None
+    contacts: None
+    certificate: None
+    reason: str | None
+    plan: tuple[Stage, ...]
+    baseline_state: None
+
+
+@dataclass(frozen=True, slots=True)
+class Issue:
+    """Something about the input or the run, with a stable code."""
+
+    code: str
+    severity: Literal["error", "warning", "note"]
+    body: str | None
+    file: str | None
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """`tracebacks` is for --debug and never leaves the program in a document."""
+
+    tool: Tool
+    units: str | None
+    settings: Mapping[str, object]
+    summary: Summary
+    bodies: tuple[BodyReport, ...]
+    findings: tuple[Finding, ...]
+    issues: tuple[Issue, ...]
+    truncated: None = None
+    tracebacks: tuple[str, ...] = field(default=())
+
+    def to_dict(self, timings: bool = True) -> dict[str, Any]:
+        """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
+        return {
+            "schema": SCHEMA,
+            "tool": {"name": self.tool.name, "version": self.tool.version},
+            "units": self.units,
+            "settings": dict(self.settings),
+            "summary": _summary(self.summary),
+            "bodies": [_body(body) for body in self.bodies],
+            "findings": [_finding(finding, timings) for finding in self.findings],
+            "issues": [_issue(issue) for issue in self.issues],
+            "truncated": self.truncated,
+        }
+
+
+def _number(value: float | None) -> float | None:
+    """Finite, and without a negative zero."""
+    if value is None:
+        return None
+    if not math.isfinite(value):
+        raise ValueError(f"a report holds finite numbers only, not {value!r}")
+    return value + 0.0
+
+
+def _vector(value: Vector | None) -> list[float | None] | None:
+    return None if value is None else [_number(c) for c in value]
+
+
+def _summary(summary: Summary) -> dict[str, Any]:
+    pairs = summary.pairs
+    return {
+        "verdict": summary.verdict,
+        "pairs": {
+            "total": pairs.total,
+            "pruned": pairs.pruned,
+            "decided": pairs.decided,
+            "allowed": pairs.allowed,
+            "indeterminate": pairs.indeterminate,
+        },
+        "by_relation": {name: summary.by_relation.get(name, 0) for name in RELATIONS},
+    }
+
+
+def _body(body: BodyReport) -> dict[str, Any]:
+    error = body.part_error
+    return {
+        "id": body.id,
+        "name": body.name,
+        "file": body.file,
+        "sha256": body.sha256,
+        "path": body.path,
+        "triangles": body.triangles,
+        "health": None if body.health is None else dict(body.health),
+        "resolution": _number(body.resolution),
+        "convex": body.convex,
+        "parts": body.parts,
+        "part_error": error
+        and {"outside": _number(error.outside), "missing": _number(error.missing)},
+    }
+
+
+def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
+    bounds, witness = finding.depth_bounds, finding.witness
+    return {
+        "id": finding.id,
+        "a": finding.a,
+        "b": finding.b,
+        "rule": finding.rule,
+        "severity": finding.severity,
+        "relation": finding.relation,
+        "exact_relation": finding.exact_relation,
+        "tolerance": _number(finding.tolerance),
+        "distance": _number(finding.distance),
+        "depth": _number(finding.depth),
+        "depth_bounds": bounds and [_number(bounds[0]), _number(bounds[1])],
+        "quality": finding.quality,
+        "normal": _vector(finding.normal),
+        "mtv": _vector(finding.mtv),
+        "mtv_moves": finding.mtv_moves,
+        "mtv_verified": finding.mtv_verified,
+        "witness": witness and {"a": _vector(witness.a), "b": _vector(witness.b)},
+        "volume": finding.volume,
+        "contacts": finding.contacts,
+        "certificate": finding.certificate,
+        "reason": finding.reason,
+        "plan": [_stage(stage, timings) for stage in finding.plan],
+        "baseline_state": finding.baseline_state,
+    }
+
+
+def _stage(stage: Stage, timings: bool) -> dict[str, Any]:
+    plain: dict[str, Any] = {"stage": stage.stage, "result": stage.result}
+    if timings:
+        plain["microseconds"] = _number(stage.microseconds)
+    plain["detail"] = stage.detail
+    return plain
+
+
+def _issue(issue: Issue) -> dict[str, Any]:
+    return {
+        "code": issue.code,
+        "severity": issue.severity,
+        "body": issue.body,
+        "file": issue.file,
+        "message": issue.message,
+    }

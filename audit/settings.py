@@ -1,0 +1,82 @@
+"""What is asked of a check: every choice that can change an answer, and a few that cannot."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from satcheck.core.errors import SatcheckError
+
+Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
+ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
+
+# Relative width of the depth interval of a concave pair below which nothing finer is asked for.
+DEPTH_WIDTH = 0.01
+# Up to this many bodies the pairs that the broad phase settled are listed as findings too.
+LIST_PRUNED_BODIES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Lengths are in the units of the files. None means "not asked for" unless said otherwise.
+
+    depth: depth and MTV of overlapping pairs.
+    clearance: the gap that bodies must keep; pairs closer than this are `near`.
+    tolerance: half width of the touch band; None: the input precision of each pair.
+    accuracy: the highest rung of the ladder that may be climbed.
+    list_pruned: findings for pairs that the broad phase settled; None: up to 16 bodies.
+    depth_width: relative width of a depth interval that is narrow enough.
+    part_*: how concave meshes are split into convex parts, and what that may cost.
+    jobs: threads over pairs, 0 for one per core. Changes no answer, nor does cache or timings.
+    """
+
+    depth: bool = True
+    clearance: float | None = None
+    tolerance: float | None = None
+    accuracy: Accuracy = "exact"
+    list_pruned: bool | None = None
+    depth_width: float = DEPTH_WIDTH
+    part_threshold: float = 0.05
+    part_seed: int = 0
+    part_seconds: float = 120.0
+    part_megabytes: int = 4096
+    seconds_per_file: float = 60.0
+    megabytes_per_file: int = 2048
+    jobs: int = 0
+    cache: bool = True
+    cache_directory: str | None = None
+    timings: bool = True
+
+    def __post_init__(self) -> None:
+        for name in ("clearance", "tolerance"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value >= 0):
+                raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
+        if self.accuracy not in ACCURACIES:
+            raise _refused(f"accuracy must be one of {', '.join(ACCURACIES)}")
+        if not 0 < self.depth_width < 1:
+            raise _refused(f"depth_width must lie between 0 and 1, not {self.depth_width!r}")
+        if self.jobs < 0:
+            raise _refused(f"jobs must be 0 (one per core) or more, not {self.jobs!r}")
+
+    def to_dict(self) -> dict[str, object]:
+        """Everything that can change an answer, and nothing that cannot."""
+        return {
+            "depth": self.depth,
+            "clearance": self.clearance,
+            "tolerance": "input-precision" if self.tolerance is None else self.tolerance,
+            "accuracy": self.accuracy,
+            "list_pruned": self.list_pruned,
+            "depth_width": self.depth_width,
+            "part_threshold": self.part_threshold,
+            "part_seed": self.part_seed,
+            "part_seconds": self.part_seconds,
+            "part_megabytes": self.part_megabytes,
+            "seconds_per_file": self.seconds_per_file,
+            "megabytes_per_file": self.megabytes_per_file,
+        }
+
+
+def _refused(message: str) -> SatcheckError:
+    return SatcheckError("bad-setting", message)
