@@ -21,6 +21,9 @@ constexpr double kDeterminantBound = 9 * kRoundoff;
 // Likewise 2 differences, 1 product, 1 addition; the fifth u covers the bound's own roundings.
 constexpr double kOrientation2dBound = 5 * kRoundoff;
 
+// What rounded_normal() promises, relative to the length of the normal.
+constexpr double kNormalTolerance = 1e-14;
+
 // An unevaluated exact sum of nonoverlapping float64 terms, of increasing magnitude, none zero.
 template <int Capacity>
 struct Expansion {
@@ -29,6 +32,12 @@ struct Expansion {
 
   void append(double value) {
     if (value != 0) term[size++] = value;
+  }
+  // Adding from the smallest term up: a relative error of a few u.
+  double rounded() const {
+    double total = 0;
+    for (int i = 0; i < size; ++i) total += term[i];
+    return total;
   }
   int sign() const { return size == 0 ? 0 : term[size - 1] > 0 ? 1 : -1; }
 };
@@ -167,6 +176,18 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
   return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
                      difference(c[j], a[j]))
       .sign();
+}
+
+Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 u = b - a, v = c - a;
+  const Vec3 normal = cross(u, v);
+  // Each component is off by at most kOrientation2dBound times its two products' magnitudes.
+  const double products = std::fabs(u.y * v.z) + std::fabs(u.z * v.y) + std::fabs(u.z * v.x) +
+                          std::fabs(u.x * v.z) + std::fabs(u.x * v.y) + std::fabs(u.y * v.x);
+  if (kOrientation2dBound * products <= kNormalTolerance * max_abs(normal)) return normal;
+  const ExactVector p = exact_difference(b, a), q = exact_difference(c, a);
+  return {exact_minor(p.y, p.z, q.y, q.z).rounded(), exact_minor(p.z, p.x, q.z, q.x).rounded(),
+          exact_minor(p.x, p.y, q.x, q.y).rounded()};
 }
 
 }  // namespace satcheck

@@ -24,4 +24,8 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);
 // triangle projected along the named axis.
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
 
+// (b - a) x (c - a) with a relative error below 1e-14 of its length, however thin the triangle; zero
+// exactly when the points are collinear.
+Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c);
+
 }  // namespace satcheck
