@@ -1,0 +1,119 @@
+"""From the options to a report, a document and an exit code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from satcheck.cli import exit_codes
+from satcheck.cli.lengths import Length
+from satcheck.cli.output import PLAIN_PAGE, Document, talk, write_file
+from satcheck.core.errors import SatcheckError
+
+if TYPE_CHECKING:
+    from satcheck.audit.report import Report
+    from satcheck.cli.output import Page
+    from satcheck.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Choices:
+    """What the command line asked for."""
+
+    paths: tuple[str, ...]
+    form: str
+    output: Path | None
+    explain: bool
+    depth: bool
+    clearance: Length | None
+    tolerance: Length | None
+    accuracy: str
+    jobs: int
+    cache: bool
+    timings: bool
+    exit_zero: bool
+    debug: bool
+
+
+def run(choices: Choices) -> int:
+    """Check, write the document, tell the errors on stderr; returns the exit code."""
+    _refuse_early(choices)
+    document = Document()
+    report = _report(choices)
+    page = PLAIN_PAGE if choices.output else document.page
+    text = _render(report, choices, page)
+    if choices.output:
+        write_file(choices.output, text)
+    else:
+        document.write(text, utf8=choices.form == "json")
+    _tell(report, choices)
+    return exit_codes.of_report(report, exit_zero=choices.exit_zero)
+
+
+def _refuse_early(choices: Choices) -> None:
+    """What can be seen to fail before any work is done."""
+    if not choices.paths:
+        raise click.UsageError("give two or more mesh files, or a scene file")
+    if choices.output and not choices.output.absolute().parent.is_dir():
+        raise SatcheckError("cannot-write", "its folder does not exist", file=str(choices.output))
+
+
+def _report(choices: Choices) -> Report:
+    from satcheck.audit import check
+    from satcheck.cli.progress import Bar
+    from satcheck.scene import load_scene
+
+    scene = load_scene(choices.paths)
+    if len(scene.bodies) + len(scene.unreadable) < 2:
+        raise click.UsageError(
+            "one body alone cannot collide: give two or more mesh files, or a scene file"
+        )
+    settings = _settings(choices, scene)
+    try:
+        with Bar() as bar:
+            return check(scene, settings, progress=bar)
+    except SystemExit as stop:  # a library that ends the process must not look like an answer
+        raise SatcheckError("internal-error", f"a library called exit({stop.code!r})") from stop
+
+
+def _settings(choices: Choices, scene: Scene) -> Any:
+    from satcheck.audit import Settings
+
+    def length(given: Length | None, option: str) -> float | None:
+        return None if given is None else given.in_units_of(scene.units, option)
+
+    return Settings(
+        depth=choices.depth,
+        clearance=length(choices.clearance, "--clearance"),
+        tolerance=length(choices.tolerance, "--tolerance"),
+        accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it
+        jobs=choices.jobs,
+        cache=choices.cache,
+        timings=choices.timings,
+    )
+
+
+def _render(report: Report, choices: Choices, page: Page) -> str:
+    if choices.form == "json":
+        from satcheck.cli.report.json import render
+
+        return render(report, timings=choices.timings)
+    from satcheck.cli.report.table import render as render_table
+
+    return render_table(report, page, explain=choices.explain, timings=choices.timings)
+
+
+def _tell(report: Report, choices: Choices) -> None:
+    """Errors on stderr, whatever the format; with -o also the summary and where the report is."""
+    from satcheck.cli.report.words import issue_line, summary_line
+
+    for trace in report.tracebacks if choices.debug else ():
+        talk(trace.rstrip())
+    for issue in report.issues:
+        if issue.severity == "error":
+            talk(f"satcheck: {issue_line(issue)}")
+    if choices.output:
+        talk(f"{summary_line(report)} Report: {choices.output}")

@@ -1,0 +1,225 @@
+"""`satcheck A B [C ...]` and its few sub-commands: options, help and completion.
+
+Nothing here imports geometry: --help, --version and completion answer at once.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+from click.shell_completion import CompletionItem
+
+from satcheck.cli.lengths import Length, length
+
+DEFAULT_COMMAND = "check"
+ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
+FORMATS = ("table", "json")
+
+
+class _DefaultContext(click.Context):
+    """The default command's name is never typed, so it is never shown."""
+
+    @property
+    def command_path(self) -> str:
+        return self.parent.command_path if self.parent else super().command_path
+
+
+class _DefaultCommand(click.Command):
+    context_class = _DefaultContext
+
+    def collect_usage_pieces(self, _: click.Context) -> list[str]:
+        return ["[OPTIONS] A B [C ...]"]
+
+    def format_epilog(self, _: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Exit codes"):
+            formatter.write_dl(
+                [
+                    ("0", "everything asked was checked, nothing was found"),
+                    ("1", "bodies overlap, or are closer than --clearance"),
+                    ("2", "wrong usage, an unreadable input, or an internal error"),
+                    ("3", "nothing was found, but a pair could not be decided"),
+                ]
+            )
+        with formatter.section("Other commands"):
+            others = sorted(satcheck.commands.items())
+            formatter.write_dl(
+                [(f"satcheck {name}", c.get_short_help_str()) for name, c in others if not c.hidden]
+            )
+        with formatter.section("Shell completion"):
+            formatter.write_text('bash: eval "$(_SATCHECK_COMPLETE=bash_source satcheck)"')
+            formatter.write_text('zsh:  eval "$(_SATCHECK_COMPLETE=zsh_source satcheck)"')
+            formatter.write_text("fish: _SATCHECK_COMPLETE=fish_source satcheck | source")
+
+
+class _Satcheck(click.Group):
+    """A group whose first word is a path unless it names a command."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        if not args or args[0] not in self.commands:
+            args = [DEFAULT_COMMAND, *args]
+        return super().parse_args(ctx, args)
+
+
+def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not ctx.resilient_parsing:
+        from satcheck._version import __version__
+
+        click.echo(f"satcheck {__version__}")
+        ctx.exit()
+
+
+def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:
+    """Files, and before the first of them the names of the other commands."""
+    files = [CompletionItem(start, type="file")]
+    if not start or ctx.params.get("paths"):
+        return files
+    names = [n for n, c in satcheck.commands.items() if n.startswith(start) and not c.hidden]
+    return files + [CompletionItem(name) for name in sorted(names)]
+
+
+debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")
+_HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
+
+
+@click.group(cls=_Satcheck, context_settings=_HELP_NAMES, add_help_option=False)
+def satcheck() -> None:
+    """Check meshes for collisions."""
+
+
+@satcheck.command(DEFAULT_COMMAND, cls=_DefaultCommand, context_settings=_HELP_NAMES, hidden=True)
+@click.argument("paths", nargs=-1, metavar="A B [C ...]", shell_complete=_complete_paths)
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    help="How to report. [default: table; json where the name after -o ends in .json]",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write the report to FILE instead of standard output.",
+)
+@click.option(
+    "--explain",
+    is_flag=True,
+    help="Show, pair by pair, what was tested, what it settled, and what it cost.",
+)
+@click.option(
+    "--depth/--no-depth",
+    default=True,
+    help="Find how deep bodies overlap, and the shortest way out.  [default: depth]",
+)
+@click.option(
+    "--clearance",
+    type=length,
+    help="Also find pairs with a gap smaller than this, and report the gap.",
+)
+@click.option(
+    "--tolerance",
+    type=length,
+    help="Call it touching when gap or depth is at most this. "
+    "[default: the precision of the input files]",
+)
+@click.option(
+    "--accuracy",
+    type=click.Choice(ACCURACIES),
+    default="exact",
+    show_default=True,
+    help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
+    "All but exact may report overlaps that are none, and say so.",
+)
+@click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(min=0),
+    default=0,
+    help="Threads; 0 is one per core. Changes no answer.  [default: 0]",
+)
+@click.option("--no-cache", is_flag=True, help="Neither read nor write the cache of convex parts.")
+@click.option("--no-timings", is_flag=True, help="Leave out times: same input, same bytes.")
+@click.option("--exit-zero", is_flag=True, help="Exit with 0 even when something was found.")
+@debug_option
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_version,
+    help="Show the version and exit.",
+)
+def check(
+    paths: tuple[str, ...],
+    form: str | None,
+    output: Path | None,
+    explain: bool,
+    depth: bool,
+    clearance: Length | None,
+    tolerance: Length | None,
+    accuracy: str,
+    jobs: int,
+    no_cache: bool,
+    no_timings: bool,
+    exit_zero: bool,
+    debug: bool,
+) -> int:
+    """Do these meshes collide? How deep, and which way out?
+
+    A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE), each one body, or scene
+    files (JSON, satcheck-scene-1) with several. Every pair of bodies is checked, in the coordinates
+    of the files. A body inside another collides with it.
+
+    A LENGTH is a number in the units of the files. Where a scene declares its units, it may
+    carry one of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
+    """
+    from satcheck.cli.checking import Choices, run
+
+    return run(
+        Choices(
+            paths=paths,
+            form=form or ("json" if output and output.suffix.lower() == ".json" else "table"),
+            output=output,
+            explain=explain,
+            depth=depth,
+            clearance=clearance,
+            tolerance=tolerance,
+            accuracy=accuracy,
+            jobs=jobs,
+            cache=not no_cache,
+            timings=not no_timings,
+            exit_zero=exit_zero,
+            debug=debug,
+        )
+    )
+
+
+@satcheck.group(context_settings=_HELP_NAMES)
+def cache() -> None:
+    """The cache of convex parts: info, clear."""
+
+
+@cache.command()
+def info() -> None:
+    """Show where the cache is and how much it holds."""
+    from satcheck.cli.caching import describe
+
+    click.echo(describe())
+
+
+@cache.command()
+def clear() -> None:
+    """Delete everything in the cache."""
+    from satcheck.cli.caching import clear as clear_cache
+
+    click.echo(clear_cache())
+
+
+@satcheck.command()
+def schema() -> None:
+    """Print the JSON Schema of the JSON report."""
+    from satcheck.cli.report.schema import text
+
+    click.echo(text(), nl=False)

@@ -1,0 +1,68 @@
+"""The process: whatever happens inside becomes one exit code and at most one line of error."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import click
+
+from satcheck.cli import exit_codes
+from satcheck.cli.command import satcheck
+from satcheck.cli.output import talk
+from satcheck.core.errors import SatcheckError
+
+COMPLETION_VARIABLE = "_SATCHECK_COMPLETE"
+
+
+def main() -> None:
+    sys.exit(_run())
+
+
+def _run() -> int:
+    """Not click's standalone mode: a crash and Ctrl-C would both exit 1 there, "findings"."""
+    debug = "--debug" in sys.argv[1:]
+    stdout = sys.stdout
+    try:
+        result = satcheck.main(prog_name="satcheck", standalone_mode=False)
+    except click.ClickException as error:
+        error.show()
+        return exit_codes.ERROR
+    except (click.Abort, KeyboardInterrupt):
+        talk("satcheck: interrupted")
+        return exit_codes.INTERRUPTED
+    except SatcheckError as error:
+        return _failed(f"error: {error} [{error.code}]", debug)
+    except SystemExit as stop:
+        return _stopped(stop, reader_left=sys.stdout is not stdout)
+    except MemoryError:
+        return _failed("error: out of memory [out-of-memory]", debug)
+    except Exception as error:  # noqa: BLE001  the last resort: no traceback, never exit 1
+        told = str(error).strip().splitlines()
+        return _failed(
+            f"internal error: {type(error).__name__}: {told[0] if told else 'no message'} "
+            "[internal-error] (--debug shows where)",
+            debug,
+        )
+    return result if isinstance(result, int) else exit_codes.CLEAN
+
+
+def _stopped(stop: SystemExit, *, reader_left: bool) -> int:
+    """click ends the process itself after a completion, and when the reader of a pipe has left.
+
+    For the latter it wraps sys.stdout; no document was under way (see Document), only help.
+    """
+    if COMPLETION_VARIABLE in os.environ:
+        return stop.code if isinstance(stop.code, int) else exit_codes.ERROR
+    if reader_left:
+        return exit_codes.CLEAN
+    return _failed(f"internal error: ended early ({stop.code!r}) [internal-error]", debug=False)
+
+
+def _failed(line: str, debug: bool) -> int:
+    if debug:
+        import traceback
+
+        talk(traceback.format_exc().rstrip())
+    talk(f"satcheck: {line}")
+    return exit_codes.ERROR

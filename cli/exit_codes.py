@@ -1,0 +1,24 @@
+"""What the process returns, in one place. Scripts rely on these numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from satcheck.audit.report import Report
+
+CLEAN = 0  # everything asked was checked, and nothing was found
+FINDINGS = 1  # bodies overlap, or are closer than the clearance
+ERROR = 2  # usage, unreadable input, or a fault of satcheck itself
+INCOMPLETE = 3  # nothing was found, but something that was asked could not be decided
+INTERRUPTED = 130  # Ctrl-C, the shells' 128 + SIGINT
+
+_BY_VERDICT = {"pass": CLEAN, "fail": FINDINGS, "incomplete": INCOMPLETE}
+
+
+def of_report(report: Report, *, exit_zero: bool) -> int:
+    """ERROR when an input could not be used, else by verdict; exit_zero forgives findings only."""
+    if any(issue.severity == "error" for issue in report.issues):
+        return ERROR
+    code = _BY_VERDICT[report.summary.verdict]
+    return CLEAN if exit_zero and code == FINDINGS else code

@@ -1,0 +1,121 @@
+"""The one place that writes: the document to standard output, everything else to stderr."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import shutil
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+from satcheck.core.errors import SatcheckError
+
+# Wide enough that no cell is ever folded where no terminal sets a width (rich would assume 80).
+UNBOUNDED_WIDTH = 100_000
+# A reader that left early: EPIPE, and EINVAL as Windows calls it.
+_READER_LEFT = (errno.EPIPE, errno.EINVAL)
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """What the reader of a table can show."""
+
+    width: int
+    colour: bool
+    unicode: bool
+
+
+PLAIN_PAGE = Page(width=UNBOUNDED_WIDTH, colour=False, unicode=True)
+
+
+def talk(line: str) -> None:
+    """One line to stderr; a reader that has left is no error."""
+    if sys.stderr is None:
+        return
+    encoding = sys.stderr.encoding or "ascii"
+    with contextlib.suppress(OSError, ValueError):
+        sys.stderr.write(line.encode(encoding, "backslashreplace").decode(encoding) + "\n")
+        sys.stderr.flush()
+
+
+class Document:
+    """Standard output, kept for one document.
+
+    From construction on, file descriptor 1 leads to stderr: what a third party prints, from Python
+    or from native code, now or at exit, cannot get between the lines of the document.
+    """
+
+    def __init__(self) -> None:
+        self._stream: TextIO | None = None
+        self.page = PLAIN_PAGE
+        if sys.stdout is None:
+            return
+        self.page = _page(sys.stdout)
+        encoding = sys.stdout.encoding or "utf-8"
+        try:
+            sys.stdout.flush()
+            kept = os.dup(sys.stdout.fileno())
+            os.dup2(_talk_descriptor(), sys.stdout.fileno())
+        except (OSError, ValueError):  # not backed by a descriptor: nothing to keep apart
+            self._stream = sys.stdout
+            return
+        self._stream = os.fdopen(kept, "w", encoding=encoding, errors="replace", newline="")
+
+    def write(self, text: str, *, utf8: bool = False) -> None:
+        """Write it all; a closed pipe is silent, any other failure is a SatcheckError.
+
+        utf8: whatever the terminal's encoding (JSON is UTF-8 by definition); lone surrogates of
+        undecodable file names become their `\\udcXX` escapes, which JSON reads back.
+        """
+        if self._stream is None:
+            return
+        if utf8 and hasattr(self._stream, "reconfigure"):
+            self._stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+        try:
+            self._stream.write(text)
+            self._stream.flush()
+        except OSError as error:
+            _abandon(self._stream)
+            if error.errno not in _READER_LEFT:
+                raise SatcheckError(
+                    "cannot-write", f"cannot write to standard output: {error.strerror}"
+                ) from None
+
+
+def write_file(path: Path, text: str) -> None:
+    """Write UTF-8 to a file; SatcheckError where that fails."""
+    try:
+        with path.open("w", encoding="utf-8", errors="backslashreplace", newline="") as stream:
+            stream.write(text)
+    except OSError as error:
+        raise SatcheckError(
+            "cannot-write", f"cannot write the report: {error.strerror}", file=str(path)
+        ) from None
+
+
+def _abandon(stream: TextIO) -> None:
+    """Throw away what is still buffered, or the interpreter complains about it at exit."""
+    with contextlib.suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def _talk_descriptor() -> int:
+    try:
+        os.fstat(2)
+    except OSError:
+        return os.open(os.devnull, os.O_WRONLY)
+    return 2
+
+
+def _page(stream: TextIO) -> Page:
+    terminal = stream.isatty()
+    encoding = (stream.encoding or "").lower().replace("-", "").replace("_", "")
+    return Page(
+        width=shutil.get_terminal_size().columns if terminal else UNBOUNDED_WIDTH,
+        # https://no-color.org: any non-empty value
+        colour=terminal and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb",
+        unicode=encoding.startswith("utf"),
+    )

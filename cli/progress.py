@@ -1,0 +1,76 @@
+"""A progress bar on stderr: only for a person, and only when the work takes long."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
+
+# Seconds before the bar appears: shorter work answers before anyone would read it.
+PATIENCE = 0.7
+
+
+class Bar:
+    """Context manager; call it as `bar(done, total)` from any thread."""
+
+    def __init__(self) -> None:
+        # FORCE_COLOR would make rich write cursor movements into a redirected stderr.
+        self._wanted = bool(
+            sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
+        )
+        self._lock = threading.Lock()
+        self._ended = False
+        self._done, self._total = 0, 0
+        self._shown: tuple[Progress, TaskID] | None = None
+        self._timer = threading.Timer(PATIENCE, self._show)
+        self._timer.daemon = True
+
+    def __enter__(self) -> Bar:
+        if self._wanted:
+            self._timer.start()
+        return self
+
+    def __call__(self, done: int, total: int) -> None:
+        with self._lock:
+            self._done, self._total = done, total
+            if self._shown is not None:
+                bar, task = self._shown
+                bar.update(task, completed=done, total=total)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._timer.cancel()
+        with self._lock:
+            self._ended = True
+            if self._shown is not None:
+                self._shown[0].stop()
+
+    def _show(self) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
+        from rich.progress import TimeElapsedColumn as Elapsed
+
+        with self._lock:
+            if self._ended:
+                return
+            bar = Progress(
+                TextColumn("checking"),
+                BarColumn(),
+                MofNCompleteColumn(),
+                TextColumn("pairs"),
+                Elapsed(),
+                console=Console(stderr=True),
+                transient=True,
+            )
+            task = bar.add_task("pairs", completed=self._done, total=self._total or None)
+            bar.start()
+            self._shown = (bar, task)

@@ -1,0 +1,44 @@
+"""Numbers for people: six significant digits. The JSON report has all of them."""
+
+from __future__ import annotations
+
+import math
+
+DIGITS = 6
+
+
+def number(value: float) -> str:
+    """Rounded to nearest."""
+    return f"{value + 0.0:.{DIGITS}g}"
+
+
+def bounds(low: float, high: float) -> str:
+    """A proven interval, rounded outward, so that what is shown is still true."""
+    if low == high:
+        return number(low)
+    return f"{_rounded(low, down=True)} .. {_rounded(high, down=False)}"
+
+
+def vector(values: tuple[float, float, float]) -> str:
+    """Rounded relative to the longest component: no 1e-17 beside a 1."""
+    longest = max(abs(value) for value in values)
+    if longest == 0:
+        return "(0, 0, 0)"
+    places = DIGITS - 1 - math.floor(math.log10(longest))
+    return f"({', '.join(number(round(value, places)) for value in values)})"
+
+
+def duration(microseconds: float) -> str:
+    """Three significant digits, in the unit that suits."""
+    for limit, unit, factor in ((1e3, "us", 1.0), (1e6, "ms", 1e-3)):
+        if microseconds < limit:
+            return f"{microseconds * factor:.3g} {unit}"
+    return f"{microseconds * 1e-6:.3g} s"
+
+
+def _rounded(value: float, *, down: bool) -> str:
+    text = number(value)
+    if value == 0 or (float(text) <= value if down else float(text) >= value):
+        return text
+    step = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
+    return number(value - step if down else value + step)
