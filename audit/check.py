@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report import Report
-from satcheck.audit.settings import Settings
+from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import Finding, Issue, Report
+from satcheck.audit.roster import Roster, place
+from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
+from satcheck.audit.summary import body_reports, count, issues_of, summarise, tool
+from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -15,11 +23,131 @@ if TYPE_CHECKING:
 DEFAULT_SETTINGS = Settings()
 Progress = Callable[[int, int], None]
 
+# Below this many pairs, starting threads costs more than they save.
+PARALLEL_PAIRS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Examined:
+    finding: Finding
+    issues: tuple[Issue, ...] = ()
+    traceback: str | None = None
+
 
 def check(
     scene: Scene | Sequence[str | Path],
     settings: Settings = DEFAULT_SETTINGS,
     progress: Progress | None = None,
 ) -> Report:
-    """Check every pair of bodies. progress(done, total) is called as pairs are settled."""
-    raise NotImplementedError(scene, settings, progress)
+    """Check every pair of bodies that the scene does not exempt.
+
+    scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
+    this thread as pairs are settled. Findings come in the order of the bodies, whatever the threads
+    do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
+    bodies (Settings.list_pruned).
+
+    Raises SatcheckError (`too-few-bodies`; from loading: what the scene room raises). A file that
+    cannot be used and a pair that fails are results, not errors.
+    """
+    scene = _loaded(scene, settings)
+    if len(scene.bodies) + len(scene.unreadable) < 2:
+        raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
+    roster = place(scene, settings)
+    close = _close_pairs(roster, settings)
+    examined = _examine_all(roster, close, settings, progress)
+    findings = _findings(roster, close, examined, settings)
+    issues = issues_of(scene, roster, (issue for one in examined for issue in one.issues))
+    counts = count(roster, len(close), findings)
+    return Report(
+        tool=tool(),
+        units=scene.units,
+        settings=settings.to_dict(),
+        summary=summarise(counts, findings),
+        bodies=body_reports(roster),
+        findings=tuple(findings),
+        issues=issues,
+        tracebacks=tuple(one.traceback for one in examined if one.traceback),
+    )
+
+
+def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
+    if not isinstance(scene, Sequence):
+        return scene
+    from satcheck.scene import load_scene
+
+    return load_scene(
+        scene,
+        seconds_per_file=settings.seconds_per_file,
+        megabytes_per_file=settings.megabytes_per_file,
+    )
+
+
+def _close_pairs(roster: Roster, settings: Settings) -> list[tuple[int, int]]:
+    """Asked pairs whose boxes are no further apart than what is asked about."""
+    half_clearance = 0.5 * (settings.clearance or 0.0)
+    boxes = [body.bounds for body in roster.placed]
+    reach = [
+        max(
+            half_clearance,
+            body.resolution if settings.tolerance is None else 0.5 * settings.tolerance,
+        )
+        for body in roster.placed
+    ]
+    return [pair for pair in close_pairs(boxes, reach) if roster.is_asked(*pair)]
+
+
+def _examine_all(
+    roster: Roster, close: list[tuple[int, int]], settings: Settings, progress: Progress | None
+) -> list[Examined]:
+    pairs = [Pair(roster.placed[i], roster.placed[j], settings) for i, j in close]
+    done = []
+    for one in _in_order(pairs, settings.jobs):
+        done.append(one)
+        if progress is not None:
+            progress(len(done), len(pairs))
+    return done
+
+
+def _in_order(pairs: list[Pair], jobs: int) -> Iterator[Examined]:
+    import os
+
+    threads = min(jobs or os.cpu_count() or 1, len(pairs))
+    if threads <= 1 or len(pairs) < PARALLEL_PAIRS:
+        yield from map(_examine, pairs)
+        return
+    from concurrent.futures import ThreadPoolExecutor
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        yield from pool.map(_examine, pairs)
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _examine(pair: Pair) -> Examined:
+    """One pair, come what may: a failure here must not take the other pairs with it."""
+    plan = Plan()
+    try:
+        return Examined(examine(pair, plan), tuple(plan.issues))
+    except Exception as error:  # noqa: BLE001 the one place where a run survives its own faults
+        import traceback
+
+        reason = f"internal error: {type(error).__name__}: {error}"
+        message = f"{pair.a.id} and {pair.b.id}: {reason}"
+        issue = Issue("internal-error", "error", None, None, message)
+        finding = indeterminate(pair.a.id, pair.b.id, reason, plan)
+        return Examined(finding, (*plan.issues, issue), traceback.format_exc())
+
+
+def _findings(
+    roster: Roster, close: list[tuple[int, int]], examined: list[Examined], settings: Settings
+) -> list[Finding]:
+    found = {pair: one.finding for pair, one in zip(close, examined, strict=True)}
+    for i, j, reason in roster.unreadable_pairs():
+        found[i, j] = indeterminate(roster.ids[i], roster.ids[j], reason, Plan())
+    listed = settings.list_pruned
+    if len(roster.ids) <= LIST_PRUNED_BODIES if listed is None else listed:
+        for i, j in roster.asked_pairs():
+            if (i, j) not in found:
+                found[i, j] = apart_by_boxes(Pair(roster.placed[i], roster.placed[j], settings))
+    return [found[pair] for pair in sorted(found)]

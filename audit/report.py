@@ -120,7 +120,7 @@ class Witness:
     b: Vector
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:
     """One pair.
 
@@ -128,33 +128,34 @@ class Finding:
     open). tolerance: the touch band of this pair.
     quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
     is proven, the depth is a proven interval; estimate: not proven.
-    depth: the upper end of depth_bounds, which always contains the true depth. mtv is a little
-    longer where it had to be: it is rounded, and lengthened until the moved mesh is verified free.
+    depth_bounds: contains the true depth. depth: the best figure for it; where quality is bounded,
+    the upper bound. mtv: -depth * normal, or a little longer: rounded, and lengthened until the
+    moved mesh was verified to be free.
     """
 
     id: str
     a: str
     b: str
-    rule: str | None
+    rule: str | None = None
     severity: Severity
     relation: Relation
-    exact_relation: Relation | None
-    tolerance: float | None
-    distance: float | None
+    exact_relation: Relation | None = None
+    tolerance: float | None = None
+    distance: float | None = None
     depth: float | None
-    depth_bounds: tuple[float, float] | None
+    depth_bounds: tuple[float, float] | None = None
     quality: Quality | None
-    normal: Vector | None
-    mtv: Vector | None
-    mtv_moves: Literal["a"] | None
-    mtv_verified: bool | None
-    witness: Witness | None
-    volume: None
-    contacts: None
-    certificate: None
-    reason: str | None
+    normal: Vector | None = None
+    mtv: Vector | None = None
+    mtv_moves: Literal["a"] | None = None
+    mtv_verified: bool | None = None
+    witness: Witness | None = None
+    volume: None = None
+    contacts: None = None
+    certificate: None = None
+    reason: str | None = None
     plan: tuple[Stage, ...]
-    baseline_state: None
+    baseline_state: None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,52 @@
+"""Axis-aligned world boxes: their gap, the shortest way out, whether one holds the other."""
+
+from __future__ import annotations
+
+import math
+
+from satcheck.audit.report import Vector
+from satcheck.audit.tolerances import UNIT_ROUNDOFF
+
+Box = tuple[Vector, Vector]
+
+
+def largest_coordinate(*boxes: Box) -> float:
+    return max(abs(c) for box in boxes for corner in box for c in corner)
+
+
+def box_gap(a: Box, b: Box) -> float:
+    """A proven lower bound of the distance of two closed boxes: 0.0 exactly when they meet."""
+    (a_min, a_max), (b_min, b_max) = a, b
+    gaps = [max(b_min[axis] - a_max[axis], a_min[axis] - b_max[axis], 0.0) for axis in range(3)]
+    largest = max(gaps)
+    # Three roundings under the root, one difference each: 4 roundoffs of the result cover them.
+    return max(largest * (1 - UNIT_ROUNDOFF), math.hypot(*gaps) * (1 - 8 * UNIT_ROUNDOFF))
+
+
+def diagonal(box: Box) -> float:
+    return math.dist(box[0], box[1])
+
+
+def holds(outer: Box, inner: Box) -> bool:
+    """Whether the closed outer box contains the inner one: what containment of bodies needs."""
+    return all(
+        outer[0][axis] <= inner[0][axis] and inner[1][axis] <= outer[1][axis] for axis in range(3)
+    )
+
+
+def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
+    """The shortest translation of A after which the boxes have no common interior.
+
+    Returns its length (rounded outward; 0.0 when they have none now) and the unit normal from A to
+    B, so that the translation is -length * normal. Ties go to the first axis, negative side first.
+    """
+    best, normal = math.inf, (1.0, 0.0, 0.0)
+    for axis in range(3):
+        for sign, reach in (
+            (1.0, a[1][axis] - b[0][axis]),
+            (-1.0, b[1][axis] - a[0][axis]),
+        ):
+            if reach < best:
+                best = reach
+                normal = tuple(sign if k == axis else 0.0 for k in range(3))  # type: ignore[assignment]
+    return max(best, 0.0) * (1 + 2 * UNIT_ROUNDOFF), normal

@@ -1,0 +1,155 @@
+"""One pair: up the ladder, the figures that were asked for, the words for the result."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from typing import Any
+
+from satcheck.audit.depth import Depth, measure_depth, nudged_depth
+from satcheck.audit.gap import Gap, measure_gap
+from satcheck.audit.ladder import Contact, boxes_apart, settle
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Severity
+from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.audit.touch_band import flush_nudge
+
+CLEARANCE_RULE = "clearance"
+ID_DIGITS = 12
+
+
+def finding_id(a: str, b: str) -> str:
+    """Stable for the two bodies, whatever their order, pose or result."""
+    key = "\0".join(sorted((a, b)))
+    return hashlib.sha256(key.encode()).hexdigest()[:ID_DIGITS]
+
+
+def examine(pair: Pair, plan: Plan) -> Finding:
+    """Everything asked about one pair. Warnings go to the plan."""
+    contact = settle(pair, plan)
+    _warn_of_surfaces(pair, plan)
+    if contact.relation in OVERLAPS:
+        return _overlapping(pair, contact, plan)
+    return _apart(pair, contact, measure_gap(pair, contact, plan), plan)
+
+
+def apart_by_boxes(pair: Pair) -> Finding:
+    """The finding of a pair that the broad phase settled."""
+    plan = Plan()
+    if not boxes_apart(pair, plan) > pair.asked_gap:
+        raise RuntimeError(f"the broad phase dropped {pair.a.id} and {pair.b.id}")
+    known = {"exact_relation": "separated", "quality": "exact", "tolerance": pair.tolerance}
+    return _finding(pair.a.id, pair.b.id, "separated", plan, **known)
+
+
+def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:
+    return _finding(a, b, "indeterminate", plan, severity="warning", reason=reason)
+
+
+def _warn_of_surfaces(pair: Pair, plan: Plan) -> None:
+    """Only a rung that looked at the triangles would have noticed containment."""
+    if not any(stage.stage == "triangles" for stage in plan.stages):
+        return
+    for body in (pair.a, pair.b):
+        if not body.solid:
+            plan.complain(
+                "surface-only",
+                body.id,
+                "not a closed, oriented solid: its surface was checked, whether it contains "
+                "another body was not, and an overlap has no proven least depth",
+            )
+
+
+def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
+    nudge = None
+    if contact.convex is None and contact.relation == "penetrating" and pair.may("exact"):
+        nudge = flush_nudge(pair, contact, plan)
+    depth: Depth | None = None
+    if pair.settings.depth:
+        depth = nudged_depth(pair, contact, nudge) if nudge else measure_depth(pair, contact, plan)
+    relation: Relation = "touching" if nudge or _shallow(pair, contact) else contact.relation
+    figures = {} if depth is None else _depth_figures(depth)
+    if pair.settings.clearance is not None and depth is not None and contact.convex is not None:
+        figures["distance"] = -depth.value
+    return _finding(
+        pair.a.id,
+        pair.b.id,
+        relation,
+        plan,
+        exact_relation=contact.relation if contact.proven else None,
+        quality=_depth_quality(contact, depth),
+        tolerance=pair.tolerance,
+        **_rule(pair, relation),
+        **figures,
+    )
+
+
+def _shallow(pair: Pair, contact: Contact) -> bool:
+    """Whether a convex pair penetrates by no more than the touch band."""
+    result = contact.convex
+    return result is not None and -(result.distance or 0.0) <= pair.tolerance
+
+
+def _depth_figures(depth: Depth) -> dict[str, Any]:
+    return {
+        "depth": depth.value,
+        "depth_bounds": (depth.lower, depth.upper),
+        "normal": depth.normal,
+        "mtv": depth.escape.mtv,
+        "mtv_moves": "a",
+        "mtv_verified": depth.escape.verified,
+        "witness": depth.witness,
+    }
+
+
+def _depth_quality(contact: Contact, depth: Depth | None) -> Quality:
+    if not contact.proven:
+        return "estimate"
+    if depth is None or depth.upper - depth.lower <= EXACT_WIDTH * depth.upper:
+        return "exact"
+    return "bounded"
+
+
+def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
+    clearance = pair.settings.clearance
+    relation, proven = contact.relation, contact.proven
+    if gap.upper <= pair.tolerance:
+        relation = "touching"
+    elif clearance is not None and relation == "separated" and gap.lower < clearance:
+        relation, proven = "near", proven and math.isfinite(gap.upper)
+    figures: dict[str, Any] = {}
+    if clearance is not None and math.isfinite(gap.upper):
+        figures = {"distance": gap.upper, "normal": gap.normal, "witness": gap.witness}
+    return _finding(
+        pair.a.id,
+        pair.b.id,
+        relation,
+        plan,
+        exact_relation=contact.relation if contact.proven else None,
+        quality="exact" if proven else "estimate",
+        tolerance=pair.tolerance,
+        **_rule(pair, relation),
+        **figures,
+    )
+
+
+def _rule(pair: Pair, relation: Relation) -> dict[str, Any]:
+    """Bodies that touch keep no clearance either, so a clearance makes that an error."""
+    kept = pair.settings.clearance or 0.0
+    if relation == "near" or (relation == "touching" and kept > pair.tolerance):
+        return {"rule": CLEARANCE_RULE, "severity": "error"}
+    return {}
+
+
+def _severity(relation: Relation) -> Severity:
+    if relation in OVERLAPS or relation == "near":
+        return "error"
+    return "note" if relation == "touching" else "none"
+
+
+def _finding(a: str, b: str, relation: Relation, plan: Plan, **known: Any) -> Finding:
+    known.setdefault("severity", _severity(relation))
+    return Finding(
+        id=finding_id(a, b), a=a, b=b, relation=relation, plan=tuple(plan.stages), **known
+    )

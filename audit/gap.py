@@ -1,0 +1,63 @@
+"""How far apart two bodies without a common interior are, where somebody has to know."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from satcheck import core
+from satcheck.audit.ladder import Contact
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import Vector, Witness
+
+
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """The distance, world units: lower <= true distance <= upper (inf: unknown).
+
+    normal: unit, from A to B; None where the points coincide. witness: the closest points.
+    """
+
+    lower: float
+    upper: float
+    normal: Vector | None = None
+    witness: Witness | None = None
+
+
+def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
+    """The distance of a separated or touching pair, as far as the clearance or the band asks."""
+    if contact.convex is not None:
+        return _convex_gap(contact.convex)
+    if contact.relation == "touching":
+        witness = contact.point and Witness(contact.point, contact.point)
+        return Gap(0.0, 0.0, None, witness)
+    if contact.gap_lower > pair.asked_gap or not pair.may("exact"):
+        return Gap(contact.gap_lower, math.inf)
+    # A clearance wants the figure; the touch band only wants to know whether it is inside.
+    limit = pair.tolerance if pair.settings.clearance is None else math.inf
+    found = core.mesh_distance(pair.a.surface(), pair.b.surface(), limit)
+    if math.isinf(found.distance):
+        plan.record("distance", "beyond", f"more than {limit:.6g} apart")
+        return Gap(limit, math.inf)
+    plan.record("distance", "measured", f"triangles {found.triangle_a} and {found.triangle_b}")
+    return Gap(
+        found.distance,
+        found.distance,
+        _direction(found.witness_a, found.witness_b),
+        Witness(found.witness_a, found.witness_b),
+    )
+
+
+def _convex_gap(result: core.PairResult) -> Gap:
+    distance = max(result.distance or 0.0, 0.0)
+    witness = None
+    if result.witness_a is not None and result.witness_b is not None:
+        witness = Witness(result.witness_a, result.witness_b)
+    return Gap(distance, distance, result.normal, witness)
+
+
+def _direction(start: Vector, end: Vector) -> Vector | None:
+    step = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
+    length = math.hypot(*step)
+    return None if length == 0 else (step[0] / length, step[1] / length, step[2] / length)

@@ -1,0 +1,149 @@
+"""The ladder: each rung settles what it can prove and leaves the rest to the next.
+
+aabb -> obb -> hull -> triangles, or -> parts where --accuracy stops there. A rung that proves the
+bodies apart by more than was asked about ends the climb. The highest allowed rung answers in any
+case: what it could not prove is then an estimate, and it can only err towards "penetrating".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from satcheck import core
+from satcheck.audit.boxes import box_gap, holds
+from satcheck.audit.oriented_box import oriented_boxes
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import Relation, Vector
+
+RELATION_OF_OUTCOME: dict[str, Relation] = {
+    "separated": "separated",
+    "touching": "touching",
+    "penetrating": "penetrating",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """How two bodies relate, without a touch band.
+
+    proven: False where a capped ladder or a degenerate contact left it open.
+    gap_lower: a proven lower bound of their distance, 0.0 where none is known.
+    convex: the signed distance, where both bodies are convex and it therefore says everything.
+    crossing: indices of one triangle of each body that meet; point: a common point, rounded.
+    """
+
+    relation: Relation
+    proven: bool
+    gap_lower: float = 0.0
+    convex: core.PairResult | None = None
+    crossing: tuple[int, int] | None = None
+    point: Vector | None = None
+
+
+def settle(pair: Pair, plan: Plan) -> Contact:
+    """The relation of the pair by the lowest rung that settles what is asked."""
+    gap = boxes_apart(pair, plan)
+    if gap > pair.asked_gap or not pair.may("obb"):
+        return _apart_or_guess(gap)
+    if _oriented_boxes_apart(pair, plan):
+        return Contact("separated", True, pair.asked_gap)
+    if not pair.may("hull"):
+        return _apart_or_guess(gap)
+    contact = _convex(pair, plan) if pair.both_convex else _hulls(pair, plan, gap)
+    if contact is not None:
+        return contact
+    if pair.may("exact"):
+        return _triangles(pair, plan)
+    if pair.may("parts"):
+        from satcheck.audit.parts_only import settle_by_parts
+
+        return settle_by_parts(pair, plan)
+    return Contact("penetrating", False)
+
+
+def _apart_or_guess(gap: float) -> Contact:
+    return Contact("separated", True, gap) if gap > 0 else Contact("penetrating", False)
+
+
+def boxes_apart(pair: Pair, plan: Plan) -> float:
+    """Rung 0: a lower bound of the gap of the world boxes, 0.0 when they meet."""
+    gap = box_gap(pair.a.bounds, pair.b.bounds)
+    if gap > 0:
+        plan.record("aabb", "separated", f"world boxes apart by at least {gap:.6g}")
+    else:
+        plan.record("aabb", "meet", "world boxes meet")
+    return gap
+
+
+def _oriented_boxes_apart(pair: Pair, plan: Plan) -> bool:
+    """Whether the files' own boxes, placed, are apart by more than was asked about."""
+    boxes = oriented_boxes(pair.a.body, pair.b.body, pair.asked_gap)
+    if isinstance(boxes, str):
+        plan.record("obb", "skipped", boxes)
+        return False
+    (shape_a, pose_a), (shape_b, pose_b) = boxes
+    result = core.check_pair(shape_a, shape_b, pose_a, pose_b, query="overlap")
+    apart = result.outcome == "separated"
+    plan.record("obb", "separated" if apart else "meet", result.feature if apart else "")
+    return apart
+
+
+def _convex(pair: Pair, plan: Plan) -> Contact | None:
+    """Everything about two convex bodies; None when the solver could not decide."""
+    result = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
+    plan.record("hull", result.outcome, f"both convex: {result.method} {result.feature}".rstrip())
+    if result.outcome == "undecided":
+        return None
+    relation = RELATION_OF_OUTCOME[result.outcome]
+    if relation == "penetrating":
+        relation = _containment(pair, plan)
+    return Contact(relation, True, max(result.lower or 0.0, 0.0), result)
+
+
+def _containment(pair: Pair, plan: Plan) -> Relation:
+    """Refine "penetrating" of two convex bodies; only nested boxes can hold nested bodies."""
+    if not (holds(pair.a.bounds, pair.b.bounds) or holds(pair.b.bounds, pair.a.bounds)):
+        return "penetrating"
+    found = core.mesh_relation(pair.a.surface(), pair.b.surface())
+    plan.record("containment", found.relation, "one world box holds the other")
+    # The surfaces differ from the hulls by the rounding of the pose: a relation without a common
+    # interior can then only mean a graze, which the hulls have already settled.
+    nested = found.relation in ("contains", "inside", "coincident")
+    return _relation(found.relation) if nested else "penetrating"
+
+
+def _hulls(pair: Pair, plan: Plan, box_lower: float) -> Contact | None:
+    """Apart, if the hulls of the whole meshes are; None otherwise."""
+    a, b = pair.a.hull_shape(), pair.b.hull_shape()
+    overlap = core.check_pair(a, b, query="overlap")
+    if overlap.outcome != "separated":
+        plan.record("hull", overlap.outcome, "not both convex: hulls prove only separation")
+        return None
+    distance = core.check_pair(a, b, query="distance")
+    lower = max(distance.lower or 0.0, box_lower)
+    plan.record("hull", "separated", f"hulls apart by at least {lower:.6g}")
+    return Contact("separated", True, lower)
+
+
+def _triangles(pair: Pair, plan: Plan) -> Contact:
+    found = core.mesh_relation(pair.a.surface(), pair.b.surface())
+    detail = f"{found.box_tests} box tests, {found.triangle_tests} triangle tests"
+    crossing = None
+    if found.triangle_a >= 0 and found.triangle_b >= 0:
+        crossing = (found.triangle_a, found.triangle_b)
+        detail += f", triangles {found.triangle_a} and {found.triangle_b} meet"
+    if not found.proven:
+        detail += ", sampled in a degenerate contact"
+    plan.record("triangles", found.relation, detail)
+    return Contact(_relation(found.relation), found.proven, crossing=crossing, point=found.point)
+
+
+def _relation(name: str) -> Relation:
+    known: dict[str, Relation] = {
+        **RELATION_OF_OUTCOME,
+        "contains": "contains",
+        "inside": "inside",
+        "coincident": "coincident",
+    }
+    return known[name]

@@ -1,0 +1,45 @@
+"""A question about two bodies: what is asked, how far the ladder may be climbed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from satcheck.audit.boxes import largest_coordinate
+from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    a: PlacedBody
+    b: PlacedBody
+    settings: Settings
+
+    def may(self, rung: Accuracy) -> bool:
+        """Whether --accuracy lets this pair climb to the rung."""
+        return ACCURACIES.index(rung) <= ACCURACIES.index(self.settings.accuracy)
+
+    @property
+    def tolerance(self) -> float:
+        """Half width of the touch band, world units: by default either surface may be off by its
+        own input precision, so the sum of both."""
+        asked = self.settings.tolerance
+        return self.a.resolution + self.b.resolution if asked is None else asked
+
+    @property
+    def asked_gap(self) -> float:
+        """A gap beyond this needs no figure: it is neither near nor in the touch band."""
+        return max(self.settings.clearance or 0.0, self.tolerance)
+
+    @property
+    def largest_coordinate(self) -> float:
+        return largest_coordinate(self.a.bounds, self.b.bounds)
+
+    @property
+    def both_solid(self) -> bool:
+        return self.a.solid and self.b.solid
+
+    @property
+    def both_convex(self) -> bool:
+        """The convex answer is the whole answer."""
+        return self.a.convex and self.b.convex

@@ -1,0 +1,72 @@
+"""Convex parts of a body in the world frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from satcheck import core
+from satcheck.audit.boxes import Box
+from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.plan import Plan
+
+if TYPE_CHECKING:
+    from satcheck.decompose import Decomposition
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A convex body in the world frame, with its box."""
+
+    shape: core.Hull
+    bounds: Box
+
+
+@dataclass(frozen=True, slots=True)
+class Covering:
+    """Convex parts that stand for a mesh: they stick out of it by at most `outside`, and it out of
+    them by at most `missing`; world units."""
+
+    parts: list[Part]
+    outside: float
+    missing: float
+
+
+def decomposition(body: PlacedBody, plan: Plan) -> Decomposition | None:
+    """The convex parts of the body's file, in file coordinates; None, and a warning, on failure."""
+    from satcheck.decompose import DecompositionError
+
+    try:
+        return body.shared.decomposition()
+    except DecompositionError as error:
+        plan.complain(error.code, body.id, f"no convex parts: {error.message}")
+        return None
+
+
+def inner_parts(body: PlacedBody, plan: Plan) -> list[Part]:
+    """Parts proven to lie inside the body's mesh, up to the rounding of the pose; may be empty."""
+    if body.convex:
+        return [Part(body.hull_shape(), body.bounds)]
+    found = decomposition(body, plan)
+    return [] if found is None else [_placed(part, body) for part in found.inner]
+
+
+def covering(body: PlacedBody, plan: Plan) -> Covering | None:
+    if body.convex:
+        return Covering([Part(body.hull_shape(), body.bounds)], 0.0, 0.0)
+    found = decomposition(body, plan)
+    if found is None:
+        return None
+    stretch = body.largest_stretch
+    return Covering(
+        [_placed(part, body) for part in found.parts],
+        found.outside * stretch,
+        found.missing * stretch,
+    )
+
+
+def _placed(part: core.Polytope, body: PlacedBody) -> Part:
+    mesh = part.to_mesh()
+    if body.body.transform is not None:
+        mesh = mesh.transformed(body.body.transform)
+    return Part(core.Hull(mesh), mesh.bounds)

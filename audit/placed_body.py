@@ -1,0 +1,125 @@
+"""A body in the world, with everything that can be derived from it built once, when asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from threading import RLock
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from satcheck import core
+from satcheck.audit.boxes import Box, diagonal
+from satcheck.audit.settings import Settings
+from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, NEARLY_CONVEX, UNIT_ROUNDOFF
+
+if TYPE_CHECKING:
+    from satcheck.decompose import Decomposition
+    from satcheck.scene import Body, MeshFile
+
+T = TypeVar("T")
+
+
+class Once(Generic[T]):
+    """A value made by the first thread that asks; `known` is None until then."""
+
+    __slots__ = ("_lock", "_make", "known")
+
+    def __init__(self, make: Callable[[], T]) -> None:
+        self._make = make
+        self._lock = RLock()
+        self.known: T | None = None
+
+    def __call__(self) -> T:
+        with self._lock:
+            if self.known is None:
+                self.known = self._make()
+            return self.known
+
+
+class SharedMesh:
+    """What all bodies made of one file share, in file coordinates.
+
+    convex(): closed, consistently outward, and exactly convex. An affine map keeps that, up to the
+    one rounding of each world coordinate: the body is then taken as the hull of its world vertices.
+    """
+
+    __slots__ = ("convex", "decomposition", "file")
+
+    def __init__(self, file: MeshFile, settings: Settings) -> None:
+        self.file = file
+        self.convex = Once(self._convex)
+        self.decomposition = Once(lambda: self._decomposition(settings))
+
+    def _convex(self) -> bool:
+        return self.file.health.solid and self.file.mesh.convexity_defect(0.0) == 0.0
+
+    def _decomposition(self, settings: Settings) -> Decomposition:
+        from satcheck.decompose import Cache, decompose
+
+        directory = settings.cache_directory
+        return decompose(
+            self.file.mesh,
+            threshold=settings.part_threshold,
+            seed=settings.part_seed,
+            seconds=settings.part_seconds,
+            megabytes=settings.part_megabytes,
+            cache=Cache(directory and Path(directory)) if settings.cache else None,
+        )
+
+
+class PlacedBody:
+    """World frame. bounds: ((x, y, z), (x, y, z)); resolution: the input precision, world units.
+
+    defect(): a proven upper bound of how far the surface lies below its hull, inf when it is more
+    than a small fraction of the size or the mesh is not closed.
+    """
+
+    __slots__ = (
+        "body",
+        "bounds",
+        "defect",
+        "hull",
+        "hull_shape",
+        "id",
+        "mesh",
+        "resolution",
+        "shared",
+        "solid",
+        "surface",
+    )
+
+    def __init__(self, body: Body, shared: SharedMesh) -> None:
+        self.body = body
+        self.shared = shared
+        self.id = body.id
+        self.mesh: core.Mesh = body.world_mesh()
+        self.bounds: Box = self.mesh.bounds
+        self.resolution = body.resolution_world
+        self.solid = body.file.health.solid
+        self.surface = Once(lambda: core.Surface(self.mesh, self.solid))
+        self.hull = Once(lambda: self.mesh.convex_hull())
+        self.hull_shape = Once(lambda: core.Hull(self.hull()))
+        self.defect = Once(
+            lambda: self.mesh.convexity_defect(NEARLY_CONVEX * diagonal(self.bounds))
+        )
+
+    @property
+    def convex(self) -> bool:
+        return self.shared.convex()
+
+    @property
+    def largest_stretch(self) -> float:
+        """An upper bound of how much longer the transform makes a length, tight for rigid ones:
+        the largest singular value of M squared is at most the largest row sum of |M^T M|."""
+        transform = self.body.transform
+        if transform is None:
+            return 1.0
+        columns = [[transform[4 * row + axis] for row in range(3)] for axis in range(3)]
+        rows = [
+            math.fsum(
+                abs(math.fsum(p * q for p, q in zip(one, other, strict=True))) for other in columns
+            )
+            for one in columns
+        ]
+        return math.sqrt(max(rows)) * (1 + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF)

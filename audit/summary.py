@@ -1,0 +1,107 @@
+"""Everything in the report that is not about one pair."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+from satcheck._version import __version__
+from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.report import (
+    BodyReport,
+    Finding,
+    Issue,
+    PairCounts,
+    PartError,
+    Relation,
+    Summary,
+    Tool,
+    Verdict,
+)
+from satcheck.audit.roster import Roster
+
+if TYPE_CHECKING:
+    from satcheck.scene import Scene
+
+
+def tool() -> Tool:
+    return Tool("satcheck", __version__)
+
+
+def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts:
+    """close: how many pairs the broad phase left over. Raises RuntimeError if a pair is lost."""
+    unreadable = sum(1 for _ in roster.unreadable_pairs())
+    indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
+    counts = PairCounts(
+        total=roster.total(),
+        pruned=roster.total() - roster.allowed() - unreadable - close,
+        decided=close - (indeterminate - unreadable),
+        allowed=roster.allowed(),
+        indeterminate=indeterminate,
+    )
+    unlisted = counts.total - counts.allowed - len(findings)
+    if counts.pruned < 0 or unlisted not in (0, counts.pruned):
+        raise RuntimeError(f"pairs do not add up: {counts}, {len(findings)} findings")
+    return counts
+
+
+def summarise(counts: PairCounts, findings: Sequence[Finding]) -> Summary:
+    by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
+    by_relation["separated"] += counts.total - counts.allowed - len(findings)
+    return Summary(_verdict(counts, findings), counts, by_relation)
+
+
+def _verdict(counts: PairCounts, findings: Sequence[Finding]) -> Verdict:
+    """An error finding stands whatever else is unknown; a check of nothing never passes."""
+    if any(finding.severity == "error" for finding in findings):
+        return "fail"
+    return "incomplete" if counts.indeterminate or not counts.total else "pass"
+
+
+def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
+    lost = (
+        BodyReport(
+            id=body.id,
+            name=body.id,
+            file=body.file,
+            sha256=None,
+            path=None,
+            triangles=None,
+            health=None,
+            resolution=None,
+            convex=None,
+            parts=None,
+            part_error=None,
+        )
+        for body in roster.lost
+    )
+    return (*(_body_report(body) for body in roster.placed), *lost)
+
+
+def _body_report(body: PlacedBody) -> BodyReport:
+    file = body.body.file
+    parts = body.shared.decomposition.known
+    return BodyReport(
+        id=body.id,
+        name=body.body.name,
+        file=file.path,
+        sha256=file.sha256,
+        path=None,
+        triangles=file.mesh.triangle_count,
+        health={field.name: getattr(file.health, field.name) for field in fields(file.health)},
+        resolution=body.resolution,
+        convex=body.shared.convex.known,
+        parts=parts and len(parts.parts),
+        part_error=parts and PartError(parts.outside, parts.missing),
+    )
+
+
+def issues_of(scene: Scene, roster: Roster, of_pairs: Iterable[Issue]) -> tuple[Issue, ...]:
+    """The input's issues first, then those of the run; each once."""
+    issues = [
+        Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
+        for issue in scene.issues
+    ]
+    return tuple(dict.fromkeys((*issues, *roster.issues, *of_pairs)))

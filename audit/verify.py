@@ -1,0 +1,74 @@
+"""No MTV is printed before it has been applied to the mesh and the result checked exactly."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from satcheck import core
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import Vector
+from satcheck.audit.tolerances import LENGTHENING_ULPS, UNIT_ROUNDOFF
+
+FREE = frozenset({"separated", "touching"})
+
+
+@dataclass(frozen=True, slots=True)
+class Escape:
+    """A translation of A, world units. verified: A's mesh, moved, has no common interior with B."""
+
+    mtv: Vector
+    verified: bool
+
+    @property
+    def length(self) -> float:
+        return math.hypot(*self.mtv)
+
+
+def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Escape:
+    """The shortest accepted translation along -normal, at least `length` long.
+
+    The nominal length is tried only where adding it to A's coordinates rounds nothing; elsewhere a
+    few ulps are added at once, so that another program's order of rounding separates too. The
+    nominal length comes back unverified when the ladder is capped below the hulls or nothing helps.
+    """
+    if not pair.may("hull"):
+        plan.record("verify", "not asked", "the capped ladder has nothing to verify with")
+        return Escape(_along(normal, length), False)
+    ulp = 2 * UNIT_ROUNDOFF * (pair.largest_coordinate + length)
+    steps = (0, *LENGTHENING_ULPS) if _adds_exactly(pair, length, normal) else LENGTHENING_ULPS
+    for step in steps:
+        mtv = _along(normal, length + step * ulp)
+        relation = relation_after(pair, mtv)
+        if relation in FREE:
+            plan.record("verify", relation, f"A moved by its MTV, lengthened by {step} ulp")
+            return Escape(mtv, True)
+    plan.record("verify", "failed", f"still not free after {LENGTHENING_ULPS[-1]} ulp more")
+    return Escape(_along(normal, length), False)
+
+
+def relation_after(pair: Pair, translation: Vector) -> str:
+    """The relation once A's world mesh is moved: of the triangles, or of the hulls under a cap."""
+    moved = pair.a.mesh.translated(translation)
+    if pair.may("exact"):
+        found = core.mesh_relation(core.Surface(moved, pair.a.solid), pair.b.surface())
+        return found.relation if found.proven else "unproven"
+    return core.check_pair(
+        core.Hull(moved.convex_hull()), pair.b.hull_shape(), query="overlap"
+    ).outcome
+
+
+def _along(normal: Vector, length: float) -> Vector:
+    # Adding 0.0 turns a negative zero into zero.
+    return -length * normal[0] + 0.0, -length * normal[1] + 0.0, -length * normal[2] + 0.0
+
+
+def _adds_exactly(pair: Pair, length: float, normal: Vector) -> bool:
+    """Whether the translation runs along one axis and the outermost coordinates take it exactly."""
+    if sorted(abs(c) for c in normal) != [0.0, 0.0, 1.0]:
+        return False
+    axis = [abs(c) for c in normal].index(1.0)
+    shift = -length * normal[axis]
+    ends = (pair.a.bounds[0][axis], pair.a.bounds[1][axis])
+    return all((end + shift) - end == shift and (end + shift) - shift == end for end in ends)

@@ -1,0 +1,72 @@
+"""The report as JSON values: key order, no timings on request, no non-finite number, no -0.0."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from satcheck.audit import Finding, PairCounts, Report, Settings, Stage, Summary, Tool
+
+FINDING = Finding(
+    id="0123456789ab",
+    a="left",
+    b="right",
+    severity="error",
+    relation="penetrating",
+    exact_relation="penetrating",
+    tolerance=1e-7,
+    depth=1.0,
+    depth_bounds=(1.0, 1.0),
+    quality="exact",
+    normal=(1.0, -0.0, 0.0),
+    mtv=(-1.0, 0.0, 0.0),
+    mtv_moves="a",
+    mtv_verified=True,
+    plan=(Stage("aabb", "meet", 1.5, ""),),
+)
+REPORT = Report(
+    tool=Tool("satcheck", "0.0.0"),
+    units=None,
+    settings=Settings().to_dict(),
+    summary=Summary("fail", PairCounts(1, 0, 1, 0, 0), {"penetrating": 1}),
+    bodies=(),
+    findings=(FINDING,),
+    issues=(),
+)
+FINDING_KEYS = (
+    "id a b rule severity relation exact_relation tolerance distance depth depth_bounds quality "
+    "normal mtv mtv_moves mtv_verified witness volume contacts certificate reason plan "
+    "baseline_state"
+).split()
+
+
+def test_keys_come_in_the_order_of_the_schema():
+    plain = REPORT.to_dict()
+    assert list(plain) == (
+        "schema tool units settings summary bodies findings issues truncated".split()
+    )
+    assert list(plain["findings"][0]) == FINDING_KEYS
+    assert list(plain["findings"][0]["plan"][0]) == ["stage", "result", "microseconds", "detail"]
+
+
+def test_not_asked_is_null():
+    plain = REPORT.to_dict()["findings"][0]
+    assert plain["distance"] is None
+    assert plain["witness"] is None
+
+
+def test_timings_can_be_left_out():
+    assert "microseconds" not in json.dumps(REPORT.to_dict(timings=False))
+
+
+def test_negative_zero_is_zero():
+    assert "-0.0" not in json.dumps(REPORT.to_dict())
+
+
+@pytest.mark.parametrize("value", [float("nan"), float("inf")])
+def test_non_finite_numbers_are_refused(value):
+    report = replace(REPORT, findings=(replace(FINDING, depth=value),))
+    with pytest.raises(ValueError, match="finite"):
+        report.to_dict()

@@ -1,0 +1,31 @@
+"""Settings that have no meaning are refused; what changes no answer stays out of the report."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.audit import Settings
+from satcheck.core.errors import SatcheckError
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"clearance": -1.0},
+        {"clearance": float("nan")},
+        {"tolerance": float("inf")},
+        {"accuracy": "best"},
+        {"depth_width": 0.0},
+        {"jobs": -1},
+    ],
+)
+def test_refused(given):
+    with pytest.raises(SatcheckError) as caught:
+        Settings(**given)
+    assert caught.value.code == "bad-setting"
+
+
+def test_what_changes_no_answer_is_not_in_the_report():
+    plain = Settings().to_dict()
+    assert not {"jobs", "cache", "cache_directory", "timings"} & set(plain)
+    assert Settings(jobs=3, cache=False, timings=False).to_dict() == plain
