@@ -35,17 +35,47 @@ REPORT = Report(
     findings=(FINDING,),
     issues=(),
 )
-FINDING_KEYS = (
-    "id a b rule severity relation exact_relation tolerance distance depth depth_bounds quality "
-    "normal mtv mtv_moves mtv_verified witness volume contacts certificate reason plan "
-    "baseline_state"
-).split()
+FINDING_KEYS = [
+    "id",
+    "a",
+    "b",
+    "rule",
+    "severity",
+    "relation",
+    "exact_relation",
+    "tolerance",
+    "distance",
+    "depth",
+    "depth_bounds",
+    "quality",
+    "normal",
+    "mtv",
+    "mtv_moves",
+    "mtv_verified",
+    "witness",
+    "volume",
+    "contacts",
+    "certificate",
+    "reason",
+    "plan",
+    "baseline_state",
+]
 
 
 def test_keys_come_in_the_order_of_the_schema():
     plain = REPORT.to_dict()
     assert list(plain) == (
-        "schema tool units settings summary bodies findings issues truncated".split()
+        [
+            "schema",
+            "tool",
+            "units",
+            "settings",
+            "summary",
+            "bodies",
+            "findings",
+            "issues",
+            "truncated",
+        ]
     )
     assert list(plain["findings"][0]) == FINDING_KEYS
     assert list(plain["findings"][0]["plan"][0]) == ["stage", "result", "microseconds", "detail"]

@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 from satcheck.core.worker import (
     WorkerCrashed,
     WorkerError,

@@ -1,0 +1,162 @@
+"""Every check of the project, one after another: `python -m tests` (what `make test` runs).
+
+Needs satcheck installed with its extra `test`. `python -m tests types pytest` runs just those two.
+Exit code 0 when every step passed or could not apply here (said so in the table), else 1.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from tests.links import LINKS, make_links
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build"
+# Printed by CMakeLists.txt when the compiler has no sanitizers.
+NO_SANITIZERS = "SATCHECK_SANITIZE: not available"
+PASSED, FAILED, SKIPPED = "passed", "FAILED", "skipped"
+
+
+class Outcome(NamedTuple):
+    state: str
+    remark: str = ""
+
+
+def lint() -> Outcome:
+    return run("ruff", "check", ".")
+
+
+def layout() -> Outcome:
+    return run("ruff", "format", "--check", ".")
+
+
+def types() -> Outcome:
+    return run("mypy")
+
+
+def arrows() -> Outcome:
+    return run("lint-imports", "--no-logo", "--no-cache", PYTHONPATH=str(LINKS))
+
+
+def native() -> Outcome:
+    return native_tests(BUILD / "cxx", "-DCMAKE_BUILD_TYPE=Release")
+
+
+def sanitized() -> Outcome:
+    """-O1: optimised enough to run the sweeps, readable enough in a sanitizer's report."""
+    return native_tests(
+        BUILD / "cxx-sanitized",
+        "-DCMAKE_BUILD_TYPE=Debug",
+        "-DSATCHECK_SANITIZE=ON",
+        *(["-DCMAKE_CXX_FLAGS=-O1"] if os.name == "posix" else []),
+    )
+
+
+def pytest() -> Outcome:
+    return run(sys.executable, "-m", "pytest")
+
+
+STEPS: dict[str, tuple[str, Callable[[], Outcome]]] = {
+    "lint": ("ruff check", lint),
+    "layout": ("ruff format --check", layout),
+    "types": ("mypy --strict", types),
+    "arrows": ("import-linter", arrows),
+    "native": ("C++ unit tests", native),
+    "sanitized": ("C++ unit tests under ASan and UBSan", sanitized),
+    "pytest": ("pytest", pytest),
+}
+
+
+def native_tests(folder: Path, *options: str) -> Outcome:
+    """Configure, build and run the C++ tests, which need no Python."""
+    configure = ["cmake", "-S", str(ROOT), "-B", str(folder), *generator(folder)]
+    configure += ["-DSATCHECK_PYTHON=OFF", "-DSATCHECK_CXX_TESTS=ON", *options]
+    code, output = captured(*configure)
+    if code and NO_SANITIZERS in output:
+        return Outcome(SKIPPED, "this compiler has no AddressSanitizer")
+    if code:
+        say(output)
+        return Outcome(FAILED, "cmake could not configure")
+    jobs = str(os.cpu_count() or 1)
+    built = run("cmake", "--build", str(folder), "--parallel", jobs, "--config", "Release")
+    if built.state == FAILED:
+        return built
+    ctest = ["ctest", "--test-dir", str(folder), "-C", "Release"]
+    return run(*ctest, "--output-on-failure", "--no-tests=error")
+
+
+def generator(folder: Path) -> list[str]:
+    """Ninja, unless the folder was configured with something else."""
+    return [] if (folder / "CMakeCache.txt").exists() else ["-G", "Ninja"]
+
+
+def environment(**more: str) -> dict[str, str]:
+    """The tools of this Python environment first."""
+    path = os.pathsep.join([sysconfig.get_path("scripts"), os.environ.get("PATH", "")])
+    return {**os.environ, "PATH": path, "UBSAN_OPTIONS": "print_stacktrace=1", **more}
+
+
+def run(tool: str, *arguments: str, **variables: str) -> Outcome:
+    program = located(tool)
+    if program is None:
+        return Outcome(FAILED, f"{tool} is missing: pip install '.[test]'")
+    done = subprocess.run(
+        [program, *arguments], cwd=ROOT, env=environment(**variables), check=False
+    )
+    code = done.returncode
+    return Outcome(PASSED) if code == 0 else Outcome(FAILED, f"exit code {code}")
+
+
+def captured(tool: str, *arguments: str) -> tuple[int, str]:
+    program = located(tool)
+    if program is None:
+        return 1, f"{tool} is missing: pip install '.[test]'"
+    done = subprocess.run(
+        [program, *arguments],
+        cwd=ROOT,
+        env=environment(),
+        check=False,
+        capture_output=True,
+        text=True,
+    )
+    return done.returncode, done.stdout + done.stderr
+
+
+def located(tool: str) -> str | None:
+    """Windows looks a program up in the path of the parent, so it is looked up here."""
+    return shutil.which(tool, path=environment()["PATH"])
+
+
+def say(line: str) -> None:
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
+
+
+def main(wanted: Sequence[str]) -> int:
+    unknown = set(wanted) - set(STEPS)
+    if unknown:
+        say(f"unknown: {', '.join(sorted(unknown))}; the steps are {', '.join(STEPS)}")
+        return 2
+    make_links(LINKS)
+    results: list[tuple[str, Outcome, float]] = []
+    for name in wanted or STEPS:
+        title, step = STEPS[name]
+        say(f"\n--- {title}")
+        start = time.monotonic()
+        results.append((title, step(), time.monotonic() - start))
+    say("")
+    for title, outcome, seconds in results:
+        say(f"{outcome.state:8}{title:40}{seconds:7.1f} s  {outcome.remark}".rstrip())
+    return 1 if any(outcome.state == FAILED for _, outcome, _ in results) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,100 @@
+"""The samples give their golden reports byte for byte, and the truth that index.json states."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+from functools import cache
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from satcheck.cli.report.schema import text
+from tests.golden import HERE, INDEX, PAIRS, SAMPLES, golden_file, report
+
+NAMES = list(PAIRS)
+# Truth is stated in decimals; the samples' sizes are between 1 and 20.
+ROUNDING = 1e-9
+
+
+@cache
+def answer(name: str) -> tuple[int, bytes]:
+    return report(name)
+
+
+def finding(name: str) -> dict[str, Any]:
+    (only,) = json.loads(answer(name)[1])["findings"]
+    return dict(only)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_report_is_the_golden_one(name: str) -> None:
+    assert answer(name)[1] == golden_file(name).read_bytes(), "see `make golden`"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_report_follows_the_schema(name: str) -> None:
+    Draft202012Validator(json.loads(text())).validate(json.loads(answer(name)[1]))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_relation_and_exit_code_are_true(name: str) -> None:
+    truth = PAIRS[name]
+    assert finding(name)["relation"] == truth["relation"]
+    assert answer(name)[0] == truth["exit"]
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if PAIRS[name]["depth"] is not None])
+def test_depth_is_true(name: str) -> None:
+    found, depth = finding(name), PAIRS[name]["depth"]
+    low, high = found["depth_bounds"]
+    assert low - ROUNDING <= depth <= high + ROUNDING
+    assert found["depth"] == high
+    if found["quality"] == "exact":
+        assert high == pytest.approx(depth, abs=ROUNDING)
+    else:
+        assert found["quality"] == "bounded"
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if PAIRS[name]["mtv"] is not None])
+def test_the_way_out_is_verified_and_true(name: str) -> None:
+    """Exact pairs move by the true vector; bounded ones by no more than the bound allows."""
+    found, mtv = finding(name), PAIRS[name]["mtv"]
+    assert found["mtv_verified"] is True
+    if found["quality"] == "exact":
+        assert found["mtv"] == pytest.approx(mtv, abs=ROUNDING)
+    else:
+        length = sum(c * c for c in found["mtv"]) ** 0.5
+        assert length >= PAIRS[name]["depth"] - ROUNDING
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if "distance" in PAIRS[name]])
+def test_distance_is_true(name: str) -> None:
+    assert finding(name)["distance"] == pytest.approx(PAIRS[name]["distance"], abs=ROUNDING)
+
+
+@pytest.mark.parametrize("name", ["fin", "open", "inside_out"])
+def test_unhealthy_meshes_come_with_a_warning(name: str) -> None:
+    issues = json.loads(answer(name)[1])["issues"]
+    assert any(issue["severity"] == "warning" for issue in issues)
+
+
+def test_every_golden_report_belongs_to_a_pair() -> None:
+    assert {file.stem for file in HERE.glob("*.json")} == set(PAIRS)
+
+
+def test_every_mesh_has_its_sentence() -> None:
+    meshes = {file.name for file in SAMPLES.iterdir() if file.suffix not in (".py", ".json")}
+    assert meshes - {"__pycache__"} == set(INDEX["meshes"])
+    assert all(set(pair["inputs"]) <= meshes for pair in PAIRS.values())
+
+
+def test_the_generator_writes_the_committed_bytes() -> None:
+    spec = importlib.util.spec_from_file_location("make_samples", SAMPLES / "make.py")
+    assert spec
+    assert spec.loader
+    maker = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(maker)
+    for name, content in maker.samples().items():
+        assert (SAMPLES / name).read_bytes() == content, name

@@ -1,0 +1,31 @@
+"""`build/links/satcheck/<room>`: the layout of the installed package, over the working tree.
+
+The rooms lie at the top of the repository and become `satcheck.<room>` when the wheel is built;
+static tools see neither that mapping nor, when only the installed copy is there, the latest edit.
+"""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+LINKS = ROOT / "build" / "links"
+ROOMS = ("cli", "audit", "scene", "decompose", "core")
+
+
+def make_links(folder: Path) -> None:
+    """Links, or copies where the system refuses links (Windows without developer mode)."""
+    package = folder / "satcheck"
+    package.mkdir(parents=True, exist_ok=True)
+    (package / "_version.py").write_text('__version__ = "0"\n', encoding="utf-8")
+    for room in ROOMS:
+        link = package / room
+        if link.is_symlink():
+            link.unlink()
+        elif link.exists():
+            shutil.rmtree(link)
+        try:
+            link.symlink_to(ROOT / room, target_is_directory=True)
+        except OSError:
+            shutil.copytree(ROOT / room, link)
