@@ -19,11 +19,6 @@ bool coordinates_less(Vec3 a, Vec3 b) {
   return a.z < b.z;
 }
 
-bool collinear(Vec3 a, Vec3 b, Vec3 c) {
-  return orientation_2d(a, b, c, 0) == 0 && orientation_2d(a, b, c, 1) == 0 &&
-         orientation_2d(a, b, c, 2) == 0;
-}
-
 struct DistinctPoints {
   std::vector<Vec3> point;            // by x, then y, then z
   std::vector<std::uint32_t> source;  // the first input index of each

@@ -79,6 +79,18 @@ void grow(Expansion<Capacity>& e, double value) {
   e.append(carry);
 }
 
+void grow(std::vector<double>& e, double value) {
+  double carry = value;
+  std::size_t kept = 0;
+  for (const double part : e) {
+    const Rounded s = two_sum(carry, part);
+    carry = s.value;
+    if (s.error != 0) e[kept++] = s.error;
+  }
+  e.resize(kept);
+  if (carry != 0) e.push_back(carry);
+}
+
 template <int A, int B>
 Expansion<A + B> sum(const Expansion<A>& e, const Expansion<B>& f) {
   Expansion<A + B> result;
@@ -135,14 +147,14 @@ Expansion<16> exact_minor(const Expansion<2>& a, const Expansion<2>& b, const Ex
   return sum(product(a, d), negated(product(b, c)));  // a d - b c
 }
 
-int exact_determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
+Expansion<192> exact_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
   const ExactVector a = exact_difference(q1, p1);
   const ExactVector b = exact_difference(q2, p2);
   const ExactVector c = exact_difference(q3, p3);
   const Expansion<64> x = product(exact_minor(b.y, b.z, c.y, c.z), a.x);
   const Expansion<64> y = product(exact_minor(b.z, b.x, c.z, c.x), a.y);
   const Expansion<64> z = product(exact_minor(b.x, b.y, c.x, c.y), a.z);
-  return sum(sum(x, y), z).sign();
+  return sum(sum(x, y), z);
 }
 
 }  // namespace
@@ -159,7 +171,7 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
   const double bound = kDeterminantBound * permanent;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
-  return exact_determinant_sign(p1, q1, p2, q2, p3, q3);
+  return exact_determinant(p1, q1, p2, q2, p3, q3).sign();
 }
 
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return determinant_sign(a, b, a, c, a, d); }
@@ -178,6 +190,11 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
       .sign();
 }
 
+bool collinear(Vec3 a, Vec3 b, Vec3 c) {
+  return orientation_2d(a, b, c, 0) == 0 && orientation_2d(a, b, c, 1) == 0 &&
+         orientation_2d(a, b, c, 2) == 0;
+}
+
 Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 u = b - a, v = c - a;
   const Vec3 normal = cross(u, v);
@@ -188,6 +205,48 @@ Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c) {
   const ExactVector p = exact_difference(b, a), q = exact_difference(c, a);
   return {exact_minor(p.y, p.z, q.y, q.z).rounded(), exact_minor(p.z, p.x, q.z, q.x).rounded(),
           exact_minor(p.x, p.y, q.x, q.y).rounded()};
+}
+
+double rounded_affine(Vec3 a, Vec3 b, double offset) {
+  // T. Ogita, S. M. Rump, S. Oishi, "Accurate Sum and Dot Product" (2005), Dot2.
+  double total = offset, correction = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Rounded p = two_product(a[axis], b[axis]);
+    const Rounded s = two_sum(total, p.value);
+    total = s.value;
+    correction += s.error + p.error;
+  }
+  return total + correction;
+}
+
+double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
+  if (triangles.empty()) return 0;
+  const Vec3 origin = vertices[triangles[0][0]];
+  double total = 0, correction = 0, permanent = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3 a = vertices[t[0]] - origin, b = vertices[t[1]] - origin, c = vertices[t[2]] - origin;
+    const Rounded s = two_sum(total, dot(a, cross(b, c)));
+    total = s.value;
+    correction += s.error;
+    const Vec3 size_b{std::fabs(b.x), std::fabs(b.y), std::fabs(b.z)};
+    const Vec3 size_c{std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)};
+    permanent += std::fabs(a.x) * (size_b.y * size_c.z + size_b.z * size_c.y) +
+                 std::fabs(a.y) * (size_b.z * size_c.x + size_b.x * size_c.z) +
+                 std::fabs(a.z) * (size_b.x * size_c.y + size_b.y * size_c.x);
+  }
+  const double six_volumes = total + correction;
+  // The determinants' own bound, and as much again for the compensated sum of up to 2^32 terms.
+  if (std::fabs(six_volumes) > 2 * kDeterminantBound * permanent) return six_volumes / 6;
+
+  std::vector<double> exact;  // an expansion of unlimited length
+  for (const Triangle& t : triangles) {
+    const auto term = exact_determinant(origin, vertices[t[0]], origin, vertices[t[1]], origin,
+                                        vertices[t[2]]);
+    for (int i = 0; i < term.size; ++i) grow(exact, term.term[i]);
+  }
+  double rounded = 0;
+  for (const double part : exact) rounded += part;
+  return rounded / 6;
 }
 
 }  // namespace satcheck

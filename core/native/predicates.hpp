@@ -8,6 +8,8 @@
 // for differences between about 1e-97 and 1e+102 in magnitude (or exactly 0).
 #pragma once
 
+#include <vector>
+
 #include "vec.hpp"
 
 namespace satcheck {
@@ -24,8 +26,18 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);
 // triangle projected along the named axis.
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
 
+// Do the three points lie on one line (or coincide)?
+bool collinear(Vec3 a, Vec3 b, Vec3 c);
+
 // (b - a) x (c - a) with a relative error below 1e-14 of its length, however thin the triangle; zero
 // exactly when the points are collinear.
 Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c);
+
+// a.x b.x + a.y b.y + a.z b.z + offset, summed in twice the precision and rounded once.
+double rounded_affine(Vec3 a, Vec3 b, double offset);
+
+// Signed volume enclosed by a closed, consistently wound surface, positive when wound outwards.
+// Rounded, but its sign is exact: 0.0 only when the volume is exactly 0.
+double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
 
 }  // namespace satcheck

@@ -51,8 +51,9 @@ struct Aabb {
   Vec3 max{-INFINITY, -INFINITY, -INFINITY};
 
   void include(Vec3 p) {
-    min = {std::fmin(min.x, p.x), std::fmin(min.y, p.y), std::fmin(min.z, p.z)};
-    max = {std::fmax(max.x, p.x), std::fmax(max.y, p.y), std::fmax(max.z, p.z)};
+    // Plain comparisons: one instruction each, where fmin() is a call.
+    min = {p.x < min.x ? p.x : min.x, p.y < min.y ? p.y : min.y, p.z < min.z ? p.z : min.z};
+    max = {p.x > max.x ? p.x : max.x, p.y > max.y ? p.y : max.y, p.z > max.z ? p.z : max.z};
   }
 };
 

@@ -1,0 +1,58 @@
+// A tree of axis-aligned boxes over the triangles of a mesh.
+#pragma once
+
+#include <vector>
+
+#include "mesh.hpp"
+
+namespace satcheck {
+
+struct BvhNode {
+  Aabb box;
+  std::uint32_t first = 0;  // leaf: place in `order`; inner: the left child, the right one follows
+  std::uint32_t count = 0;  // triangles of a leaf, 0 for an inner node
+
+  bool is_leaf() const { return count != 0; }
+};
+
+struct Bvh {
+  std::vector<BvhNode> nodes;        // nodes[0] is the root; empty for an empty mesh
+  std::vector<std::uint32_t> order;  // triangle numbers, leaves hold ranges of them
+};
+
+Bvh build_bvh(const Mesh& mesh);
+
+inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
+  Aabb box;
+  for (const std::uint32_t v : mesh.triangles[t]) box.include(mesh.vertices[v]);
+  return box;
+}
+
+inline void include(Aabb& box, const Aabb& other) {
+  box.include(other.min);
+  box.include(other.max);
+}
+
+// Calls visit(triangle) -> bool for the triangles of every leaf whose box meets `query`, until one
+// returns false. Returns whether all were visited.
+template <class Visit>
+bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
+  if (bvh.nodes.empty()) return true;
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty()) {
+    const BvhNode& node = bvh.nodes[stack.back()];
+    stack.pop_back();
+    if (!meet(node.box, query)) continue;
+    if (!node.is_leaf()) {
+      stack.push_back(node.first + 1);
+      stack.push_back(node.first);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (!visit(bvh.order[i])) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,138 @@
+// Exact winding numbers of points with respect to closed triangle meshes.
+//
+// Method: signed crossings of a segment from the point to a point outside the mesh. Every crossing
+// is decided by exact orientation signs; a segment that meets an edge or a vertex is dropped and
+// another one of a fixed sequence is tried, so the answer is exact and does not depend on chance.
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "bvh.hpp"
+#include "predicates.hpp"
+
+namespace satcheck {
+
+inline int orientation_2d_at(Vec3 a, Vec3 b, Vec3 p, int drop_axis) {
+  return orientation_2d(a, b, p, drop_axis);
+}
+inline Aabb point_box(Vec3 p) { return {p, p}; }
+inline Vec3 rounded_point(Vec3 p) { return p; }
+
+// The axis along which a triangle with a normal of rounded components is widest.
+inline int projection_axis(Vec3 normal) {
+  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+// Does a point, known to be in the plane of a triangle that is not collinear, lie in the closed
+// triangle?
+template <class Point>
+bool plane_point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
+  const int axis = projection_axis(rounded_normal(a, b, c));
+  const int ab = orientation_2d_at(a, b, p, axis);
+  const int bc = orientation_2d_at(b, c, p, axis);
+  const int ca = orientation_2d_at(c, a, p, axis);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+// Is p in the closed triangle? Collinear triangles have no inside and contain nothing here: in a
+// closed mesh their edges belong to other triangles too.
+template <class Point>
+bool point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
+  return orientation(a, b, c, p) == 0 && !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c);
+}
+
+// The far end of the attempt-th segment: outside `box`, in a direction of a fixed sequence.
+Vec3 outside_point(const Aabb& box, Vec3 from, int attempt);
+
+// A fixed sequence that would be exhausted only by a mesh with triangles in hundreds of directions
+// through one point; then there is no answer.
+inline constexpr int kMaxSegments = 512;
+
+// +1 or -1 for a segment p -> far that leaves through the front or enters through the front of the
+// triangle, 0 when it misses, nothing when it meets an edge or a corner or runs in the plane.
+// p must not lie in the triangle, and `far` outside the mesh's box.
+template <class Point>
+std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Vec3 c) {
+  const int from = orientation(a, b, c, p);
+  const int to = orientation(a, b, c, far);
+  if (from == 0 && to == 0) {
+    if (collinear(a, b, c)) return 0;
+    return std::nullopt;
+  }
+  if (from == to || from == 0 || to == 0) return 0;
+  // orientation(p, far, u, v) == -orientation(far, u, v, p): an odd permutation.
+  const int ab = orientation(far, a, b, p);
+  const int bc = orientation(far, b, c, p);
+  if (ab * bc < 0) return 0;
+  const int ca = orientation(far, c, a, p);
+  if (ab * ca < 0 || bc * ca < 0) return 0;
+  if (ab == 0 || bc == 0 || ca == 0) return std::nullopt;
+  return to;
+}
+
+// Winding number of p with respect to the triangles that `counts(t)` accepts; nothing when p lies on
+// one of them.
+template <class Point, class Counts>
+std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p, Counts counts) {
+  if (bvh.nodes.empty()) return 0;
+  const Aabb& bounds = bvh.nodes[0].box;
+  const Aabb p_box = point_box(p);
+  if (!meet(p_box, bounds)) return 0;
+  const auto corner = [&](std::uint32_t t, int i) { return mesh.vertices[mesh.triangles[t][i]]; };
+  const bool off_surface = visit_box(bvh, p_box, [&](std::uint32_t t) {
+    return !counts(t) || !point_in_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2));
+  });
+  if (!off_surface) return std::nullopt;
+  for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
+    const Vec3 far = outside_point(bounds, rounded_point(p), attempt);
+    Aabb path = p_box;
+    path.include(far);
+    int winding = 0;
+    const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
+      if (!counts(t)) return true;
+      const auto crossing = segment_crossing(p, far, corner(t, 0), corner(t, 1), corner(t, 2));
+      winding += crossing.value_or(0);
+      return crossing.has_value();
+    });
+    if (generic) return winding;
+  }
+  return std::nullopt;
+}
+
+template <class Point>
+std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p) {
+  return winding_number(mesh, bvh, p, [](std::uint32_t) { return true; });
+}
+
+// Winding number just beside a point of a surface, on the front (side = 1) or back (-1) of the
+// triangle a, b, c through it: triangles that contain p do not count. Exact when p lies on no
+// triangle of another plane.
+template <class Point>
+std::optional<int> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
+                                  Vec3 c, int side) {
+  if (bvh.nodes.empty()) return 0;
+  const Aabb& bounds = bvh.nodes[0].box;
+  const Aabb p_box = point_box(p);
+  if (!meet(p_box, bounds)) return 0;
+  const auto corner = [&](std::uint32_t t, int i) { return mesh.vertices[mesh.triangles[t][i]]; };
+  for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
+    const Vec3 far = outside_point(bounds, rounded_point(p), attempt);
+    if (orientation(a, b, c, far) != side) continue;
+    Aabb path = p_box;
+    path.include(far);
+    int winding = 0;
+    const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
+      const Vec3 u = corner(t, 0), v = corner(t, 1), w = corner(t, 2);
+      if (point_in_triangle(p, u, v, w)) return orientation(u, v, w, far) != 0;
+      const auto crossing = segment_crossing(p, far, u, v, w);
+      winding += crossing.value_or(0);
+      return crossing.has_value();
+    });
+    if (generic) return winding;
+  }
+  return std::nullopt;
+}
+
+}  // namespace satcheck
