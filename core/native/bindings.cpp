@@ -1,2 +1,7 @@
 #include <nanobind/nanobind.h>
-NB_MODULE(_native, m) { (void)m; }
+
+namespace satcheck {
+void bind_mesh(nanobind::module_& m);
+}
+
+NB_MODULE(_native, m) { satcheck::bind_mesh(m); }

@@ -1,0 +1,201 @@
+// The Python face of the mesh tier. Nothing but conversions.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstring>
+#include <string>
+#include <stdexcept>
+#include <utility>
+
+#include "mesh_checks.hpp"
+#include "polytope.hpp"
+#include "surface.hpp"
+#include "topology.hpp"
+#include "winding.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace satcheck {
+namespace {
+
+using Tuple3 = std::tuple<double, double, double>;
+using VertexArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+template <class Index>
+using IndexArray = nb::ndarray<const Index, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+
+Tuple3 to_tuple(Vec3 v) { return {v.x, v.y, v.z}; }
+Vec3 to_vec3(const Tuple3& t) { return {std::get<0>(t), std::get<1>(t), std::get<2>(t)}; }
+
+Vec3 finite_point(const Tuple3& t) {
+  const Vec3 p = to_vec3(t);
+  if (!is_finite(p)) throw std::invalid_argument("the point is not finite");
+  return p;
+}
+
+std::vector<Vec3> copy_vertices(const double* data, std::size_t count) {
+  std::vector<Vec3> vertices(count);
+  if (count != 0) std::memcpy(vertices.data(), data, count * sizeof(Vec3));
+  return vertices;
+}
+
+template <class Index>
+void construct_mesh(Mesh* self, VertexArray vertices, IndexArray<Index> triangles) {
+  Mesh mesh;
+  mesh.vertices = copy_vertices(vertices.data(), vertices.shape(0));
+  mesh.triangles.resize(triangles.shape(0));
+  const Index* index = triangles.data();
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) {
+      const Index i = *index++;
+      if (std::cmp_less(i, 0) || std::cmp_greater_equal(i, mesh.vertices.size())) {
+        throw std::invalid_argument("vertex index " + std::to_string(i) + " is out of range");
+      }
+      v = static_cast<std::uint32_t>(i);
+    }
+  }
+  require_valid(mesh);
+  new (self) Mesh(std::move(mesh));
+}
+
+Mesh mesh_from_bytes(nb::bytes vertices, nb::bytes triangles) {
+  if (vertices.size() % sizeof(Vec3) != 0 || triangles.size() % sizeof(Triangle) != 0) {
+    throw std::invalid_argument("the byte counts are not multiples of 24 and 12");
+  }
+  Mesh mesh;
+  mesh.vertices.resize(vertices.size() / sizeof(Vec3));
+  mesh.triangles.resize(triangles.size() / sizeof(Triangle));
+  if (vertices.size() != 0) std::memcpy(mesh.vertices.data(), vertices.data(), vertices.size());
+  if (triangles.size() != 0) std::memcpy(mesh.triangles.data(), triangles.data(), triangles.size());
+  require_valid(mesh);
+  return mesh;
+}
+
+nb::tuple mesh_to_bytes(const Mesh& mesh) {
+  return nb::make_tuple(nb::bytes(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vec3)),
+                        nb::bytes(mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle)));
+}
+
+// Read-only views that keep `owner` alive.
+template <class Scalar, class Row>
+auto rows_view(const std::vector<Row>& rows, nb::handle owner) {
+  return nb::ndarray<nb::numpy, const Scalar, nb::shape<-1, 3>>(
+      reinterpret_cast<const Scalar*>(rows.data()), {rows.size(), 3}, owner);
+}
+
+void bind_mesh_class(nb::module_& m) {
+  nb::class_<Mesh>(m, "Mesh", "Immutable triangle mesh, float64 vertices, counter-clockwise outside.")
+      .def("__init__", &construct_mesh<std::uint32_t>, "vertices"_a.noconvert(),
+           "triangles"_a.noconvert())
+      .def("__init__", &construct_mesh<std::int32_t>, "vertices"_a.noconvert(),
+           "triangles"_a.noconvert())
+      .def("__init__", &construct_mesh<std::int64_t>, "vertices"_a.noconvert(),
+           "triangles"_a.noconvert())
+      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a)
+      .def("to_bytes", &mesh_to_bytes)
+      .def_prop_ro("vertex_count", [](const Mesh& mesh) { return mesh.vertices.size(); })
+      .def_prop_ro("triangle_count", [](const Mesh& mesh) { return mesh.triangles.size(); })
+      .def_prop_ro("bounds",
+                   [](const Mesh& mesh) {
+                     if (mesh.vertices.empty()) throw std::invalid_argument("an empty mesh has no bounds");
+                     Aabb box;
+                     for (const Vec3& p : mesh.vertices) box.include(p);
+                     return std::make_tuple(to_tuple(box.min), to_tuple(box.max));
+                   })
+      .def_prop_ro("vertices",
+                   [](nb::handle self) {
+                     return rows_view<double>(nb::cast<const Mesh&>(self).vertices, self);
+                   })
+      .def_prop_ro("triangles",
+                   [](nb::handle self) {
+                     return rows_view<std::uint32_t>(nb::cast<const Mesh&>(self).triangles, self);
+                   })
+      .def("welded", &weld, ReleaseGil())
+      .def("transformed", &transform, "matrix"_a, ReleaseGil())
+      .def("translated",
+           [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
+           "offset"_a, ReleaseGil())
+      .def("topology", &measure_topology, ReleaseGil())
+      .def("oriented", &orient, ReleaseGil())
+      .def("components", &split_components, ReleaseGil())
+      .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil());
+}
+
+void bind_topology(nb::module_& m) {
+  nb::class_<Topology>(m, "Topology")
+      .def_ro("vertices", &Topology::vertices)
+      .def_ro("triangles", &Topology::triangles)
+      .def_ro("components", &Topology::components)
+      .def_ro("boundary_edges", &Topology::boundary_edges)
+      .def_ro("nonmanifold_edges", &Topology::nonmanifold_edges)
+      .def_ro("misoriented_edges", &Topology::misoriented_edges)
+      .def_ro("degenerate_triangles", &Topology::degenerate_triangles)
+      .def_ro("duplicate_triangles", &Topology::duplicate_triangles)
+      .def_ro("duplicate_vertices", &Topology::duplicate_vertices)
+      .def_ro("unreferenced_vertices", &Topology::unreferenced_vertices)
+      .def_ro("closed", &Topology::closed)
+      .def_ro("manifold", &Topology::manifold)
+      .def_ro("oriented", &Topology::oriented)
+      .def_ro("volume", &Topology::volume)
+      .def_ro("solid", &Topology::solid);
+}
+
+void bind_polytope(nb::module_& m) {
+  nb::class_<Polytope>(m, "Polytope", "Convex hull with its features; vertices are extreme points.")
+      .def_ro("dimension", &Polytope::dimension)
+      .def_prop_ro("vertices",
+                   [](nb::handle self) {
+                     return rows_view<double>(nb::cast<const Polytope&>(self).vertices, self);
+                   })
+      .def_prop_ro("triangles",
+                   [](nb::handle self) {
+                     return rows_view<std::uint32_t>(nb::cast<const Polytope&>(self).triangles, self);
+                   })
+      .def_prop_ro("source",
+                   [](nb::handle self) {
+                     const auto& source = nb::cast<const Polytope&>(self).source;
+                     return nb::ndarray<nb::numpy, const std::uint32_t, nb::shape<-1>>(
+                         source.data(), {source.size()}, self);
+                   })
+      .def_prop_ro("vertex_count", [](const Polytope& p) { return p.vertices.size(); })
+      .def_prop_ro("face_count", &Polytope::face_count)
+      .def_prop_ro("edge_count", [](const Polytope& p) { return p.edges.size(); })
+      .def("to_mesh", [](const Polytope& p) { return Mesh{p.vertices, p.triangles}; });
+}
+
+void bind_surface(nb::module_& m) {
+  nb::class_<Surface>(m, "Surface", "A mesh with its tree: built once, immutable, shared by threads.")
+      .def("__init__",
+           [](Surface* self, const Mesh& mesh, bool solid) {
+             new (self) Surface(make_surface(mesh, solid));
+           },
+           "mesh"_a, "solid"_a, ReleaseGil())
+      .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
+                   nb::rv_policy::reference_internal)
+      .def_ro("solid", &Surface::solid)
+      .def("winding_number",
+           [](const Surface& s, const Tuple3& point) {
+             if (!s.solid) throw std::invalid_argument("the surface is not a solid");
+             return winding_number(s.mesh, s.bvh, finite_point(point));
+           },
+           "point"_a, ReleaseGil());
+}
+
+}  // namespace
+
+void bind_mesh(nb::module_& m) {
+  bind_topology(m);
+  bind_polytope(m);
+  bind_mesh_class(m);
+  bind_surface(m);
+}
+
+}  // namespace satcheck
