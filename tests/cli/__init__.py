@@ -1,0 +1,1 @@
+"""The command: its units, and the whole process."""

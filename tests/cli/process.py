@@ -1,0 +1,51 @@
+"""Run the command as a whole process, as a user or a script would."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, NamedTuple
+
+SAMPLES = Path(__file__).resolve().parent.parent.parent / "sample_meshes"
+SECONDS = 120
+# What could change the answer of a test from outside.
+_NEUTRAL = ("NO_COLOR", "FORCE_COLOR", "COLUMNS", "PYTHONIOENCODING", "PYTHONUTF8", "TERM")
+
+
+class Ran(NamedTuple):
+    code: int
+    out: str
+    err: str
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """Standard output as exactly one JSON document."""
+        value = json.loads(self.out)
+        assert isinstance(value, dict)
+        return value
+
+
+def command(*arguments: str, python: tuple[str, ...] = ()) -> list[str]:
+    return [sys.executable, *python, "-m", "satcheck.cli", *arguments]
+
+
+def environment(**variables: str) -> dict[str, str]:
+    kept = {name: value for name, value in os.environ.items() if name not in _NEUTRAL}
+    return {**kept, "PYTHONUTF8": "1", **variables}
+
+
+def satcheck(
+    *arguments: str, cwd: Path = SAMPLES, python: tuple[str, ...] = (), **variables: str
+) -> Ran:
+    done = subprocess.run(
+        command(*arguments, python=python),
+        cwd=cwd,
+        env=environment(**variables),
+        capture_output=True,
+        timeout=SECONDS,
+        check=False,
+    )
+    return Ran(done.returncode, done.stdout.decode("utf-8"), done.stderr.decode("utf-8", "replace"))

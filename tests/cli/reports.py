@@ -1,0 +1,151 @@
+"""Reports made by hand, for the renderers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from satcheck.audit.report import (
+    BodyReport,
+    Finding,
+    Issue,
+    PairCounts,
+    PartError,
+    Report,
+    Stage,
+    Summary,
+    Tool,
+    Witness,
+)
+
+PENETRATING = Finding(
+    id="block|block_pushed",
+    a="block",
+    b="block_pushed",
+    rule=None,
+    severity="error",
+    relation="penetrating",
+    exact_relation="penetrating",
+    tolerance=2.5e-7,
+    distance=-1.0,
+    depth=1.0,
+    depth_bounds=(1.0, 1.0),
+    quality="exact",
+    normal=(1.0, 0.0, 0.0),
+    mtv=(-1.0, 0.0, 3e-17),
+    mtv_moves="a",
+    mtv_verified=True,
+    witness=Witness((2.0, 1.0, 1.0), (1.0, 1.0, 1.0)),
+    volume=None,
+    contacts=None,
+    certificate=None,
+    reason=None,
+    plan=(
+        Stage("aabb", "overlap", 0.25, "the boxes overlap"),
+        Stage("hull", "penetrating", 11.5, "both are convex: nothing finer is needed"),
+    ),
+    baseline_state=None,
+)
+SEPARATED = replace(
+    PENETRATING,
+    id="block|far",
+    b="far",
+    severity="none",
+    relation="separated",
+    exact_relation="separated",
+    distance=None,
+    depth=None,
+    depth_bounds=None,
+    normal=None,
+    mtv=None,
+    mtv_moves=None,
+    mtv_verified=None,
+    witness=None,
+)
+BOUNDED = replace(
+    PENETRATING,
+    id="a_rather_long_name|another_rather_long_name",
+    a="a_rather_long_name",
+    b="another_rather_long_name",
+    relation="contains",
+    exact_relation="contains",
+    depth=1.2500004,
+    depth_bounds=(1.2412345678, 1.2500004),
+    quality="bounded",
+    mtv=(0.123456789, -1.23456789, 0.456789123),
+)
+TOUCHING = replace(
+    SEPARATED,
+    id="block|flush",
+    b="flush",
+    relation="touching",
+    exact_relation="penetrating",
+    distance=0.0,
+)
+UNDECIDED = replace(
+    SEPARATED,
+    id="block|soup",
+    b="soup",
+    severity="warning",
+    relation="indeterminate",
+    exact_relation=None,
+    quality=None,
+    reason="the time limit was reached",
+)
+BLOCK = BodyReport(
+    id="block",
+    name="block",
+    file="block.obj",
+    sha256="0" * 64,
+    path=None,
+    triangles=12,
+    health={"closed": True},
+    resolution=2.5e-7,
+    convex=True,
+    parts=None,
+    part_error=None,
+)
+SOUP = replace(
+    BLOCK,
+    id="soup",
+    name="soup",
+    file="soup.stl",
+    triangles=1234,
+    health={"closed": False},
+    convex=False,
+    parts=3,
+    part_error=PartError(0.25, 0.0),
+)
+OPEN = Issue("open-mesh", "warning", "soup", "soup.stl", "2 open edges: nothing can be inside it")
+MISSING = Issue("unreadable", "error", None, "gone.obj", "there is no such file")
+
+
+def report(
+    *findings: Finding,
+    bodies: tuple[BodyReport, ...] = (BLOCK, SOUP),
+    issues: tuple[Issue, ...] = (),
+    units: str | None = None,
+) -> Report:
+    """A consistent report over these findings."""
+    undecided = sum(finding.relation == "indeterminate" for finding in findings)
+    found = any(finding.severity == "error" for finding in findings)
+    return Report(
+        tool=Tool("satcheck", "0.1.0"),
+        units=units,
+        settings={
+            "depth": True,
+            "clearance": None,
+            "tolerance": "input-precision",
+            "accuracy": "exact",
+        },
+        summary=Summary(
+            verdict="fail" if found else "incomplete" if undecided else "pass",
+            pairs=PairCounts(len(findings), 0, len(findings) - undecided, 0, undecided),
+            by_relation={
+                relation: sum(finding.relation == relation for finding in findings)
+                for relation in {finding.relation for finding in findings}
+            },
+        ),
+        bodies=bodies,
+        findings=findings,
+        issues=issues,
+    )

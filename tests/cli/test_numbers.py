@@ -1,0 +1,52 @@
+"""Numbers for people."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from satcheck.cli.report.numbers import bounds, duration, number, vector
+
+LENGTHS = st.floats(min_value=1e-30, max_value=1e30)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1.0, "1"), (0.1 + 0.2, "0.3"), (9.3e-9, "9.3e-09"), (-0.0, "0"), (1234567.0, "1.23457e+06")],
+)
+def test_six_digits(value: float, text: str) -> None:
+    assert number(value) == text
+
+
+def test_bounds_that_meet_are_one_number() -> None:
+    assert bounds(0.25, 0.25) == "0.25"
+
+
+@given(LENGTHS, LENGTHS)
+def test_shown_bounds_are_still_bounds(first: float, second: float) -> None:
+    low, high = sorted((first, second))
+    shown = bounds(low, high).split(" .. ")
+    if low != high:
+        assert float(shown[0]) <= low
+        assert high <= float(shown[1])
+
+
+@pytest.mark.parametrize(
+    ("values", "text"),
+    [
+        ((-1.0, 3e-17, 0.0), "(-1, 0, 0)"),
+        ((0.0, 0.0, 0.0), "(0, 0, 0)"),
+        ((1e-9, -2e-9, 0.0), "(1e-09, -2e-09, 0)"),
+        ((123456789.0, 1.0, -1.0), "(1.23457e+08, 0, 0)"),
+    ],
+)
+def test_vectors_are_rounded_as_a_whole(values: tuple[float, float, float], text: str) -> None:
+    assert vector(values) == text
+
+
+@pytest.mark.parametrize(
+    ("microseconds", "text"), [(0.25, "0.25 us"), (1234.5, "1.23 ms"), (2.5e6, "2.5 s")]
+)
+def test_durations(microseconds: float, text: str) -> None:
+    assert duration(microseconds) == text
