@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -32,18 +33,30 @@ def command(*arguments: str, python: tuple[str, ...] = ()) -> list[str]:
     return [sys.executable, *python, "-m", "satcheck.cli", *arguments]
 
 
-def environment(**variables: str) -> dict[str, str]:
-    kept = {name: value for name, value in os.environ.items() if name not in _NEUTRAL}
-    return {**kept, "PYTHONUTF8": "1", **variables}
+def environment(variables: Mapping[str, str] | None = None) -> dict[str, str]:
+    """Ours without what could change an answer, with `variables`; PYTHONPATH is put in front."""
+    made = {name: value for name, value in os.environ.items() if name not in _NEUTRAL}
+    made |= {"PYTHONUTF8": "1", **(variables or {})}
+    if variables and "PYTHONPATH" in variables and "PYTHONPATH" in os.environ:
+        made["PYTHONPATH"] += os.pathsep + os.environ["PYTHONPATH"]
+    return made
+
+
+def private_cache(folder: Path) -> dict[str, str]:
+    """Variables that move the user's cache folder on any system."""
+    return dict.fromkeys(("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME"), str(folder))
 
 
 def satcheck(
-    *arguments: str, cwd: Path = SAMPLES, python: tuple[str, ...] = (), **variables: str
+    *arguments: str,
+    env: Mapping[str, str] | None = None,
+    cwd: Path = SAMPLES,
+    python: tuple[str, ...] = (),
 ) -> Ran:
     done = subprocess.run(
         command(*arguments, python=python),
         cwd=cwd,
-        env=environment(**variables),
+        env=environment(env),
         capture_output=True,
         timeout=SECONDS,
         check=False,
