@@ -1,0 +1,299 @@
+// Expanding Polytope Algorithm: G. van den Bergen, "Proximity Queries and Penetration Depth
+// Computation on 3D Game Objects" (2001). Deviations:
+//
+// - Faces are ordered by the *signed* distance of their plane from the origin, so the origin may lie
+//   outside, on or inside the first tetrahedron: aligned and concentric shapes need no special case.
+// - min over faces <= signed penetration <= support value along any axis. The loop ends when the two
+//   meet, or on a negative support value, which is a separating axis.
+// - A face is left for the horizon only by more than rounding noise; a new face whose normal would
+//   be noise takes its hidden neighbour with it.
+
+#include "epa.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "tolerances.hpp"
+
+namespace satcheck {
+
+namespace {
+
+struct Face {
+  std::uint32_t vertex[3];
+  std::uint32_t neighbour[3];  // across the edge vertex[i], vertex[i + 1]
+  Vec3 normal;                 // unit, outward
+  double distance;             // signed plane distance from the origin, positive when it is inside
+  bool alive;
+};
+
+struct HorizonEdge {
+  std::uint32_t face;  // the hidden face
+  int edge;            // its edge on the horizon
+};
+
+// Unit normal of a triangle and its plane distance. False when the triangle is thinner than noise.
+bool plane_of(Vec3 a, Vec3 b, Vec3 c, double scale, Vec3& normal, double& distance) {
+  // The cross product of the two shortest edges carries the least rounding error.
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double lab = norm_squared(ab), lbc = norm_squared(bc), lca = norm_squared(ca);
+  const Vec3 n = lab >= lbc && lab >= lca ? cross(bc, ca) : lbc >= lca ? cross(ca, ab) : cross(ab, bc);
+  const double area = norm(n), longest = std::sqrt(std::max({lab, lbc, lca}));
+  if (!(area > kFlat * scale * longest)) return false;
+  normal = n * (1 / area);
+  // The mean of the three is closer to the true plane than any one of them.
+  distance = (dot(normal, a) + dot(normal, b) + dot(normal, c)) * (1.0 / 3.0);
+  return true;
+}
+
+class ExpandingPolytope {
+ public:
+  explicit ExpandingPolytope(const MinkowskiDifference& difference) : m_(difference) {}
+
+  // False when A - B is flat; `flat_normal` is set then.
+  bool start(const Simplex& seed, Vec3& flat_normal);
+
+  std::uint32_t closest_face() const {
+    std::uint32_t best = 0;
+    double distance = INFINITY;
+    for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+      if (faces_[f].alive && faces_[f].distance < distance) {
+        distance = faces_[f].distance;
+        best = f;
+      }
+    }
+    return best;
+  }
+
+  // Adds a point that sees `seed_face`. False when the polytope cannot take it.
+  bool expand(const SupportPoint& point, std::uint32_t seed_face);
+
+  const Face& face(std::uint32_t index) const { return faces_[index]; }
+  const SupportPoint& vertex(std::uint32_t index) const { return vertices_[index]; }
+  bool has_vertex(std::uint32_t f, const SupportPoint& point) const {
+    for (std::uint32_t v : faces_[f].vertex) {
+      if (vertices_[v].same_as(point)) return true;
+    }
+    return false;
+  }
+
+ private:
+  bool complete_tetrahedron(Vec3& flat_normal);
+  bool sees(const Face& face, Vec3 point) const { return dot(face.normal, point) - face.distance > kVisible * m_.scale; }
+  void collect_horizon(std::uint32_t f, Vec3 point);
+  bool add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
+  const MinkowskiDifference& m_;
+  std::vector<SupportPoint> vertices_;
+  std::vector<Face> faces_;
+  std::vector<HorizonEdge> horizon_;
+  std::vector<std::uint32_t> stack_;
+};
+
+// Unit vector across `along`, by the coordinate axis least aligned with it.
+Vec3 any_perpendicular(Vec3 along) {
+  const double x = std::fabs(along.x), y = std::fabs(along.y), z = std::fabs(along.z);
+  const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 p = cross(along, other);
+  return p * (1 / norm(p));
+}
+
+bool ExpandingPolytope::complete_tetrahedron(Vec3& flat_normal) {
+  const double thin = kFlat * m_.scale;
+  const auto offer_farthest = [&](auto&& height, std::initializer_list<Vec3> directions) {
+    SupportPoint best{};
+    double best_height = -1;
+    for (Vec3 direction : directions) {
+      const SupportPoint p = m_.support(direction);
+      const double h = height(p.w);
+      if (h > best_height) {
+        best = p;
+        best_height = h;
+      }
+    }
+    if (best_height > thin) vertices_.push_back(best);
+    return best_height > thin;
+  };
+  if (vertices_.size() == 1) {
+    const Vec3 p = vertices_[0].w;
+    if (!offer_farthest([&](Vec3 w) { return norm(w - p); },
+                        {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})) {
+      flat_normal = norm(p) > 0 ? p * (1 / norm(p)) : Vec3{0, 0, 1};  // a point
+      return false;
+    }
+  }
+  if (vertices_.size() == 2) {
+    const Vec3 p = vertices_[0].w, e = vertices_[1].w - p, unit = e * (1 / norm(e));
+    const Vec3 across = any_perpendicular(unit), third = cross(unit, across);
+    if (!offer_farthest([&](Vec3 w) { return norm(cross(unit, w - p)); }, {across, -across, third, -third})) {
+      const Vec3 off = p - unit * dot(unit, p);  // a segment: away from the origin, or any way across
+      flat_normal = norm(off) > thin ? off * (1 / norm(off)) : across;
+      return false;
+    }
+  }
+  const Vec3 p = vertices_[0].w;
+  const Vec3 n = cross(vertices_[1].w - p, vertices_[2].w - p);
+  const Vec3 unit = n * (1 / norm(n));
+  flat_normal = unit;
+  return offer_farthest([&](Vec3 w) { return std::fabs(dot(unit, w - p)); }, {unit, -unit});
+}
+
+bool ExpandingPolytope::start(const Simplex& seed, Vec3& flat_normal) {
+  // Keep the seed's vertices as long as each adds a dimension beyond noise.
+  const double thin = kFlat * m_.scale;
+  for (int i = 0; i < seed.count; ++i) {
+    const Vec3 w = seed.vertex[i].w;
+    bool spans = true;
+    if (vertices_.size() == 1) spans = norm(w - vertices_[0].w) > thin;
+    if (vertices_.size() == 2) {
+      const Vec3 e = vertices_[1].w - vertices_[0].w;
+      spans = norm(cross(e, w - vertices_[0].w)) > thin * norm(e);
+    }
+    if (vertices_.size() == 3) {
+      const Vec3 n = cross(vertices_[1].w - vertices_[0].w, vertices_[2].w - vertices_[0].w);
+      spans = std::fabs(dot(n, w - vertices_[0].w)) > thin * norm(n);
+    }
+    if (spans) vertices_.push_back(seed.vertex[i]);
+  }
+  if (vertices_.empty()) vertices_.push_back(m_.support({1, 0, 0}));
+  if (vertices_.size() < 4 && !complete_tetrahedron(flat_normal)) return false;
+  const Vec3 a = vertices_[0].w;
+  if (dot(cross(vertices_[1].w - a, vertices_[2].w - a), vertices_[3].w - a) > 0) std::swap(vertices_[1], vertices_[2]);
+  constexpr std::uint32_t corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  constexpr std::uint32_t across[4][3] = {{1, 2, 3}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}};
+  for (int f = 0; f < 4; ++f) {
+    if (!add_face(corners[f][0], corners[f][1], corners[f][2])) return false;
+    for (int e = 0; e < 3; ++e) faces_[f].neighbour[e] = across[f][e];
+  }
+  return true;
+}
+
+bool ExpandingPolytope::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  Face face{{a, b, c}, {0, 0, 0}, {}, 0, true};
+  if (!plane_of(vertices_[a].w, vertices_[b].w, vertices_[c].w, m_.scale, face.normal, face.distance)) return false;
+  faces_.push_back(face);
+  return true;
+}
+
+void ExpandingPolytope::collect_horizon(std::uint32_t seed_face, Vec3 point) {
+  horizon_.clear();
+  stack_.assign(1, seed_face);
+  faces_[seed_face].alive = false;
+  std::vector<std::uint32_t>& visible = stack_;
+  for (std::size_t next = 0; next < visible.size(); ++next) {
+    const Face face = faces_[visible[next]];
+    for (int e = 0; e < 3; ++e) {
+      const std::uint32_t g = face.neighbour[e];
+      if (!faces_[g].alive) continue;
+      if (sees(faces_[g], point)) {
+        faces_[g].alive = false;
+        visible.push_back(g);
+      }
+    }
+  }
+  for (std::uint32_t f : visible) {
+    for (int e = 0; e < 3; ++e) {
+      const std::uint32_t g = faces_[f].neighbour[e];
+      if (!faces_[g].alive) continue;
+      for (int k = 0; k < 3; ++k) {
+        if (faces_[g].vertex[k] == faces_[f].vertex[(e + 1) % 3] &&
+            faces_[g].vertex[(k + 1) % 3] == faces_[f].vertex[e]) {
+          horizon_.push_back({g, k});
+        }
+      }
+    }
+  }
+}
+
+bool ExpandingPolytope::expand(const SupportPoint& point, std::uint32_t seed_face) {
+  collect_horizon(seed_face, point.w);
+  if (horizon_.size() < 3) return false;
+  const std::uint32_t apex = static_cast<std::uint32_t>(vertices_.size());
+  vertices_.push_back(point);
+  const std::uint32_t first = static_cast<std::uint32_t>(faces_.size());
+  for (const HorizonEdge& edge : horizon_) {
+    const Face& hidden = faces_[edge.face];
+    const std::uint32_t tail = hidden.vertex[(edge.edge + 1) % 3], head = hidden.vertex[edge.edge];
+    if (!add_face(tail, head, apex)) return false;
+    faces_.back().neighbour[0] = edge.face;
+  }
+  const std::uint32_t count = static_cast<std::uint32_t>(horizon_.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    Face& face = faces_[first + i];
+    faces_[horizon_[i].face].neighbour[horizon_[i].edge] = first + i;
+    bool next_found = false;
+    for (std::uint32_t j = 0; j < count; ++j) {
+      if (faces_[first + j].vertex[0] == face.vertex[1]) {
+        if (next_found) return false;  // the horizon is not one loop
+        face.neighbour[1] = first + j;
+        faces_[first + j].neighbour[2] = first + i;
+        next_found = true;
+      }
+    }
+    if (!next_found) return false;
+  }
+  return true;
+}
+
+Simplex weighted_facet(const ExpandingPolytope& polytope, const Face& face) {
+  Simplex facet;
+  for (std::uint32_t v : face.vertex) facet.add(polytope.vertex(v));
+  // Weights of the origin's projection onto the plane of the facet, clamped to the facet.
+  const Vec3 foot = face.normal * face.distance;
+  Simplex shifted = facet;
+  for (int i = 0; i < 3; ++i) shifted.vertex[i].w = facet.vertex[i].w - foot;
+  reduce(shifted);
+  return shifted;
+}
+
+}  // namespace
+
+EpaResult epa(const MinkowskiDifference& m, const Simplex& seed) {
+  EpaResult result;
+  result.upper = INFINITY;
+  ExpandingPolytope polytope(m);
+  Vec3 flat_normal;
+  if (!polytope.start(seed, flat_normal)) {
+    // A support value along the normal of a flat set is its plane's distance from the origin.
+    const double towards = dot(flat_normal, m.support(flat_normal).w);
+    const double against = dot(-flat_normal, m.support(-flat_normal).w);
+    result.status = EpaResult::Status::flat;
+    result.axis = towards <= against ? flat_normal : -flat_normal;
+    result.upper = std::min(towards, against);
+    result.lower = -INFINITY;
+    return result;
+  }
+  const double noise = m.support_error();
+  const double closed = (m.curved ? kCurvedGap : kVisible) * m.scale;
+  for (;;) {
+    const std::uint32_t f = polytope.closest_face();
+    const Face face = polytope.face(f);
+    const SupportPoint w = m.support(face.normal);
+    const double support = dot(face.normal, w.w);
+    ++result.iterations;
+    if (support < result.upper) {
+      result.upper = support;
+      result.axis = face.normal;
+      result.facet = weighted_facet(polytope, face);
+    }
+    result.lower = face.distance;
+    if (result.upper < -noise) {
+      result.status = EpaResult::Status::separated;
+      return result;
+    }
+    if (support - face.distance <= closed || polytope.has_vertex(f, w)) {
+      result.axis = face.normal;
+      result.upper = support;
+      result.facet = weighted_facet(polytope, face);
+      result.status = EpaResult::Status::depth;
+      return result;
+    }
+    if (result.upper - result.lower <= closed) {
+      result.status = EpaResult::Status::depth;
+      return result;
+    }
+    if (!polytope.expand(w, f)) return result;  // stalled
+  }
+}
+
+}  // namespace satcheck

@@ -1,0 +1,183 @@
+#include "narrow_phase.hpp"
+
+#include <algorithm>
+
+#include "contact_region.hpp"
+#include "epa.hpp"
+#include "exact_pair.hpp"
+#include "tolerances.hpp"
+
+namespace satcheck {
+
+namespace {
+
+// Signed penetration of the cores of A and B, before margins: > 0 overlap, < 0 gap.
+struct CoreAnswer {
+  double lower = -INFINITY, upper = INFINITY;
+  Vec3 axis;      // unit, A to B, frame of A
+  Witnesses witness;
+  bool has_axis = false;  // axis and witness are set
+  Method method = Method::none;
+  Feature feature = Feature::none;
+  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+};
+
+bool solid_polytopes(const MinkowskiDifference& m) {
+  return m.a.is_polytope() && m.b.is_polytope() && m.a.polytope.dimension == 3 && m.b.polytope.dimension == 3;
+}
+
+bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
+  if (method == MethodChoice::gjk || !solid_polytopes(m)) return false;
+  if (method == MethodChoice::sat) return true;
+  if (m.a.kind == ShapeKind::box && m.b.kind == ShapeKind::box) return true;
+  return std::max(m.a.polytope.vertices.size(), m.b.polytope.vertices.size()) <= kSatVertexLimit;
+}
+
+CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
+  const bool boxes = m.a.kind == ShapeKind::box && m.b.kind == ShapeKind::box;
+  const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
+  const SatResult sat = boxes ? sat_boxes(m, goal) : sat_polytopes(m, goal);
+  result.axes_tested += sat.axes_tested;
+  CoreAnswer answer;
+  answer.lower = answer.upper = sat.penetration;
+  answer.axis = sat.axis;
+  answer.has_axis = true;
+  answer.method = Method::sat;
+  answer.feature = sat.feature;
+  answer.index_a = sat.index_a;
+  answer.index_b = sat.index_b;
+  if (query != Query::overlap && sat.penetration >= -m.support_error()) {
+    answer.witness = contact_region_centre(m, sat.axis, sat.penetration);
+  }
+  return answer;
+}
+
+CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g) {
+  CoreAnswer answer;
+  answer.lower = -g.upper;
+  answer.upper = -g.lower;
+  answer.axis = g.upper > 0 ? g.v * (-1 / g.upper) : -g.axis;
+  answer.has_axis = true;
+  answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
+  answer.method = Method::gjk;
+  answer.feature = m.curved ? Feature::curved : Feature::vertices;
+  return answer;
+}
+
+CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, PairResult& result) {
+  const EpaResult e = epa(m, g.simplex);
+  result.epa_iterations += e.iterations;
+  CoreAnswer answer;
+  answer.method = Method::epa;
+  answer.feature = m.curved ? Feature::curved : Feature::vertices;
+  answer.axis = e.axis;
+  answer.upper = e.upper;
+  switch (e.status) {
+    case EpaResult::Status::depth:
+      answer.lower = e.lower;
+      answer.has_axis = true;
+      answer.witness = {e.facet.witness_a(), e.facet.witness_b()};
+      return answer;
+    case EpaResult::Status::separated: {
+      // Too close for GJK to prove; its closest points still bound the gap from above.
+      answer.lower = -std::fmax(g.upper, -e.upper);
+      answer.has_axis = true;
+      answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
+      return answer;
+    }
+    case EpaResult::Status::flat:
+      answer.lower = -g.upper;
+      answer.has_axis = true;
+      answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
+      return answer;
+    case EpaResult::Status::stalled:
+      break;
+  }
+  if (!solid_polytopes(m)) return answer;  // the upper bound holds, the lower one is unknown
+  return from_sat(m, Query::depth, result);
+}
+
+CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& result) {
+  const double margin = m.a.margin + m.b.margin;
+  const bool overlap_only = query == Query::overlap && margin == 0;
+  const GjkResult g = gjk(m, overlap_only ? GjkGoal::overlap : GjkGoal::distance);
+  result.gjk_iterations += g.iterations;
+  if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g);
+  return from_epa(m, g, result);
+}
+
+Outcome classify(double lower, double upper, double noise, bool curved) {
+  if (upper < -noise) return Outcome::separated;
+  if (lower > noise) return Outcome::penetrating;
+  // Curved shapes have no exact stage: they touch when the whole interval is inside the bound.
+  const double band = curved ? std::fmax(noise, 2 * (upper - lower)) : noise;
+  return lower >= -band && upper <= band ? Outcome::touching : Outcome::undecided;
+}
+
+std::vector<Vec3> world_vertices(const Shape& shape, const Pose& pose) {
+  std::vector<Vec3> points;
+  points.reserve(shape.polytope.vertices.size());
+  for (Vec3 p : shape.polytope.vertices) points.push_back(pose * (p + shape.origin));
+  return points;
+}
+
+void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const Pose& pose_a, double noise,
+                    PairResult& result) {
+  const double margin = m.a.margin + m.b.margin;
+  const Pose to_world = core_placement(m.a, pose_a);
+  // Which of the two bounds is the number itself: the distance of the witness points for a gap, the
+  // support value along the axis for a penetration.
+  const double penetration = core.upper < 0 ? core.lower : core.upper;
+  result.has_distance = true;
+  result.distance = -(penetration + margin);
+  result.lower = -(core.upper + margin) - noise;
+  result.upper = -(core.lower + margin) + noise;
+  result.normal = to_world.rotation * core.axis;
+  result.witness_a = to_world * (core.witness.a + core.axis * m.a.margin);
+  result.witness_b = to_world * (core.witness.b - core.axis * m.b.margin);
+}
+
+void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
+                    PairResult& result) {
+  result.outcome = decide_exactly(world_vertices(a, pose_a), world_vertices(b, pose_b), noise);
+  result.method = Method::exact;
+  result.reason = Reason::none;
+  if (!result.has_distance) return;
+  if (result.outcome == Outcome::touching) result.distance = result.lower = result.upper = 0;
+  if (result.outcome == Outcome::separated) {
+    result.distance = std::fmax(result.distance, 0.0);
+    result.lower = std::fmax(result.lower, 0.0);
+  }
+  if (result.outcome == Outcome::penetrating) {
+    result.distance = std::fmin(result.distance, 0.0);
+    result.upper = std::fmin(result.upper, 0.0);
+  }
+}
+
+}  // namespace
+
+PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                      MethodChoice method) {
+  const MinkowskiDifference m(a, pose_a, b, pose_b);
+  PairResult result;
+  CoreAnswer core = takes_sat(m, method) ? from_sat(m, query, result) : from_gjk(m, query, result);
+  const double noise = m.support_error(), margin = m.a.margin + m.b.margin;
+  if (query != Query::overlap && core.method == Method::sat && core.upper < -noise) {
+    // An axis separates; the distance is another question.
+    const GjkResult g = gjk(m, GjkGoal::distance);
+    result.gjk_iterations += g.iterations;
+    if (g.status == GjkResult::Status::separated) core = from_gjk_distance(m, g);
+  }
+  result.method = core.method;
+  result.feature = core.feature;
+  result.index_a = core.index_a;
+  result.index_b = core.index_b;
+  result.outcome = classify(core.lower + margin, core.upper + margin, noise, m.curved || margin > 0);
+  if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
+  const bool in_doubt = result.outcome != Outcome::separated && core.lower + margin < kShallow * m.scale;
+  if (in_doubt && a.is_polytope() && b.is_polytope()) settle_exactly(a, pose_a, b, pose_b, 2 * noise, result);
+  if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
+  return result;
+}
+
+}  // namespace satcheck

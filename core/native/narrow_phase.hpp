@@ -1,0 +1,36 @@
+// One convex pair in, one result out: the dispatch between SAT, GJK, EPA and the exact stage.
+#pragma once
+
+#include "sat.hpp"
+
+namespace satcheck {
+
+enum class Outcome : std::uint8_t { separated, touching, penetrating, undecided };
+enum class Reason : std::uint8_t { none, bounds_not_closed };
+enum class Method : std::uint8_t { none, sat, gjk, epa, exact };
+enum class Query : std::uint8_t { overlap, depth, distance };
+enum class MethodChoice : std::uint8_t { automatic, sat, gjk };
+
+struct PairResult {
+  Outcome outcome = Outcome::undecided;
+  Reason reason = Reason::none;
+  Method method = Method::none;  // the stage that decided
+  Feature feature = Feature::none;
+  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+  // Signed distance, > 0 a gap, < 0 a penetration, with bounds; only for queries depth and distance.
+  bool has_distance = false;
+  double distance = 0, lower = 0, upper = 0;
+  Vec3 normal;                // unit, from A to B, world
+  Vec3 witness_a, witness_b;  // world; distance * normal = witness_b - witness_a
+  int gjk_iterations = 0, epa_iterations = 0, axes_tested = 0;
+};
+
+// Up to this many vertices on the larger of two polytopes, SAT over faces and arcs is faster than
+// GJK + EPA. Measured by bench/crossover.py; boxes always take SAT.
+inline constexpr std::size_t kSatVertexLimit = 8;
+
+// Poses are rigid. Query overlap gives the outcome only and stops at the first proof.
+PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                      MethodChoice method = MethodChoice::automatic);
+
+}  // namespace satcheck

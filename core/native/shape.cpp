@@ -1,0 +1,203 @@
+#include "shape.hpp"
+
+#include <stdexcept>
+
+// Function clones pick wider vectors at run time where the toolchain knows how; contraction is
+// off, so every clone returns the same bits.
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define SATCHECK_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define SATCHECK_WIDE
+#endif
+
+namespace satcheck {
+
+VertexLanes::VertexLanes(const std::vector<Vec3>& points) {
+  if (points.empty()) return;
+  const std::size_t count = (points.size() + kLanes - 1) / kLanes * kLanes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 p = points[i < points.size() ? i : 0];
+    x.push_back(p.x);
+    y.push_back(p.y);
+    z.push_back(p.z);
+  }
+}
+
+namespace {
+
+SATCHECK_WIDE std::uint32_t scan(const double* x, const double* y, const double* z, std::size_t count, double dx,
+                                 double dy, double dz) {
+  constexpr std::size_t lanes = VertexLanes::kLanes;
+  double best[lanes];
+  std::int64_t where[lanes];
+  for (std::size_t l = 0; l < lanes; ++l) {
+    best[l] = x[l] * dx + y[l] * dy + z[l] * dz;
+    where[l] = static_cast<std::int64_t>(l);
+  }
+  for (std::size_t i = lanes; i < count; i += lanes) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const double value = x[i + l] * dx + y[i + l] * dy + z[i + l] * dz;
+      const bool better = value > best[l];
+      best[l] = better ? value : best[l];
+      where[l] = better ? static_cast<std::int64_t>(i + l) : where[l];
+    }
+  }
+  std::size_t winner = 0;
+  for (std::size_t l = 1; l < lanes; ++l) {
+    if (best[l] > best[winner] || (best[l] == best[winner] && where[l] < where[winner])) winner = l;
+  }
+  return static_cast<std::uint32_t>(where[winner]);
+}
+
+void require_positive(double value, const char* what) {
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw std::invalid_argument(std::string(what) + " must be positive and finite");
+  }
+}
+
+// True when p - origin is representable for every vertex: then the shift loses nothing.
+bool shift_is_exact(const std::vector<Vec3>& points, Vec3 origin) {
+  for (Vec3 p : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double shifted = p[axis] - origin[axis];
+      // Knuth's two-sum: the rounding error of the subtraction, without error itself.
+      const double back = p[axis] - shifted;
+      const double error = (p[axis] - (shifted + back)) + (back - origin[axis]);
+      if (error != 0) return false;
+    }
+  }
+  return true;
+}
+
+double largest_coordinate(const std::vector<Vec3>& points) {
+  double extent = 0;
+  for (Vec3 p : points) extent = std::fmax(extent, max_abs(p));
+  return extent;
+}
+
+}  // namespace
+
+std::uint32_t support_index(const VertexLanes& vertices, Vec3 direction) {
+  const std::uint32_t index = scan(vertices.x.data(), vertices.y.data(), vertices.z.data(), vertices.padded(),
+                                   direction.x, direction.y, direction.z);
+  return index;
+}
+
+Shape make_hull(Polytope polytope) {
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  Aabb bounds;
+  for (Vec3 p : polytope.vertices) bounds.include(p);
+  const Vec3 centre = bounds.min + (bounds.max - bounds.min) * 0.5;
+  const double far = max_abs(centre), size = max_abs(bounds.max - bounds.min);
+  if (far > size && shift_is_exact(polytope.vertices, centre)) {
+    shape.origin = centre;
+    for (Vec3& p : polytope.vertices) p = p - centre;
+  }
+  shape.polytope = std::move(polytope);
+  shape.lanes = VertexLanes(shape.polytope.vertices);
+  shape.extent = largest_coordinate(shape.polytope.vertices);
+  return shape;
+}
+
+Shape make_hull(const std::vector<Vec3>& points) { return make_hull(convex_hull(points)); }
+
+Shape make_box(Vec3 half_extents) {
+  for (int axis = 0; axis < 3; ++axis) require_positive(half_extents[axis], "a half extent of the box");
+  std::vector<Vec3> corners;
+  for (double x : {-1.0, 1.0}) {
+    for (double y : {-1.0, 1.0}) {
+      for (double z : {-1.0, 1.0}) corners.push_back({x * half_extents.x, y * half_extents.y, z * half_extents.z});
+    }
+  }
+  Shape shape = make_hull(corners);
+  shape.kind = ShapeKind::box;
+  shape.size = half_extents;
+  return shape;
+}
+
+namespace {
+
+Shape make_round(ShapeKind kind, Vec3 size, double margin, double extent) {
+  Shape shape;
+  shape.kind = kind;
+  shape.size = size;
+  shape.margin = margin;
+  shape.extent = extent;
+  return shape;
+}
+
+}  // namespace
+
+Shape make_sphere(double radius) {
+  require_positive(radius, "the radius of the sphere");
+  return make_round(ShapeKind::sphere, {radius, 0, 0}, radius, 0);
+}
+
+Shape make_capsule(double radius, double half_height) {
+  require_positive(radius, "the radius of the capsule");
+  require_positive(half_height, "the half height of the capsule");
+  return make_round(ShapeKind::capsule, {radius, radius, half_height}, radius, half_height);
+}
+
+Shape make_cylinder(double radius, double half_height) {
+  require_positive(radius, "the radius of the cylinder");
+  require_positive(half_height, "the half height of the cylinder");
+  return make_round(ShapeKind::cylinder, {radius, radius, half_height}, 0, std::fmax(radius, half_height));
+}
+
+Shape make_cone(double radius, double half_height) {
+  require_positive(radius, "the radius of the cone");
+  require_positive(half_height, "the half height of the cone");
+  return make_round(ShapeKind::cone, {radius, radius, half_height}, 0, std::fmax(radius, half_height));
+}
+
+Shape make_ellipsoid(Vec3 radii) {
+  for (int axis = 0; axis < 3; ++axis) require_positive(radii[axis], "a radius of the ellipsoid");
+  return make_round(ShapeKind::ellipsoid, radii, 0, max_abs(radii));
+}
+
+namespace {
+
+Vec3 disc_support(double radius, Vec3 direction, double z) {
+  const double length = std::hypot(direction.x, direction.y);
+  if (length == 0) return {radius, 0, z};
+  return {radius * (direction.x / length), radius * (direction.y / length), z};
+}
+
+}  // namespace
+
+CorePoint core_support(const Shape& shape, Vec3 d) {
+  const Vec3 s = shape.size;
+  switch (shape.kind) {
+    case ShapeKind::hull: {
+      const std::uint32_t index = support_index(shape.lanes, d);
+      return {{shape.lanes.x[index], shape.lanes.y[index], shape.lanes.z[index]}, index};
+    }
+    case ShapeKind::box: {
+      const unsigned x = d.x >= 0, y = d.y >= 0, z = d.z >= 0;
+      return {{x ? s.x : -s.x, y ? s.y : -s.y, z ? s.z : -s.z}, x << 2 | y << 1 | z};
+    }
+    case ShapeKind::sphere:
+      return {{0, 0, 0}, 0};
+    case ShapeKind::capsule:
+      return {{0, 0, d.z >= 0 ? s.z : -s.z}, d.z >= 0 ? 1u : 0u};
+    case ShapeKind::cylinder:
+      return {disc_support(s.x, d, d.z >= 0 ? s.z : -s.z), Shape::kNoIndex};
+    case ShapeKind::cone: {
+      const Vec3 apex{0, 0, s.z}, rim = disc_support(s.x, d, -s.z);
+      if (dot(apex, d) >= dot(rim, d)) return {apex, 0};
+      return {rim, Shape::kNoIndex};
+    }
+    case ShapeKind::ellipsoid: {
+      const Vec3 scaled{s.x * d.x, s.y * d.y, s.z * d.z};
+      const double length = norm(scaled);
+      if (length == 0) return {{s.x, 0, 0}, Shape::kNoIndex};
+      return {{s.x * (scaled.x / length), s.y * (scaled.y / length), s.z * (scaled.z / length)}, Shape::kNoIndex};
+    }
+  }
+  return {{0, 0, 0}, Shape::kNoIndex};  // not reached: every kind returns above
+}
+
+}  // namespace satcheck

@@ -1,0 +1,66 @@
+// Convex shapes given by their support function.
+//
+// A sphere and a capsule are a core (a point, a segment) and a margin: the Minkowski sum with a
+// ball, which moves every support value by the radius and nothing else (van den Bergen, "Collision
+// Detection in Interactive 3D Environments", 2003, chapter 4).
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "polytope.hpp"
+
+namespace satcheck {
+
+enum class ShapeKind : std::uint8_t { hull, box, sphere, capsule, cylinder, cone, ellipsoid };
+
+// Vertices as structure of arrays, padded with copies of vertex 0 to a multiple of kLanes so that
+// the scan has no remainder.
+struct VertexLanes {
+  static constexpr std::size_t kLanes = 8;
+  std::vector<double> x, y, z;
+
+  explicit VertexLanes(const std::vector<Vec3>& points = {});
+  std::size_t padded() const { return x.size(); }
+};
+
+// The vertex of largest dot product with `direction`; the first of them in a tie.
+std::uint32_t support_index(const VertexLanes& vertices, Vec3 direction);
+
+struct Shape {
+  static constexpr std::uint32_t kNoIndex = 0xffffffffu;
+
+  ShapeKind kind = ShapeKind::hull;
+  // Box: half extents. Ellipsoid: radii. Cylinder, cone, capsule: radius in x and y, half height
+  // in z. Sphere: radius in x. The axis is the local z; the cone's apex is at +z.
+  Vec3 size;
+  double margin = 0;  // radius of the ball around the core: sphere and capsule
+  // Hull and box. Hull: coordinates are relative to `origin`, which moves a hull far from the
+  // world's origin to its own without any rounding (0 where that would round).
+  Polytope polytope;
+  VertexLanes lanes;
+  Vec3 origin;
+  double extent = 0;  // largest |coordinate| of the core, relative to `origin`
+
+  bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
+};
+
+// Points (n >= 1) in any order; the shape is their convex hull, computed exactly.
+Shape make_hull(const std::vector<Vec3>& points);
+Shape make_hull(Polytope polytope);
+// All sizes are positive and finite, or std::invalid_argument is thrown.
+Shape make_box(Vec3 half_extents);
+Shape make_sphere(double radius);
+Shape make_capsule(double radius, double half_height);
+Shape make_cylinder(double radius, double half_height);
+Shape make_cone(double radius, double half_height);
+Shape make_ellipsoid(Vec3 radii);
+
+// Support point of the core in the local frame, and its index where the core has vertices.
+struct CorePoint {
+  Vec3 point;
+  std::uint32_t index;
+};
+CorePoint core_support(const Shape& shape, Vec3 direction);
+
+}  // namespace satcheck

@@ -1,0 +1,48 @@
+// Every tolerance of the convex narrow phase, with its derivation. All are multiples of the unit
+// roundoff times `scale`, the largest coordinate that can appear in the pair: no absolute epsilons.
+#pragma once
+
+#include <limits>
+
+namespace satcheck {
+
+// Unit roundoff of float64.
+inline constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2;
+
+// |computed - true| of a support value n.(a - b) for a unit axis n is at most this many roundoffs
+// of the scale. Relative pose: 2 products of rounded 3x3 matrices, 6 roundings a coordinate, 3
+// coordinates, 18; dot product of 3 terms, 3 roundings, 9 after the sum over coordinates; length of
+// the axis itself, 2 roundings; difference of the two supports, 1; rounded up to 40.
+inline constexpr double kSupportError = 40 * kUnitRoundoff;
+
+// EPA takes a support point as outside a face only beyond this fraction of the scale: below it the
+// height is rounding noise, and a face built on it would have a meaningless normal.
+inline constexpr double kVisible = 16 * kUnitRoundoff;
+
+// A simplex, or a Minkowski difference, is flat when it is thinner than this fraction of the scale.
+inline constexpr double kFlat = 64 * kUnitRoundoff;
+
+// Bounds of curved shapes close only in the limit; the loops stop at this fraction of the scale.
+// Facets have width sqrt(gap) there, so that their normals still carry 5 digits more than noise.
+inline constexpr double kCurvedGap = 1e-11;
+
+// Cross products of edges with sin^2 of their angle below this are left to the face axes, whose
+// overlap they share to second order in the angle: 1e-12 * scale / 2 at most, below this the
+// exact stage decides.
+inline constexpr double kParallelSquared = 1e-12;
+
+// Arcs on the Gauss map whose end points come this close to the other arc's plane may or may not
+// cross: their axis is projected in full instead of trusted.
+inline constexpr double kArcUncertain = 1e-7;
+
+// An axis rounded by more than this (radians) does not serve as a filter: its exact sign is taken.
+inline constexpr double kTrustedAxis = 1e-6;
+
+// Penetrations below this fraction of the scale are confirmed by exact signs, because the normal of
+// a sliver face carries more error than a support value does.
+inline constexpr double kShallow = 1e-7;
+
+// Vertices this close to a support plane, as a fraction of the scale, belong to the contact feature.
+inline constexpr double kSameFeature = 1e-10;
+
+}  // namespace satcheck
