@@ -5,8 +5,8 @@
 //   outside, on or inside the first tetrahedron: aligned and concentric shapes need no special case.
 // - min over faces <= signed penetration <= support value along any axis. The loop ends when the two
 //   meet, or on a negative support value, which is a separating axis.
-// - A face is left for the horizon only by more than rounding noise; a new face whose normal would
-//   be noise takes its hidden neighbour with it.
+// - A face counts as visible only beyond rounding noise. When rounding breaks the polytope all the
+//   same, the loop says so (`stalled`) and the caller takes another way.
 
 #include "epa.hpp"
 
@@ -24,6 +24,7 @@ struct Face {
   std::uint32_t neighbour[3];  // across the edge vertex[i], vertex[i + 1]
   Vec3 normal;                 // unit, outward
   double distance;             // signed plane distance from the origin, positive when it is inside
+  double error;                // bounds the rounding error of `distance`
   bool alive;
 };
 
@@ -32,17 +33,20 @@ struct HorizonEdge {
   int edge;            // its edge on the horizon
 };
 
-// Unit normal of a triangle and its plane distance. False when the triangle is thinner than noise.
-bool plane_of(Vec3 a, Vec3 b, Vec3 c, double scale, Vec3& normal, double& distance) {
+// Fills in the plane of a face. False when the triangle is thinner than noise.
+bool set_plane(Face& face, Vec3 a, Vec3 b, Vec3 c, double scale) {
   // The cross product of the two shortest edges carries the least rounding error.
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double lab = norm_squared(ab), lbc = norm_squared(bc), lca = norm_squared(ca);
   const Vec3 n = lab >= lbc && lab >= lca ? cross(bc, ca) : lbc >= lca ? cross(ca, ab) : cross(ab, bc);
   const double area = norm(n), longest = std::sqrt(std::max({lab, lbc, lca}));
   if (!(area > kFlat * scale * longest)) return false;
-  normal = n * (1 / area);
+  face.normal = n * (1 / area);
   // The mean of the three is closer to the true plane than any one of them.
-  distance = (dot(normal, a) + dot(normal, b) + dot(normal, c)) * (1.0 / 3.0);
+  face.distance = (dot(face.normal, a) + dot(face.normal, b) + dot(face.normal, c)) * (1.0 / 3.0);
+  // The vertices carry half a support error each; the normal turns by the error of the cross product
+  // over its length (the edges' coordinates are rounded to `scale`, not to themselves).
+  face.error = (kSupportError + kSupportError * scale * longest / area) * scale;
   return true;
 }
 
@@ -63,6 +67,15 @@ class ExpandingPolytope {
       }
     }
     return best;
+  }
+
+  // A lower bound of the signed penetration that grants every face its own rounding error.
+  double least_proven_distance() const {
+    double least = INFINITY;
+    for (const Face& face : faces_) {
+      if (face.alive) least = std::min(least, face.distance - face.error);
+    }
+    return least;
   }
 
   // Adds a point that sees `seed_face`. False when the polytope cannot take it.
@@ -169,8 +182,8 @@ bool ExpandingPolytope::start(const Simplex& seed, Vec3& flat_normal) {
 }
 
 bool ExpandingPolytope::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  Face face{{a, b, c}, {0, 0, 0}, {}, 0, true};
-  if (!plane_of(vertices_[a].w, vertices_[b].w, vertices_[c].w, m_.scale, face.normal, face.distance)) return false;
+  Face face{{a, b, c}, {0, 0, 0}, {}, 0, 0, true};
+  if (!set_plane(face, vertices_[a].w, vertices_[b].w, vertices_[c].w, m_.scale)) return false;
   faces_.push_back(face);
   return true;
 }
@@ -271,24 +284,18 @@ EpaResult epa(const MinkowskiDifference& m, const Simplex& seed) {
     const SupportPoint w = m.support(face.normal);
     const double support = dot(face.normal, w.w);
     ++result.iterations;
-    if (support < result.upper) {
+    const bool facet_of_difference = support - face.distance <= closed || polytope.has_vertex(f, w);
+    if (support < result.upper || facet_of_difference) {
       result.upper = support;
       result.axis = face.normal;
-      result.facet = weighted_facet(polytope, face);
     }
-    result.lower = face.distance;
-    if (result.upper < -noise) {
+    if (support < -noise) {
       result.status = EpaResult::Status::separated;
       return result;
     }
-    if (support - face.distance <= closed || polytope.has_vertex(f, w)) {
-      result.axis = face.normal;
-      result.upper = support;
+    if (facet_of_difference) {
+      result.lower = polytope.least_proven_distance();
       result.facet = weighted_facet(polytope, face);
-      result.status = EpaResult::Status::depth;
-      return result;
-    }
-    if (result.upper - result.lower <= closed) {
       result.status = EpaResult::Status::depth;
       return result;
     }

@@ -52,10 +52,11 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   return answer;
 }
 
-CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g) {
+// `lower_bound` of the distance may come from another stage than GJK's own axes.
+CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, double lower_bound) {
   CoreAnswer answer;
-  answer.lower = -g.upper;
-  answer.upper = -g.lower;
+  answer.lower = -std::fmax(g.upper, lower_bound);
+  answer.upper = -lower_bound;
   answer.axis = g.upper > 0 ? g.v * (-1 / g.upper) : -g.axis;
   answer.has_axis = true;
   answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
@@ -64,7 +65,21 @@ CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g) {
   return answer;
 }
 
-CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, PairResult& result) {
+// The facet that EPA ends on may hold the origin's projection only together with coplanar points it
+// never asked for: then the contact region tells, or, for curved shapes, GJK on the shapes moved
+// apart until they touch.
+Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
+  const Witnesses facet{e.facet.witness_a(), e.facet.witness_b()};
+  const double miss = norm(facet.a - facet.b - e.axis * e.upper);
+  if (miss <= (m.curved ? kCurvedGap * m.scale : m.support_error())) return facet;
+  if (m.a.is_polytope() && m.b.is_polytope()) return contact_region_centre(m, e.axis, e.upper);
+  MinkowskiDifference touching = m;
+  touching.b_in_a.translation = touching.b_in_a.translation + e.axis * e.upper;
+  const GjkResult g = gjk(touching, GjkGoal::distance);
+  return {g.simplex.witness_a(), g.simplex.witness_b() - e.axis * e.upper};
+}
+
+CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query query, PairResult& result) {
   const EpaResult e = epa(m, g.simplex);
   result.epa_iterations += e.iterations;
   CoreAnswer answer;
@@ -76,15 +91,10 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, PairResult
     case EpaResult::Status::depth:
       answer.lower = e.lower;
       answer.has_axis = true;
-      answer.witness = {e.facet.witness_a(), e.facet.witness_b()};
+      if (query != Query::overlap) answer.witness = overlap_witness(m, e);
       return answer;
-    case EpaResult::Status::separated: {
-      // Too close for GJK to prove; its closest points still bound the gap from above.
-      answer.lower = -std::fmax(g.upper, -e.upper);
-      answer.has_axis = true;
-      answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
-      return answer;
-    }
+    case EpaResult::Status::separated:  // too close for GJK to prove, but its closest points hold
+      return from_gjk_distance(m, g, -e.upper);
     case EpaResult::Status::flat:
       answer.lower = -g.upper;
       answer.has_axis = true;
@@ -102,8 +112,8 @@ CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& resul
   const bool overlap_only = query == Query::overlap && margin == 0;
   const GjkResult g = gjk(m, overlap_only ? GjkGoal::overlap : GjkGoal::distance);
   result.gjk_iterations += g.iterations;
-  if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g);
-  return from_epa(m, g, result);
+  if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
+  return from_epa(m, g, query, result);
 }
 
 Outcome classify(double lower, double upper, double noise, bool curved) {
@@ -166,7 +176,7 @@ PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const 
     // An axis separates; the distance is another question.
     const GjkResult g = gjk(m, GjkGoal::distance);
     result.gjk_iterations += g.iterations;
-    if (g.status == GjkResult::Status::separated) core = from_gjk_distance(m, g);
+    core = from_gjk_distance(m, g, std::fmax(g.lower, -core.upper));
   }
   result.method = core.method;
   result.feature = core.feature;
@@ -174,7 +184,8 @@ PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const 
   result.index_b = core.index_b;
   result.outcome = classify(core.lower + margin, core.upper + margin, noise, m.curved || margin > 0);
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
-  const bool in_doubt = result.outcome != Outcome::separated && core.lower + margin < kShallow * m.scale;
+  const double confirmed_below = core.method == Method::sat ? kShallow * m.scale : noise;
+  const bool in_doubt = result.outcome != Outcome::separated && core.lower + margin <= confirmed_below;
   if (in_doubt && a.is_polytope() && b.is_polytope()) settle_exactly(a, pose_a, b, pose_b, 2 * noise, result);
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
   return result;

@@ -31,7 +31,10 @@ Candidate closest_on_segment(const Simplex& s, int i, int j) {
   if (!(along < length_squared)) return closest_on_vertex(s, j);
   // The foot is measured from the nearer end, where the subtraction loses least.
   const double t = along / length_squared;
-  const Vec3 v = t <= 0.5 ? p + e * t : q - e * (dot(q, e) / length_squared);
+  Vec3 v = t <= 0.5 ? p + e * t : q - e * (dot(q, e) / length_squared);
+  // Cancellation leaves a component along the edge; without it all of the edge has one support value,
+  // and the duality gap can close however small v is.
+  v = v - e * (dot(v, e) / length_squared);
   return {v, norm_squared(v), {i, j, 0}, {1 - t, t, 0}, 2};
 }
 

@@ -38,8 +38,8 @@ inline constexpr double kArcUncertain = 1e-7;
 // An axis rounded by more than this (radians) does not serve as a filter: its exact sign is taken.
 inline constexpr double kTrustedAxis = 1e-6;
 
-// Penetrations below this fraction of the scale are confirmed by exact signs, because the normal of
-// a sliver face carries more error than a support value does.
+// Penetrations that SAT finds below this fraction of the scale are confirmed by exact signs, because
+// the stored normal of a sliver face carries more error than a support value does.
 inline constexpr double kShallow = 1e-7;
 
 // Vertices this close to a support plane, as a fraction of the scale, belong to the contact feature.
