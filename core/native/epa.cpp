@@ -50,9 +50,31 @@ bool set_plane(Face& face, Vec3 a, Vec3 b, Vec3 c, double scale) {
   return true;
 }
 
+// Buffers of one thread, kept between pairs so that a query allocates nothing.
+struct Workspace {
+  std::vector<SupportPoint> vertices;
+  std::vector<Face> faces;
+  std::vector<HorizonEdge> horizon;
+  std::vector<std::uint32_t> visible;
+  std::vector<std::uint32_t> fan;  // the faces made around the newest vertex
+
+  void clear() {
+    vertices.clear();
+    faces.clear();
+  }
+};
+
 class ExpandingPolytope {
  public:
-  explicit ExpandingPolytope(const MinkowskiDifference& difference) : m_(difference) {}
+  ExpandingPolytope(const MinkowskiDifference& difference, Workspace& workspace)
+      : m_(difference),
+        vertices_(workspace.vertices),
+        faces_(workspace.faces),
+        horizon_(workspace.horizon),
+        visible_(workspace.visible),
+        fan_(workspace.fan) {
+    workspace.clear();
+  }
 
   // False when A - B is flat; `flat_normal` is set then.
   bool start(const Simplex& seed, Vec3& flat_normal);
@@ -94,13 +116,14 @@ class ExpandingPolytope {
   bool complete_tetrahedron(Vec3& flat_normal);
   bool sees(const Face& face, Vec3 point) const { return dot(face.normal, point) - face.distance > kVisible * m_.scale; }
   void collect_horizon(std::uint32_t f, Vec3 point);
-  bool add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  bool fill_face(std::uint32_t slot, std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
   const MinkowskiDifference& m_;
-  std::vector<SupportPoint> vertices_;
-  std::vector<Face> faces_;
-  std::vector<HorizonEdge> horizon_;
-  std::vector<std::uint32_t> stack_;
+  std::vector<SupportPoint>& vertices_;
+  std::vector<Face>& faces_;  // dead ones are taken again by new faces
+  std::vector<HorizonEdge>& horizon_;
+  std::vector<std::uint32_t>& visible_;
+  std::vector<std::uint32_t>& fan_;
 };
 
 // Unit vector across `along`, by the coordinate axis least aligned with it.
@@ -175,44 +198,41 @@ bool ExpandingPolytope::start(const Simplex& seed, Vec3& flat_normal) {
   constexpr std::uint32_t corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
   constexpr std::uint32_t across[4][3] = {{1, 2, 3}, {3, 2, 0}, {1, 3, 0}, {2, 1, 0}};
   for (int f = 0; f < 4; ++f) {
-    if (!add_face(corners[f][0], corners[f][1], corners[f][2])) return false;
+    if (!fill_face(static_cast<std::uint32_t>(f), corners[f][0], corners[f][1], corners[f][2])) return false;
     for (int e = 0; e < 3; ++e) faces_[f].neighbour[e] = across[f][e];
   }
   return true;
 }
 
-bool ExpandingPolytope::add_face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  Face face{{a, b, c}, {0, 0, 0}, {}, 0, 0, true};
-  if (!set_plane(face, vertices_[a].w, vertices_[b].w, vertices_[c].w, m_.scale)) return false;
-  faces_.push_back(face);
-  return true;
+bool ExpandingPolytope::fill_face(std::uint32_t slot, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (slot == faces_.size()) faces_.emplace_back();
+  Face& face = faces_[slot];
+  face.vertex[0] = a;
+  face.vertex[1] = b;
+  face.vertex[2] = c;
+  face.alive = true;
+  return set_plane(face, vertices_[a].w, vertices_[b].w, vertices_[c].w, m_.scale);
 }
 
 void ExpandingPolytope::collect_horizon(std::uint32_t seed_face, Vec3 point) {
   horizon_.clear();
-  stack_.assign(1, seed_face);
+  visible_.assign(1, seed_face);
   faces_[seed_face].alive = false;
-  std::vector<std::uint32_t>& visible = stack_;
-  for (std::size_t next = 0; next < visible.size(); ++next) {
-    const Face face = faces_[visible[next]];
-    for (int e = 0; e < 3; ++e) {
-      const std::uint32_t g = face.neighbour[e];
-      if (!faces_[g].alive) continue;
-      if (sees(faces_[g], point)) {
+  for (std::size_t next = 0; next < visible_.size(); ++next) {
+    for (const std::uint32_t g : faces_[visible_[next]].neighbour) {
+      if (faces_[g].alive && sees(faces_[g], point)) {
         faces_[g].alive = false;
-        visible.push_back(g);
+        visible_.push_back(g);
       }
     }
   }
-  for (std::uint32_t f : visible) {
+  for (const std::uint32_t f : visible_) {
     for (int e = 0; e < 3; ++e) {
       const std::uint32_t g = faces_[f].neighbour[e];
       if (!faces_[g].alive) continue;
+      const std::uint32_t head = faces_[f].vertex[e], tail = faces_[f].vertex[(e + 1) % 3];
       for (int k = 0; k < 3; ++k) {
-        if (faces_[g].vertex[k] == faces_[f].vertex[(e + 1) % 3] &&
-            faces_[g].vertex[(k + 1) % 3] == faces_[f].vertex[e]) {
-          horizon_.push_back({g, k});
-        }
+        if (faces_[g].vertex[k] == tail && faces_[g].vertex[(k + 1) % 3] == head) horizon_.push_back({g, k});
       }
     }
   }
@@ -223,25 +243,24 @@ bool ExpandingPolytope::expand(const SupportPoint& point, std::uint32_t seed_fac
   if (horizon_.size() < 3) return false;
   const std::uint32_t apex = static_cast<std::uint32_t>(vertices_.size());
   vertices_.push_back(point);
-  const std::uint32_t first = static_cast<std::uint32_t>(faces_.size());
-  for (const HorizonEdge& edge : horizon_) {
-    const Face& hidden = faces_[edge.face];
-    const std::uint32_t tail = hidden.vertex[(edge.edge + 1) % 3], head = hidden.vertex[edge.edge];
-    if (!add_face(tail, head, apex)) return false;
-    faces_.back().neighbour[0] = edge.face;
+  fan_.clear();
+  for (std::size_t i = 0; i < horizon_.size(); ++i) {
+    const Face& hidden = faces_[horizon_[i].face];
+    const std::uint32_t tail = hidden.vertex[(horizon_[i].edge + 1) % 3], head = hidden.vertex[horizon_[i].edge];
+    const std::uint32_t slot = i < visible_.size() ? visible_[i] : static_cast<std::uint32_t>(faces_.size());
+    if (!fill_face(slot, tail, head, apex)) return false;
+    faces_[slot].neighbour[0] = horizon_[i].face;
+    faces_[horizon_[i].face].neighbour[horizon_[i].edge] = slot;
+    fan_.push_back(slot);
   }
-  const std::uint32_t count = static_cast<std::uint32_t>(horizon_.size());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Face& face = faces_[first + i];
-    faces_[horizon_[i].face].neighbour[horizon_[i].edge] = first + i;
+  for (const std::uint32_t slot : fan_) {
     bool next_found = false;
-    for (std::uint32_t j = 0; j < count; ++j) {
-      if (faces_[first + j].vertex[0] == face.vertex[1]) {
-        if (next_found) return false;  // the horizon is not one loop
-        face.neighbour[1] = first + j;
-        faces_[first + j].neighbour[2] = first + i;
-        next_found = true;
-      }
+    for (const std::uint32_t other : fan_) {
+      if (faces_[other].vertex[0] != faces_[slot].vertex[1]) continue;
+      if (next_found) return false;  // the horizon is not one loop
+      faces_[slot].neighbour[1] = other;
+      faces_[other].neighbour[2] = slot;
+      next_found = true;
     }
     if (!next_found) return false;
   }
@@ -261,10 +280,11 @@ Simplex weighted_facet(const ExpandingPolytope& polytope, const Face& face) {
 
 }  // namespace
 
-EpaResult epa(const MinkowskiDifference& m, const Simplex& seed) {
+EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
   EpaResult result;
   result.upper = INFINITY;
-  ExpandingPolytope polytope(m);
+  thread_local Workspace workspace;
+  ExpandingPolytope polytope(m, workspace);
   Vec3 flat_normal;
   if (!polytope.start(seed, flat_normal)) {
     // A support value along the normal of a flat set is its plane's distance from the origin.
@@ -291,6 +311,11 @@ EpaResult epa(const MinkowskiDifference& m, const Simplex& seed) {
     }
     if (support < -noise) {
       result.status = EpaResult::Status::separated;
+      return result;
+    }
+    if (goal == EpaGoal::sign && face.distance > noise && polytope.least_proven_distance() > noise) {
+      result.lower = polytope.least_proven_distance();
+      result.status = EpaResult::Status::depth;
       return result;
     }
     if (facet_of_difference) {

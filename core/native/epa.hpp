@@ -22,7 +22,10 @@ struct EpaResult {
   int iterations = 0;
 };
 
+// sign: stop as soon as the bounds agree on it; the facet is not filled in.
+enum class EpaGoal { sign, depth };
+
 // `seed` may hold the last simplex of GJK; it saves the first support points.
-EpaResult epa(const MinkowskiDifference& difference, const Simplex& seed);
+EpaResult epa(const MinkowskiDifference& difference, const Simplex& seed, EpaGoal goal);
 
 }  // namespace satcheck

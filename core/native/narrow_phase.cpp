@@ -80,7 +80,7 @@ Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
 }
 
 CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query query, PairResult& result) {
-  const EpaResult e = epa(m, g.simplex);
+  const EpaResult e = epa(m, g.simplex, query == Query::overlap ? EpaGoal::sign : EpaGoal::depth);
   result.epa_iterations += e.iterations;
   CoreAnswer answer;
   answer.method = Method::epa;

@@ -2,53 +2,9 @@
 
 #include <stdexcept>
 
-// Function clones pick wider vectors at run time where the toolchain knows how; contraction is
-// off, so every clone returns the same bits.
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define SATCHECK_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define SATCHECK_WIDE
-#endif
-
 namespace satcheck {
 
-VertexLanes::VertexLanes(const std::vector<Vec3>& points) {
-  if (points.empty()) return;
-  const std::size_t count = (points.size() + kLanes - 1) / kLanes * kLanes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 p = points[i < points.size() ? i : 0];
-    x.push_back(p.x);
-    y.push_back(p.y);
-    z.push_back(p.z);
-  }
-}
-
 namespace {
-
-SATCHECK_WIDE std::uint32_t scan(const double* x, const double* y, const double* z, std::size_t count, double dx,
-                                 double dy, double dz) {
-  constexpr std::size_t lanes = VertexLanes::kLanes;
-  double best[lanes];
-  std::int64_t where[lanes];
-  for (std::size_t l = 0; l < lanes; ++l) {
-    best[l] = x[l] * dx + y[l] * dy + z[l] * dz;
-    where[l] = static_cast<std::int64_t>(l);
-  }
-  for (std::size_t i = lanes; i < count; i += lanes) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const double value = x[i + l] * dx + y[i + l] * dy + z[i + l] * dz;
-      const bool better = value > best[l];
-      best[l] = better ? value : best[l];
-      where[l] = better ? static_cast<std::int64_t>(i + l) : where[l];
-    }
-  }
-  std::size_t winner = 0;
-  for (std::size_t l = 1; l < lanes; ++l) {
-    if (best[l] > best[winner] || (best[l] == best[winner] && where[l] < where[winner])) winner = l;
-  }
-  return static_cast<std::uint32_t>(where[winner]);
-}
 
 void require_positive(double value, const char* what) {
   if (!(value > 0) || !std::isfinite(value)) {
@@ -77,12 +33,6 @@ double largest_coordinate(const std::vector<Vec3>& points) {
 }
 
 }  // namespace
-
-std::uint32_t support_index(const VertexLanes& vertices, Vec3 direction) {
-  const std::uint32_t index = scan(vertices.x.data(), vertices.y.data(), vertices.z.data(), vertices.padded(),
-                                   direction.x, direction.y, direction.z);
-  return index;
-}
 
 Shape make_hull(Polytope polytope) {
   Shape shape;

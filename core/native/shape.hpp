@@ -9,23 +9,11 @@
 #include <string>
 
 #include "polytope.hpp"
+#include "support_scan.hpp"
 
 namespace satcheck {
 
 enum class ShapeKind : std::uint8_t { hull, box, sphere, capsule, cylinder, cone, ellipsoid };
-
-// Vertices as structure of arrays, padded with copies of vertex 0 to a multiple of kLanes so that
-// the scan has no remainder.
-struct VertexLanes {
-  static constexpr std::size_t kLanes = 8;
-  std::vector<double> x, y, z;
-
-  explicit VertexLanes(const std::vector<Vec3>& points = {});
-  std::size_t padded() const { return x.size(); }
-};
-
-// The vertex of largest dot product with `direction`; the first of them in a tie.
-std::uint32_t support_index(const VertexLanes& vertices, Vec3 direction);
 
 struct Shape {
   static constexpr std::uint32_t kNoIndex = 0xffffffffu;

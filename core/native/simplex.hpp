@@ -31,8 +31,8 @@ struct ClosestPoint {
 //
 // Deviation from Ericson, "Real-Time Collision Detection" (2004), 5.1, and from Montanari,
 // Petrinic and Barbieri, "Improving the GJK Algorithm" (2017): no chain of region tests. The inside
-// of a face counts only when all its weights are positive; otherwise the nearest of its edges is
-// taken by comparing distances, so a misjudged sign costs accuracy in the last digit, not the region.
+// of a face counts only when all its weights are positive; otherwise the edges of non-positive weight
+// compete by distance, so a misjudged sign costs accuracy in the last digit, not the region.
 ClosestPoint reduce(Simplex& simplex);
 
 }  // namespace satcheck
