@@ -24,7 +24,6 @@ struct Face {
   std::uint32_t neighbour[3];  // across the edge vertex[i], vertex[i + 1]
   Vec3 normal;                 // unit, outward
   double distance;             // signed plane distance from the origin, positive when it is inside
-  double error;                // bounds the rounding error of `distance`
   bool alive;
 };
 
@@ -33,21 +32,36 @@ struct HorizonEdge {
   int edge;            // its edge on the horizon
 };
 
-// Fills in the plane of a face. False when the triangle is thinner than noise.
-bool set_plane(Face& face, Vec3 a, Vec3 b, Vec3 c, double scale) {
-  // The cross product of the two shortest edges carries the least rounding error.
+// Twice the area and the longest edge, squared, of a triangle; `normal` from its two shortest edges,
+// whose cross product carries the least rounding error.
+struct Triangle3 {
+  Vec3 normal;  // not unit
+  double area_squared, longest_squared;
+};
+
+Triangle3 span(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double lab = norm_squared(ab), lbc = norm_squared(bc), lca = norm_squared(ca);
   const Vec3 n = lab >= lbc && lab >= lca ? cross(bc, ca) : lbc >= lca ? cross(ca, ab) : cross(ab, bc);
-  const double area = norm(n), longest = std::sqrt(std::max({lab, lbc, lca}));
-  if (!(area > kFlat * scale * longest)) return false;
-  face.normal = n * (1 / area);
-  // The mean of the three is closer to the true plane than any one of them.
-  face.distance = (dot(face.normal, a) + dot(face.normal, b) + dot(face.normal, c)) * (1.0 / 3.0);
-  // The vertices carry half a support error each; the normal turns by the error of the cross product
-  // over its length (the edges' coordinates are rounded to `scale`, not to themselves).
-  face.error = (kSupportError + kSupportError * scale * longest / area) * scale;
+  return {n, norm_squared(n), std::max({lab, lbc, lca})};
+}
+
+// Fills in the plane of a face. False when the triangle is thinner than noise.
+bool set_plane(Face& face, Vec3 a, Vec3 b, Vec3 c, double scale) {
+  const Triangle3 t = span(a, b, c);
+  const double thin = kFlat * scale;
+  if (!(t.area_squared > thin * thin * t.longest_squared)) return false;
+  face.normal = t.normal * (1 / std::sqrt(t.area_squared));
+  face.distance = dot(face.normal, a);
   return true;
+}
+
+// Bounds the rounding error of the plane distance of a face. The vertices carry half a support error
+// each; the normal turns by the error of the cross product over its length, and the edges'
+// coordinates are rounded to `scale`, not to themselves.
+double plane_error(Vec3 a, Vec3 b, Vec3 c, double scale) {
+  const Triangle3 t = span(a, b, c);
+  return kSupportError * scale * (1 + scale * std::sqrt(t.longest_squared / t.area_squared));
 }
 
 // Buffers of one thread, kept between pairs so that a query allocates nothing.
@@ -95,7 +109,10 @@ class ExpandingPolytope {
   double least_proven_distance() const {
     double least = INFINITY;
     for (const Face& face : faces_) {
-      if (face.alive) least = std::min(least, face.distance - face.error);
+      // The error is at least a support error: a face farther out than that cannot be the least.
+      if (!face.alive || face.distance - m_.support_error() > least) continue;
+      const std::uint32_t* v = face.vertex;
+      least = std::min(least, face.distance - plane_error(vertices_[v[0]].w, vertices_[v[1]].w, vertices_[v[2]].w, m_.scale));
     }
     return least;
   }

@@ -8,7 +8,6 @@
 
 #include "predicates.hpp"
 #include "tolerances.hpp"
-#include "triangle_pair.hpp"
 
 namespace satcheck {
 
@@ -104,12 +103,6 @@ std::vector<Segment> edges_of(const Polytope& p) {
   return edges;
 }
 
-std::vector<Triangle> triangles_of(const Polytope& p) {
-  if (p.dimension == 0) return {{0, 0, 0}};
-  if (p.dimension == 1) return {{0, 1, 1}};
-  return p.triangles;
-}
-
 class ExactPair {
  public:
   ExactPair(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double slack)
@@ -122,7 +115,7 @@ class ExactPair {
     if (best != Separation::strict) best = std::max(best, best_edge_axis());
     if (best == Separation::strict) return Outcome::separated;
     if (best == Separation::none && spans_volume) return Outcome::penetrating;
-    return have_common_point() ? Outcome::touching : Outcome::separated;
+    return Outcome::touching;
   }
 
  private:
@@ -178,21 +171,6 @@ class ExactPair {
       }
     }
     return best;
-  }
-
-  bool have_common_point() const {
-    const std::vector<Triangle> triangles_b = triangles_of(b_.polytope);
-    for (const Triangle& s : triangles_of(a_.polytope)) {
-      const std::array<Vec3, 3> on_a = corners(a_.polytope, s);
-      for (const Triangle& t : triangles_b) {
-        if (classify_triangles(on_a, corners(b_.polytope, t)) != TriangleContact::disjoint) return true;
-      }
-    }
-    return false;
-  }
-
-  static std::array<Vec3, 3> corners(const Polytope& p, const Triangle& t) {
-    return {p.vertices[t[0]], p.vertices[t[1]], p.vertices[t[2]]};
   }
 
   Hull a_, b_;
