@@ -1,5 +1,46 @@
-"""Geometry on arrays: meshes, convex shapes, exact relations, distances."""
+"""Geometry on arrays: meshes, convex shapes, exact relations, distances.
 
-from satcheck.core._native import Mesh, Polytope, Surface, Topology
+Nothing here reads files, prints, or keeps state. Signs, frames and units: ``core.conventions``.
+"""
 
-__all__ = ["Mesh", "Polytope", "Surface", "Topology"]
+from satcheck.core._native import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Hull,
+    Mesh,
+    PairResult,
+    PairResults,
+    PolygonResult,
+    Polytope,
+    Shape,
+    Sphere,
+    Surface,
+    Topology,
+    check_pair,
+    check_pairs,
+    sat_polygons,
+)
+
+__all__ = [
+    "Box",
+    "Capsule",
+    "Cone",
+    "Cylinder",
+    "Ellipsoid",
+    "Hull",
+    "Mesh",
+    "PairResult",
+    "PairResults",
+    "PolygonResult",
+    "Polytope",
+    "Shape",
+    "Sphere",
+    "Surface",
+    "Topology",
+    "check_pair",
+    "check_pairs",
+    "sat_polygons",
+]
