@@ -1,0 +1,205 @@
+// Method: Philippe Guigue, Olivier Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using
+// Orientation Predicates" (2003): two triangles that straddle each other's planes meet when their
+// intervals on the common line do, and the ends of the intervals compare by one orientation each.
+// Where we deviate: the comparison is derived for any signs including zeros, strict overlap is told
+// from contact, and coplanar or collinear triangles go to exact segment tests.
+#include "triangle_pair.hpp"
+
+#include <utility>
+
+#include "predicates.hpp"
+#include "winding.hpp"
+
+namespace satcheck {
+namespace {
+
+bool lexicographic_less(Vec3 a, Vec3 b) {
+  if (a.x != b.x) return a.x < b.x;
+  if (a.y != b.y) return a.y < b.y;
+  return a.z < b.z;
+}
+
+// Closed segments on one line (or points); order along a line is lexicographic order.
+bool collinear_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
+  if (lexicographic_less(q, p)) std::swap(p, q);
+  if (lexicographic_less(s, r)) std::swap(r, s);
+  return !lexicographic_less(q, r) && !lexicographic_less(s, p);
+}
+
+bool point_on_segment(Vec3 x, Vec3 p, Vec3 q) {
+  return collinear(p, q, x) && collinear_segments_meet(x, x, p, q);
+}
+
+// Closed segments of positive length in a plane that the projection along `axis` does not flatten.
+bool coplanar_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s, int axis) {
+  const int pr = orientation_2d(p, q, r, axis), ps = orientation_2d(p, q, s, axis);
+  if (pr == 0 && ps == 0) return collinear_segments_meet(p, q, r, s);
+  if (pr * ps > 0) return false;
+  return orientation_2d(r, s, p, axis) * orientation_2d(r, s, q, axis) <= 0;
+}
+
+bool segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
+  if (p == q) return point_on_segment(p, r, s);
+  if (r == s) return point_on_segment(r, p, q);
+  if (orientation(p, q, r, s) != 0) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (orientation_2d(p, q, r, axis) != 0 || orientation_2d(p, q, s, axis) != 0) {
+      return coplanar_segments_meet(p, q, r, s, axis);
+    }
+  }
+  return collinear_segments_meet(p, q, r, s);
+}
+
+// The ends of a collinear triangle.
+std::pair<Vec3, Vec3> extremes(const Corners& t) {
+  Vec3 low = t[0], high = t[0];
+  for (const Vec3& p : t) {
+    if (lexicographic_less(p, low)) low = p;
+    if (lexicographic_less(high, p)) high = p;
+  }
+  return {low, high};
+}
+
+bool any_edge_meets(const Corners& edges_of, const Corners& t) {
+  for (int i = 0; i < 3; ++i) {
+    if (segment_meets_triangle(edges_of[i], edges_of[(i + 1) % 3], t)) return true;
+  }
+  return false;
+}
+
+// Signs of the corners of `t` with respect to the plane of `plane`.
+std::array<int, 3> sides(const Corners& plane, const Corners& t) {
+  return {orientation(plane[0], plane[1], plane[2], t[0]),
+          orientation(plane[0], plane[1], plane[2], t[1]),
+          orientation(plane[0], plane[1], plane[2], t[2])};
+}
+
+bool all_strictly_on_one_side(const std::array<int, 3>& s) {
+  return s[0] == s[1] && s[1] == s[2] && s[0] != 0;
+}
+bool all_zero(const std::array<int, 3>& s) { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
+bool straddles(const std::array<int, 3>& s) {
+  return (s[0] > 0 || s[1] > 0 || s[2] > 0) && (s[0] < 0 || s[1] < 0 || s[2] < 0);
+}
+
+// The triangle from its lone corner: the one strictly higher (`direction` +1) or strictly lower (-1)
+// than both others, by sign. The two edges at it cross, or reach, the other plane.
+struct Lone {
+  Vec3 p, q, r;
+  int direction;
+};
+
+Lone from_lone_corner(const Corners& t, const std::array<int, 3>& s) {
+  for (int i = 0; i < 3; ++i) {
+    const int next = (i + 1) % 3, last = (i + 2) % 3;
+    if (s[i] > s[next] && s[i] > s[last]) return {t[i], t[next], t[last], 1};
+    if (s[i] < s[next] && s[i] < s[last]) return {t[i], t[next], t[last], -1};
+  }
+  return {};  // three equal signs, which the callers exclude
+}
+
+// With d = normal(a) x normal(b): sign of (y - x) . d, where x is where the edge a.p -> ax meets the
+// plane of b, and y where b.p -> by meets the plane of a.
+int compare_along_line(const Lone& a, Vec3 ax, const Lone& b, Vec3 by) {
+  return a.direction * b.direction * orientation(a.p, ax, b.p, by);
+}
+
+// The ends of an interval along d, as the far ends of the edges that make them.
+struct Interval {
+  Vec3 low, high;
+};
+Interval interval_of_first(const Lone& a) {
+  return a.direction > 0 ? Interval{a.r, a.q} : Interval{a.q, a.r};
+}
+Interval interval_of_second(const Lone& b) {
+  return b.direction > 0 ? Interval{b.q, b.r} : Interval{b.r, b.q};
+}
+
+Vec3 plane_crossing(const Corners& plane, Vec3 p, Vec3 q) {
+  const Vec3 normal = rounded_normal(plane[0], plane[1], plane[2]);
+  const double hp = dot(normal, p - plane[0]), hq = dot(normal, q - plane[0]);
+  const double t = hp == hq ? 0.5 : std::fmin(1.0, std::fmax(0.0, hp / (hp - hq)));
+  return p + (q - p) * t;
+}
+
+}  // namespace
+
+bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t) {
+  if (collinear(t[0], t[1], t[2])) {
+    const auto [low, high] = extremes(t);
+    return segments_meet(p, q, low, high);
+  }
+  const int sp = orientation(t[0], t[1], t[2], p), sq = orientation(t[0], t[1], t[2], q);
+  if (sp * sq > 0) return false;
+  if (sp == 0 && plane_point_in_triangle(p, t[0], t[1], t[2])) return true;
+  if (sq == 0 && plane_point_in_triangle(q, t[0], t[1], t[2])) return true;
+  if (p == q) return false;
+  if (sp == 0 && sq == 0) {
+    const int axis = projection_axis(rounded_normal(t[0], t[1], t[2]));
+    for (int i = 0; i < 3; ++i) {
+      if (coplanar_segments_meet(p, q, t[i], t[(i + 1) % 3], axis)) return true;
+    }
+    return false;
+  }
+  if (sp == 0 || sq == 0) return false;
+  const int a = orientation(p, q, t[0], t[1]), b = orientation(p, q, t[1], t[2]);
+  if (a * b < 0) return false;
+  const int c = orientation(p, q, t[2], t[0]);
+  return a * c >= 0 && b * c >= 0;
+}
+
+TriangleContact classify(const Corners& a, const Corners& b) {
+  const std::array<int, 3> sb = sides(a, b);
+  if (all_strictly_on_one_side(sb)) return TriangleContact::kDisjoint;
+  const std::array<int, 3> sa = sides(b, a);
+  if (all_strictly_on_one_side(sa)) return TriangleContact::kDisjoint;
+  if (all_zero(sa) || all_zero(sb)) {
+    // Coplanar, or one of them is collinear.
+    const bool meet = any_edge_meets(a, b) || any_edge_meets(b, a);
+    return meet ? TriangleContact::kTouching : TriangleContact::kDisjoint;
+  }
+  const Lone la = from_lone_corner(a, sa), lb = from_lone_corner(b, sb);
+  const Interval ia = interval_of_first(la), ib = interval_of_second(lb);
+  const int low_a_before_high_b = compare_along_line(la, ia.low, lb, ib.high);
+  if (low_a_before_high_b < 0) return TriangleContact::kDisjoint;
+  const int low_b_before_high_a = -compare_along_line(la, ia.high, lb, ib.low);
+  if (low_b_before_high_a < 0) return TriangleContact::kDisjoint;
+  const bool common_segment = low_a_before_high_b > 0 && low_b_before_high_a > 0;
+  return common_segment && straddles(sa) && straddles(sb) ? TriangleContact::kCrossing
+                                                          : TriangleContact::kTouching;
+}
+
+CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
+  if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2])) return CoplanarOverlap::kNone;
+  if (!all_zero(sides(a, b))) return CoplanarOverlap::kNone;
+  const int axis = projection_axis(rounded_normal(a[0], a[1], a[2]));
+  const int turn_a = orientation_2d(a[0], a[1], a[2], axis);
+  const int turn_b = orientation_2d(b[0], b[1], b[2], axis);
+  // Convex sets have no common area when a line along an edge of one parts them.
+  const auto edge_parts = [&](const Corners& t, int turn, const Corners& other) {
+    for (int i = 0; i < 3; ++i) {
+      bool outside = true;
+      for (const Vec3& p : other) {
+        outside = outside && turn * orientation_2d(t[i], t[(i + 1) % 3], p, axis) <= 0;
+      }
+      if (outside) return true;
+    }
+    return false;
+  };
+  if (edge_parts(a, turn_a, b) || edge_parts(b, turn_b, a)) return CoplanarOverlap::kNone;
+  return turn_a == turn_b ? CoplanarOverlap::kAgreeing : CoplanarOverlap::kOpposing;
+}
+
+Vec3 crossing_point(const Corners& a, const Corners& b) {
+  const Lone la = from_lone_corner(a, sides(b, a)), lb = from_lone_corner(b, sides(a, b));
+  const Interval ia = interval_of_first(la), ib = interval_of_second(lb);
+  // The common segment runs from the later of the two low ends to the earlier of the high ends.
+  const Vec3 low = compare_along_line(la, ia.low, lb, ib.low) > 0 ? plane_crossing(a, lb.p, ib.low)
+                                                                  : plane_crossing(b, la.p, ia.low);
+  const Vec3 high = compare_along_line(la, ia.high, lb, ib.high) > 0
+                        ? plane_crossing(b, la.p, ia.high)
+                        : plane_crossing(a, lb.p, ib.high);
+  return low * 0.5 + high * 0.5;
+}
+
+}  // namespace satcheck
