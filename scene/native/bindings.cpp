@@ -1,2 +1,69 @@
+// The Python face of the readers: `satcheck.scene._readers`. The only file here that knows nanobind.
 #include <nanobind/nanobind.h>
-NB_MODULE(_readers, m) { (void)m; }
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
+#include <nanobind/stl/vector.h>
+
+#include <bit>
+
+#include "readers.hpp"
+
+namespace nb = nanobind;
+using namespace satcheck::scene;
+
+namespace {
+
+template <class T>
+nb::bytes to_bytes(const std::vector<T>& values) {
+  static_assert(std::endian::native == std::endian::little, "the arrays are handed over as little-endian bytes");
+  return nb::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+template <ReadOutcome (*Read)(std::string_view)>
+ReadOutcome read(const nb::bytes& data) {
+  const std::string_view bytes(data.c_str(), data.size());
+  nb::gil_scoped_release release;
+  return Read(bytes);
+}
+
+const char* precision_name(const MeshData& mesh) {
+  switch (mesh.precision) {
+    case Precision::written_digits: return "written-digits";
+    case Precision::float32: return "float32";
+    case Precision::float64: return "float64";
+  }
+  return "";
+}
+
+}  // namespace
+
+NB_MODULE(_readers, m) {
+  m.doc() = "Strict readers for OBJ, STL, PLY and OFF: bytes in, coordinates and vertex numbers out.";
+
+  nb::class_<Warning>(m, "Warning", "Something the reader passed over, with a stable code.")
+      .def_ro("code", &Warning::code)
+      .def_ro("message", &Warning::message);
+
+  nb::class_<MeshData>(m, "MeshData", "A mesh as the file wrote it, in file units; all coordinates finite.")
+      .def_prop_ro("vertices", [](const MeshData& mesh) { return to_bytes(mesh.vertices); },
+                   "Little-endian float64 x, y, z of each vertex.")
+      .def_prop_ro("triangles", [](const MeshData& mesh) { return to_bytes(mesh.triangles); },
+                   "Little-endian uint32 vertex numbers, three a triangle.")
+      .def_prop_ro("precision", &precision_name, "\"written-digits\", \"float32\" or \"float64\".")
+      .def_ro("decimals", &MeshData::decimals,
+              "Most digits after the point in a coordinate written without an exponent.")
+      .def_ro("significant", &MeshData::significant,
+              "Most significant digits in a coordinate written with an exponent.")
+      .def_ro("warnings", &MeshData::warnings);
+
+  nb::class_<ReadError>(m, "ReadError", "Why and where a file cannot be used; returned, not raised.")
+      .def_ro("code", &ReadError::code)
+      .def_ro("message", &ReadError::message)
+      .def_ro("line", &ReadError::line, "Line number from 1, or -1.")
+      .def_ro("offset", &ReadError::offset, "Byte offset from 0, or -1.");
+
+  m.def("read_obj", &read<read_obj>, nb::arg("data"), "Wavefront OBJ; polygons as fans.");
+  m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL; three vertices a facet, not welded.");
+  m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
+  m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
+}

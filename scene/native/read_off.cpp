@@ -1,0 +1,120 @@
+// Object File Format (Geomview), ASCII, three-dimensional. One vertex or face a line, as every exporter writes it.
+#include "builder.hpp"
+#include "readers.hpp"
+#include "text.hpp"
+
+namespace satcheck::scene {
+namespace {
+
+constexpr char comment = '#';
+
+class OffReader {
+ public:
+  explicit OffReader(std::string_view bytes) : bytes_(bytes), lines_(bytes) {}
+
+  MeshData read() {
+    if (bytes_.find('\0') != std::string_view::npos) {
+      fail(code::unsupported_feature, "binary data: only ASCII OFF files are read");
+    }
+    header();
+    for (std::int64_t i = 0; i < vertex_count_; ++i) vertex(i);
+    for (std::int64_t i = 0; i < face_count_; ++i) face(i);
+    std::string_view line;
+    if (lines_.next_filled(line, comment)) {
+      fail_at_line(code::trailing_data, "more lines than the header promises", lines_.number());
+    }
+    polygons_.report("line", mesh_);
+    return std::move(mesh_);
+  }
+
+ private:
+  // `OFF`, or with properties `[ST][C][N]OFF`; the counts stand behind it or on the next line.
+  void header() {
+    Words words(required_line("the header"));
+    std::string_view word;
+    words.next(word);
+    std::string_view kind = word;
+    for (std::string_view property : {"ST", "C", "N"}) {
+      if (kind.starts_with(property)) kind.remove_prefix(property.size());
+    }
+    if (kind != "OFF") {
+      const bool relative = kind == "4OFF" || kind == "nOFF" || kind == "4nOFF";
+      fail_at_line(relative ? code::unsupported_feature : code::not_this_format,
+                   relative ? "only three-dimensional OFF files are read"
+                            : "not an OFF file: it starts with " + quoted(word),
+                   lines_.number());
+    }
+    if (words.none_left()) words = Words(required_line("the counts"));
+    vertex_count_ = count(words, "a vertex count");
+    face_count_ = count(words, "a face count");
+  }
+
+  std::int64_t count(Words& words, const char* what) {
+    std::string_view word;
+    if (!words.next(word)) fail_at_line(code::bad_record, std::string("missing ") + what, lines_.number());
+    const std::int64_t value = parse_integer(word, lines_.number(), what);
+    if (value < 0 || value > max_vertices || value > static_cast<std::int64_t>(bytes_.size())) {
+      fail_at_line(code::count_mismatch, std::string(what) + " of " + std::to_string(value) +
+                                             " does not fit into a file of " + std::to_string(bytes_.size()) + " bytes",
+                   lines_.number());
+    }
+    return value;
+  }
+
+  std::string_view required_line(const std::string& what) {
+    std::string_view line;
+    if (!lines_.next_filled(line, comment)) {
+      fail_at_line(code::truncated, "truncated: the file ends before " + what, lines_.number());
+    }
+    return line;
+  }
+
+  void vertex(std::int64_t i) {
+    Words words(required_line("vertex " + std::to_string(i + 1) + " of " + std::to_string(vertex_count_)));
+    parse_vertex(words, lines_.number(), mesh_);  // normals, colours and texture coordinates may follow
+  }
+
+  void face(std::int64_t i) {
+    Words words(required_line("face " + std::to_string(i + 1) + " of " + std::to_string(face_count_)));
+    const std::int64_t line = lines_.number();
+    std::string_view word;
+    words.next(word);
+    const std::int64_t sides = parse_integer(word, line, "the number of corners");
+    if (sides < 0) fail_at_line(code::bad_record, "bad face record: negative number of corners", line);
+    corners_.clear();
+    for (std::int64_t corner = 0; corner < sides; ++corner) {
+      if (!words.next(word)) {
+        fail_at_line(code::bad_record, "bad face record: " + std::to_string(sides) + " corners promised, " +
+                                           std::to_string(corner) + " given",
+                     line);
+      }
+      const std::int64_t index = parse_integer(word, line, "a vertex number");
+      if (index < 0 || index >= vertex_count_) {
+        fail_at_line(code::index_out_of_range, "face index out of range: " + std::to_string(index) + " of " +
+                                                   std::to_string(vertex_count_) + " vertices",
+                     line);
+      }
+      corners_.push_back(static_cast<std::uint32_t>(index));
+    }
+    polygons_.add(corners_, line, mesh_);
+  }
+
+  std::string_view bytes_;
+  Lines lines_;
+  MeshData mesh_;
+  Polygons polygons_;
+  std::int64_t vertex_count_ = 0, face_count_ = 0;
+  std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+ReadOutcome read_off(std::string_view bytes) {
+  return run_reader([&] {
+    MeshData mesh = OffReader(bytes).read();
+    require_triangles(mesh);
+    return mesh;
+  });
+}
+
+}  // namespace satcheck::scene

@@ -1,0 +1,58 @@
+// What a reader hands back: the mesh as the file wrote it, or the first thing wrong with the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace satcheck::scene {
+
+// How finely the file's coordinates were written; decides what "touching" may mean.
+enum class Precision { written_digits, float32, float64 };
+
+struct Warning {
+  std::string code;
+  std::string message;
+};
+
+struct MeshData {
+  std::vector<double> vertices;          // x, y, z of vertex 0, of vertex 1, ...: file units, all finite
+  std::vector<std::uint32_t> triangles;  // three vertex numbers each, all below vertices.size() / 3
+  Precision precision = Precision::written_digits;
+  int decimals = 0;     // most digits after the point in a coordinate written without exponent
+  int significant = 0;  // most significant digits in a coordinate written with an exponent
+  std::vector<Warning> warnings;
+};
+
+constexpr std::int64_t nowhere = -1;
+
+// The reader stopped here. `line` counts from 1 and `offset` from 0; `nowhere` when the place says nothing.
+struct ReadError {
+  std::string code;
+  std::string message;
+  std::int64_t line = nowhere;
+  std::int64_t offset = nowhere;
+};
+
+using ReadOutcome = std::variant<MeshData, ReadError>;
+
+// Stable codes; scene/codes.py explains each in one sentence.
+namespace code {
+inline constexpr const char* not_this_format = "not-this-format";
+inline constexpr const char* truncated = "truncated";
+inline constexpr const char* trailing_data = "trailing-data";
+inline constexpr const char* count_mismatch = "count-mismatch";
+inline constexpr const char* bad_record = "bad-record";
+inline constexpr const char* non_finite = "non-finite";
+inline constexpr const char* index_out_of_range = "index-out-of-range";
+inline constexpr const char* empty_mesh = "empty-mesh";
+inline constexpr const char* unsupported_feature = "unsupported-feature";
+inline constexpr const char* too_large = "too-large";
+inline constexpr const char* short_face = "short-face";
+inline constexpr const char* unknown_statement = "unknown-statement";
+inline constexpr const char* ignored_geometry = "ignored-geometry";
+}  // namespace code
+
+}  // namespace satcheck::scene
