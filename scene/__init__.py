@@ -1,1 +1,27 @@
-"""satcheck: TODO."""
+"""satcheck.scene: files -> bodies, with what is known about each mesh before anything trusts it.
+
+`load_scene(paths)` reads mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE) and scene files
+(`satcheck-scene-1`). A mesh file that cannot be used is reported as `Unreadable`; warnings about
+the others are `Issue`s with the stable codes of `CODES`.
+"""
+
+from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
+from satcheck.scene.codes import CODES, Code
+from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.health import MeshHealth
+from satcheck.scene.issue import Issue
+from satcheck.scene.loader import load_scene
+
+__all__ = [
+    "CODES",
+    "Body",
+    "Code",
+    "Issue",
+    "MeshFile",
+    "MeshFileError",
+    "MeshHealth",
+    "Scene",
+    "SceneFileError",
+    "Unreadable",
+    "load_scene",
+]

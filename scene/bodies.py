@@ -1,0 +1,128 @@
+"""What the rest of satcheck gets: bodies with a mesh, a pose and a known state of health."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from satcheck.core import Mesh, Topology
+from satcheck.scene.health import MeshHealth
+from satcheck.scene.issue import Issue
+from satcheck.scene.resolution import FLOAT64_ROUNDING
+
+Transform = tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MeshFile:
+    """One mesh file, flattened into one mesh in file units.
+
+    path: as given, with "/". sha256: of the file's bytes. format: "obj", "stl", "ply", "off",
+    "glb", "gltf", "3mf" or "dae". resolution: how finely its coordinates were written, in file
+    units. units: as the file declares them. mesh: welded, wound outward where that can be decided.
+    topology: of the welded mesh before that repair. issues: warnings about this file.
+    """
+
+    path: str
+    sha256: str
+    format: str
+    resolution: float
+    units: str | None
+    mesh: Mesh = field(repr=False)
+    topology: Topology = field(repr=False)
+    health: MeshHealth
+    issues: tuple[Issue, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Body:
+    """A mesh file placed in the world.
+
+    transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1), affine and not
+    singular; None: as in the file. group: bodies of one group may be exempt from each other.
+    """
+
+    id: str
+    name: str
+    file: MeshFile
+    transform: Transform | None = None
+    group: str | None = None
+    static: bool = False
+
+    def world_mesh(self) -> Mesh:
+        """The mesh in world coordinates, each rounded once; ValueError when one overflows."""
+        if self.transform is None:
+            return self.file.mesh
+        return self.file.mesh.transformed(self.transform)
+
+    @property
+    def resolution_world(self) -> float:
+        """How finely the world coordinates are known: the file's resolution, stretched, plus the
+        rounding of the placement."""
+        if self.transform is None:
+            return self.file.resolution
+        low, high = self.file.mesh.bounds
+        largest = max(max(abs(a), abs(b)) for a, b in zip(low, high, strict=True))
+        rounding = _largest_coordinate(self.transform, largest) * FLOAT64_ROUNDING
+        return self.file.resolution * largest_stretch(self.transform) + rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Unreadable:
+    """A body that could not be loaded, and why."""
+
+    id: str
+    file: str
+    issue: Issue
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Everything that was asked to be checked, in the order given.
+
+    units: as declared by the scene files, None where they disagree or say nothing.
+    ignore_within_groups: groups whose bodies are not checked against each other.
+    allowed_pairs: two body ids -> why they may overlap.
+    issues: all of them, those of `unreadable` and of each mesh file included.
+    """
+
+    name: str
+    units: str | None
+    bodies: tuple[Body, ...]
+    unreadable: tuple[Unreadable, ...] = ()
+    ignore_within_groups: frozenset[str] = frozenset()
+    allowed_pairs: dict[frozenset[str], str] = field(default_factory=dict)
+    issues: tuple[Issue, ...] = ()
+
+
+def largest_stretch(transform: Transform) -> float:
+    """How much longer the transform can make a length: its largest singular value.
+
+    The largest eigenvalue of M^T M in closed form: Smith, "Eigenvalues of a symmetric 3 x 3
+    matrix" (1961).
+    """
+    columns = [[transform[4 * row + column] for row in range(3)] for column in range(3)]
+    gram = [[sum(x * y for x, y in zip(a, b, strict=True)) for b in columns] for a in columns]
+    mean = (gram[0][0] + gram[1][1] + gram[2][2]) / 3.0
+    off_diagonal = gram[0][1] ** 2 + gram[0][2] ** 2 + gram[1][2] ** 2
+    spread = sum((gram[i][i] - mean) ** 2 for i in range(3)) + 2.0 * off_diagonal
+    radius = math.sqrt(spread / 6.0)
+    if radius == 0.0:
+        return math.sqrt(mean)
+    shifted = [[(gram[i][j] - mean * (i == j)) / radius for j in range(3)] for i in range(3)]
+    half_determinant = max(-1.0, min(1.0, _determinant(shifted) / 2.0))
+    return math.sqrt(mean + 2.0 * radius * math.cos(math.acos(half_determinant) / 3.0))
+
+
+def _determinant(m: list[list[float]]) -> float:
+    return (
+        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+        - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+        + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+    )
+
+
+def _largest_coordinate(transform: Transform, largest: float) -> float:
+    """An upper bound of |world coordinate| for file coordinates up to `largest`."""
+    rows = (transform[4 * row : 4 * row + 4] for row in range(3))
+    return max((abs(a) + abs(b) + abs(c)) * largest + abs(t) for a, b, c, t in rows)

@@ -1,0 +1,71 @@
+"""The one catalogue of what can be wrong with an input: stable codes, severities, meanings.
+
+`error`: the file or the scene cannot be used. `warning`: it is used, and this should be known.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Severity = Literal["error", "warning", "note"]
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """One kind of finding about an input."""
+
+    name: str
+    severity: Severity
+    meaning: str
+
+
+_ALL = (
+    # The file as a file.
+    Code("file-not-found", "error", "There is no file at this path."),
+    Code("not-a-file", "error", "The path names a directory or a device, not a file."),
+    Code("unreadable-file", "error", "The operating system refused to read the file."),
+    Code("unsupported-format", "error", "The name's suffix belongs to no format that is read."),
+    Code("format-mismatch", "error", "The content is of another format than the suffix says."),
+    Code("not-this-format", "error", "The content is not of the format that the suffix says."),
+    Code("too-large", "error", "The file, or what it unpacks to, exceeds a size limit."),
+    Code("reader-timeout", "error", "Reading the file took longer than the time limit."),
+    Code("reader-out-of-memory", "error", "Reading the file took more memory than the limit."),
+    Code("reader-failed", "error", "The reader of this format failed on the file."),
+    # Its records.
+    Code("truncated", "error", "The file ends before what it promises."),
+    Code("trailing-data", "error", "The file goes on after what it promises."),
+    Code("count-mismatch", "error", "A promised number of records does not fit the content."),
+    Code("bad-record", "error", "A record is not what the format prescribes."),
+    Code("bad-encoding", "error", "Text is not in an encoding the format allows."),
+    Code("unsupported-feature", "error", "The geometry needs a feature that is not read."),
+    Code("index-out-of-range", "error", "A face or a reference names something not there."),
+    Code("reference-cycle", "error", "Nodes or components refer to each other in a circle."),
+    Code("missing-resource", "error", "A file that this file refers to is missing."),
+    Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
+    Code("entity-declaration", "error", "XML entity declarations are refused."),
+    # Its geometry.
+    Code("non-finite", "error", "A coordinate is infinite or not a number."),
+    Code("empty-mesh", "error", "The mesh has no triangles."),
+    Code("only-degenerate", "error", "Every triangle of the mesh has area 0."),
+    Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
+    Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),
+    Code("unknown-statement", "warning", "A statement unknown to the format was ignored."),
+    Code("ignored-geometry", "warning", "Geometry that is not made of triangles was ignored."),
+    Code("rest-shape", "warning", "Skinning and morphing are ignored: the rest shape is used."),
+    Code("not-closed", "warning", "The surface has a boundary: inside and outside are undefined."),
+    Code("not-manifold", "warning", "An edge has more than two triangles."),
+    Code("misoriented", "warning", "Neighbouring triangles disagree on which side is outside."),
+    Code("inside-out", "warning", "The mesh, or a part of it, faced inward and was turned."),
+    Code("double-sided", "warning", "Each face exists in both orientations: not a solid."),
+    Code("flat", "warning", "All triangles lie in one plane: the mesh has no volume."),
+    Code("no-volume", "warning", "The mesh is closed and encloses no volume: not a solid."),
+    Code("degenerate-triangles", "warning", "Some triangles have area 0."),
+    Code("duplicate-triangles", "warning", "Some triangles occur more than once."),
+    # The scene file.
+    Code("bad-scene", "error", "The scene file is not of the form satcheck-scene-1."),
+    Code("duplicate-id", "error", "Two bodies of a scene have the same id."),
+    Code("unknown-body", "warning", "An allowed pair names a body that the scene lacks."),
+)
+
+CODES: dict[str, Code] = {code.name: code for code in _ALL}

@@ -1,0 +1,132 @@
+"""Whether a mesh can be trusted: its topology, what was repaired, and what to warn about."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from satcheck.core import Mesh, Topology
+from satcheck.scene.errors import MeshFileError
+
+
+@dataclass(frozen=True, slots=True)
+class MeshHealth:
+    """The mesh as read, welded. Edges are counted where triangles meet.
+
+    closed: every edge has an even number of triangles. manifold: exactly two. oriented: all
+    triangles agreed on which side is outside. volume: signed, file units cubed, 0.0 unless closed
+    and oriented. inside_out: parts faced inward and were turned. double_sided: each face exists in
+    both orientations. flat: all vertices in one plane. solid: after repair, inside and outside are
+    defined.
+    """
+
+    vertices: int
+    triangles: int
+    components: int
+    boundary_edges: int
+    nonmanifold_edges: int
+    misoriented_edges: int
+    degenerate_triangles: int
+    duplicate_triangles: int
+    closed: bool
+    manifold: bool
+    oriented: bool
+    volume: float
+    inside_out: bool
+    double_sided: bool
+    flat: bool
+    solid: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Examined:
+    """A welded mesh, wound outward where that could be decided, and what was found on the way.
+
+    topology: before the repair. warnings: (code, message).
+    """
+
+    mesh: Mesh
+    topology: Topology
+    health: MeshHealth
+    warnings: tuple[tuple[str, str], ...]
+
+
+def examine(mesh: Mesh) -> Examined:
+    """Welds, inspects and orients a mesh.
+
+    Raises MeshFileError (without a file name) when no triangle has an area.
+    """
+    welded = mesh.welded()
+    topology = welded.topology()
+    if topology.degenerate_triangles == topology.triangles:
+        raise MeshFileError(
+            "only-degenerate",
+            f"only degenerate triangles: all {topology.triangles} have area 0",
+        )
+    repaired = welded.oriented() if topology.closed else welded
+    turned = repaired.to_bytes() != welded.to_bytes()
+    after = repaired.topology() if turned else topology
+    # An even number of triangles at every edge and each face in pairs: front and back of a sheet.
+    double_sided = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
+    health = MeshHealth(
+        vertices=topology.vertices,
+        triangles=topology.triangles,
+        components=topology.components,
+        boundary_edges=topology.boundary_edges,
+        nonmanifold_edges=topology.nonmanifold_edges,
+        misoriented_edges=topology.misoriented_edges,
+        degenerate_triangles=topology.degenerate_triangles,
+        duplicate_triangles=topology.duplicate_triangles,
+        closed=topology.closed,
+        manifold=topology.manifold,
+        oriented=topology.oriented,
+        volume=topology.volume,
+        inside_out=turned and topology.oriented,
+        double_sided=double_sided,
+        flat=not after.solid and _is_flat(welded),
+        solid=after.solid,
+    )
+    return Examined(repaired, topology, health, tuple(_warnings(health, turned)))
+
+
+def _is_flat(mesh: Mesh) -> bool:
+    low, high = mesh.bounds
+    thin = any(low[axis] == high[axis] for axis in range(3))
+    return thin or mesh.convex_hull().dimension < 3
+
+
+def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
+    warnings = []
+    surface_only = "only its surface is checked, not what lies inside"
+    if health.boundary_edges:
+        edges = _count(health.boundary_edges, "boundary edge")
+        warnings.append(("not-closed", f"not closed ({edges}): {surface_only}"))
+    if health.double_sided:
+        warnings.append(
+            ("double-sided", f"every face exists in both orientations, not a solid: {surface_only}")
+        )
+    elif health.nonmanifold_edges:
+        edges = _count(health.nonmanifold_edges, "edge")
+        verb = "has" if health.nonmanifold_edges == 1 else "have"
+        warnings.append(("not-manifold", f"{edges} {verb} more than two triangles"))
+    if health.misoriented_edges:
+        edges = _count(health.misoriented_edges, "misoriented edge")
+        outcome = "repaired" if turned and health.solid else "not repaired"
+        warnings.append(("misoriented", f"inconsistent face orientation ({edges}): {outcome}"))
+    if health.inside_out:
+        what = "the mesh" if health.components == 1 else "at least one part of the mesh"
+        warnings.append(("inside-out", f"{what} faced inward (volume {health.volume:g}): turned"))
+    if health.flat:
+        warnings.append(("flat", f"all triangles lie in one plane, no volume: {surface_only}"))
+    elif health.closed and not health.solid and not health.double_sided:
+        warnings.append(("no-volume", f"closed, but not the boundary of a solid: {surface_only}"))
+    if health.degenerate_triangles:
+        triangles = _count(health.degenerate_triangles, "triangle")
+        warnings.append(("degenerate-triangles", f"{triangles} of area 0"))
+    if health.duplicate_triangles and not health.double_sided:
+        triangles = _count(health.duplicate_triangles, "triangle")
+        warnings.append(("duplicate-triangles", f"{triangles} repeat an earlier one"))
+    return warnings
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -1,0 +1,149 @@
+"""Paths -> Scene: every path contributes bodies; what cannot be read is said, not dropped."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading import load_mesh_file
+
+SCENE_SUFFIX = ".json"
+DEFAULT_SECONDS_PER_FILE = 60.0
+DEFAULT_MEGABYTES_PER_FILE = 2048
+
+
+def load_scene(
+    paths: Sequence[str | Path],
+    *,
+    seconds_per_file: float = DEFAULT_SECONDS_PER_FILE,
+    megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE,
+) -> Scene:
+    """All bodies of the given mesh files and scene files, in that order.
+
+    A mesh file is one body: the whole file, flattened (nodes, instances and build items applied),
+    without unit or up-axis conversion. A `.json` file is a scene of the form satcheck-scene-1.
+    Ids are file stems or those of the scene, with -2, -3, ... where they occur again.
+    seconds_per_file, megabytes_per_file: limits for reading one mesh file.
+
+    A mesh file that cannot be used becomes an Unreadable with an error issue and the rest still
+    loads. Raises SceneFileError for a scene file that is wrong in itself.
+    """
+    loader = _Loader(seconds_per_file, megabytes_per_file)
+    for path in paths:
+        given = str(path).replace("\\", "/") if isinstance(path, Path) else path
+        if Path(path).suffix.lower() == SCENE_SUFFIX:
+            loader.add_scene(given, Path(path))
+        else:
+            loader.add_mesh(given, Path(path))
+    return loader.scene()
+
+
+class _Loader:
+    def __init__(self, seconds: float, megabytes: int) -> None:
+        self._seconds = seconds
+        self._megabytes = megabytes
+        self._files: dict[Path, MeshFile | MeshFileError] = {}
+        self._ids: set[str] = set()
+        self._names: list[str] = []
+        self._units: list[str] = []
+        self._bodies: list[Body] = []
+        self._unreadable: list[Unreadable] = []
+        self._ignored_groups: set[str] = set()
+        self._allowed: dict[frozenset[str], str] = {}
+        self._issues: list[Issue] = []
+
+    def add_mesh(self, path: str, location: Path) -> None:
+        name = location.stem or path
+        self._names.append(name)
+        self._add_body(name, path, location, None, None, False)
+
+    def add_scene(self, path: str, location: Path) -> None:
+        from satcheck.scene.scene_file import read_scene_file
+
+        scene = read_scene_file(path, location)
+        self._names.append(scene.name)
+        if scene.units:
+            self._units.append(scene.units)
+        ids = {
+            entry.id: self._add_body(
+                entry.id, entry.mesh, entry.location, entry.transform, entry.group, entry.static
+            )
+            for entry in scene.bodies
+        }
+        self._ignored_groups |= scene.ignore_within_groups
+        for pair, reason in scene.allowed_pairs.items():
+            self._allowed[frozenset(ids[id_] for id_ in pair)] = reason
+        self._issues.extend(scene.issues)
+
+    def _add_body(
+        self,
+        name: str,
+        path: str,
+        location: Path,
+        transform: tuple[float, ...] | None,
+        group: str | None,
+        static: bool,
+    ) -> str:
+        id_ = self._unique(name)
+        file = self._file(path, location)
+        if isinstance(file, MeshFile):
+            self._bodies.append(Body(id_, name, file, transform, group, static))
+        else:
+            reason = issue(file.code, str(file), body=id_, file=path)
+            self._unreadable.append(Unreadable(id_, path, reason))
+        return id_
+
+    def _unique(self, name: str) -> str:
+        id_, number = name, 2
+        while id_ in self._ids:
+            id_, number = f"{name}-{number}", number + 1
+        self._ids.add(id_)
+        return id_
+
+    def _file(self, path: str, location: Path) -> MeshFile | MeshFileError:
+        """Loaded once however many bodies use it, by whatever path."""
+        key = Path(location).absolute()
+        if key not in self._files:
+            try:
+                self._files[key] = load_mesh_file(
+                    path, location, seconds=self._seconds, megabytes=self._megabytes
+                )
+            except MeshFileError as error:
+                self._files[key] = error
+        return self._files[key]
+
+    def scene(self) -> Scene:
+        units = set(self._units)
+        return Scene(
+            name=" ".join(self._names),
+            units=units.pop() if len(units) == 1 else None,
+            bodies=tuple(self._bodies),
+            unreadable=tuple(self._unreadable),
+            ignore_within_groups=frozenset(self._ignored_groups),
+            allowed_pairs=self._allowed,
+            issues=(
+                *self._issues,
+                *(lost.issue for lost in self._unreadable),
+                *self._file_issues(),
+            ),
+        )
+
+    def _file_issues(self) -> list[Issue]:
+        """Each file's warnings once: with the body's id where only one body uses the file."""
+        users: dict[str, list[Body]] = {}
+        for body in self._bodies:
+            users.setdefault(body.file.path, []).append(body)
+        return [
+            Issue(
+                found.code,
+                found.severity,
+                bodies[0].id if len(bodies) == 1 else None,
+                found.file,
+                found.message,
+            )
+            for bodies in users.values()
+            for found in bodies[0].file.issues
+        ]

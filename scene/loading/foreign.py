@@ -1,0 +1,51 @@
+"""The formats that are read in a child process, from this process' side.
+
+A file of such a format is untrusted input to large parsers, so all of its reading (the checks
+before, the parser, the checks after) happens in `foreign_worker`, with a time and memory limit.
+"""
+
+from __future__ import annotations
+
+from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout, run_isolated
+from satcheck.scene.codes import CODES
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading import protocol
+from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.source import Source
+
+_WORKER = "satcheck.scene.loading.foreign_worker"
+_CODE_OF_WORKER = {
+    "worker-timeout": "reader-timeout",
+    "worker-out-of-memory": "reader-out-of-memory",
+}
+
+
+def read_foreign(source: Source, *, seconds: float, megabytes: int) -> RawMesh:
+    """The mesh of a GLB, glTF, 3MF or DAE file; raises MeshFileError."""
+    request = protocol.pack_request(
+        source.format, str(source.location.absolute().parent), source.data
+    )
+    try:
+        reply = run_isolated(_WORKER, request, seconds=seconds, megabytes=megabytes)
+    except WorkerError as error:
+        raise MeshFileError(
+            _CODE_OF_WORKER.get(error.code, "reader-failed"),
+            _explain(error, source, megabytes),
+            file=source.path,
+        ) from error
+    answer = protocol.unpack_reply(reply)
+    if isinstance(answer, protocol.Refusal):
+        code = answer.code if answer.code in CODES else "reader-failed"
+        raise MeshFileError(code, answer.message, file=source.path)
+    return answer
+
+
+def _explain(error: WorkerError, source: Source, megabytes: int) -> str:
+    kind = source.format.upper()
+    if isinstance(error, WorkerTimeout):
+        return f"reading this {kind} file was stopped after {error.seconds:g} s"
+    if error.code == "worker-out-of-memory":
+        return f"reading this {kind} file needs more than {megabytes} MiB"
+    if isinstance(error, WorkerFailed):
+        return f"the {kind} reader failed: {error.exception_type}: {error.exception_message}"
+    return f"the {kind} reader died: {error.message}"

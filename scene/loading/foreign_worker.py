@@ -1,0 +1,29 @@
+"""The reading child: checks a GLB, glTF, 3MF or DAE file, reads it, checks what came out."""
+
+from __future__ import annotations
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading import protocol
+from satcheck.scene.loading.raw_mesh import RawMesh
+
+
+def serve(request: bytes) -> bytes:
+    """Answers one request of `protocol`; a file that cannot be used is an answer too."""
+    try:
+        return protocol.pack_reply(_read(protocol.unpack_request(request)))
+    except MeshFileError as error:
+        return protocol.pack_reply(protocol.Refusal(error.code, error.message))
+
+
+def _read(request: protocol.Request) -> RawMesh:
+    if request.format == "3mf":
+        from satcheck.scene.loading.threemf import read_3mf
+
+        return read_3mf(request.data)
+    if request.format == "dae":
+        from satcheck.scene.loading.collada import read_collada
+
+        return read_collada(request.data)
+    from satcheck.scene.loading.gltf import read_gltf
+
+    return read_gltf(request.data, request.directory, binary=request.format == "glb")

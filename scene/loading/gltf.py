@@ -1,0 +1,229 @@
+"""glTF 2.0 and GLB: the triangles of the default scene in their rest shape, node transforms applied.
+
+Read here and not by a general loader: everything that has to be checked before such a loader may
+be trusted (chunks, buffers, views, accessors, the node graph) is most of the reading itself, and a
+scene of fifty GLB files would wait a second for each to be loaded that way. Materials, textures,
+cameras, animations are never touched. Sources: the Khronos glTF 2.0 specification.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from array import array
+from typing import Any, NoReturn
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.flatten import Matrix, concatenate, flatten, multiply
+from satcheck.scene.loading.gltf_buffers import Accessors, integer, items, member, split_glb
+from satcheck.scene.loading.raw_mesh import RawMesh
+
+_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
+_NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
+# Extensions a file may require without changing where its triangles are.
+_HARMLESS_PREFIXES = ("KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "KHR_xmp_")
+_HARMLESS = frozenset({"KHR_mesh_quantization"})
+# Extensions that add geometry even where they are optional.
+_ADDING = frozenset({"EXT_mesh_gpu_instancing"})
+
+
+def read_gltf(data: memoryview, directory: str, *, binary: bool) -> RawMesh:
+    """The default scene of a glTF file, flattened.
+
+    directory: where relative buffer URIs start, and what they may not leave.
+    binary: GLB. Raises MeshFileError without a file name.
+    """
+    text, chunk = split_glb(data) if binary else (data, None)
+    document = _parse_json(text)
+    _check_extensions(document)
+    return _Scene(document, Accessors(document, chunk, directory)).read()
+
+
+def _parse_json(text: memoryview) -> dict[str, Any]:
+    def refuse(token: str) -> NoReturn:
+        raise MeshFileError("bad-record", f"JSON: {token} is not a number of glTF")
+
+    try:
+        document = json.loads(str(text, "utf-8-sig"), parse_constant=refuse)
+    except UnicodeDecodeError:
+        raise MeshFileError("bad-encoding", "the JSON is not UTF-8") from None
+    except json.JSONDecodeError as error:
+        raise MeshFileError(
+            "bad-record", f"line {error.lineno}: not well-formed JSON: {error.msg}"
+        ) from None
+    except RecursionError:
+        raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
+    if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
+        raise MeshFileError("not-this-format", "not a glTF file: no asset object")
+    version = document["asset"].get("version")
+    if not isinstance(version, str) or not version.startswith("2."):
+        raise MeshFileError("unsupported-feature", f"glTF version {version!r}: 2.x is read")
+    return document
+
+
+def _check_extensions(document: dict[str, Any]) -> None:
+    for name in items(document, "extensionsRequired"):
+        harmless = name in _HARMLESS or str(name).startswith(_HARMLESS_PREFIXES)
+        if not harmless:
+            raise MeshFileError("unsupported-feature", f"the file requires extension {name!r}")
+    for name in items(document, "extensionsUsed"):
+        if name in _ADDING:
+            raise MeshFileError("unsupported-feature", f"extension {name!r} is not read")
+
+
+class _Scene:
+    def __init__(self, document: dict[str, Any], accessors: Accessors) -> None:
+        self._document = document
+        self._accessors = accessors
+        self._nodes = items(document, "nodes")
+        self._warnings: dict[str, str] = {}
+        self._meshes: dict[int, list[tuple[bytes, bytes]]] = {}
+        self._counts: dict[int, int] = {}
+
+    def read(self) -> RawMesh:
+        instances = flatten(
+            [(root, self._matrix(root)) for root in self._roots()],
+            children=self._children,
+            triangle_count=self._triangle_count,
+            name=lambda node: f"node {node}",
+        )
+        vertices, triangles = concatenate(
+            (*primitive, instance.matrix)
+            for instance in instances
+            for primitive in self._mesh(self._mesh_of(instance.key))
+        )
+        if not triangles:
+            raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
+        return RawMesh(
+            vertices=vertices,
+            triangles=triangles,
+            precision="float32",
+            units="meter",
+            warnings=tuple(self._warnings.items()),
+        )
+
+    def _roots(self) -> list[int]:
+        scenes = items(self._document, "scenes")
+        if scenes:
+            chosen = member(scenes, integer(self._document, "scene", 0), "scene")
+            return [self._node_number(number) for number in items(chosen, "nodes")]
+        placed = {child for node in range(len(self._nodes)) for child, _ in self._children(node)}
+        roots = [node for node in range(len(self._nodes)) if node not in placed]
+        if self._nodes and not roots:
+            raise MeshFileError("reference-cycle", "every node is a child of another: a cycle")
+        return roots
+
+    def _node_number(self, number: object) -> int:
+        if type(number) is not int:
+            raise MeshFileError("bad-record", f"node {number!r} is not a number")
+        member(self._nodes, number, "node")
+        return number
+
+    def _children(self, node: int) -> list[tuple[int, Matrix | None]]:
+        numbers = items(member(self._nodes, node, "node"), "children")
+        return [(child := self._node_number(n), self._matrix(child)) for n in numbers]
+
+    def _matrix(self, number: int) -> Matrix | None:
+        node = member(self._nodes, number, "node")
+        if "matrix" in node:
+            columns = _numbers(node, "matrix", 16, number)
+            if columns[3:16:4] != [0.0, 0.0, 0.0, 1.0]:
+                raise MeshFileError("bad-record", f"node {number}: the matrix is not affine")
+            return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
+        placement: Matrix | None = None
+        if "translation" in node:
+            x, y, z = _numbers(node, "translation", 3, number)
+            placement = (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
+        if "rotation" in node:
+            placement = multiply(placement, _rotation(_numbers(node, "rotation", 4, number)))
+        if "scale" in node:
+            x, y, z = _numbers(node, "scale", 3, number)
+            scale = (x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1)
+            placement = multiply(placement, scale)
+        return placement
+
+    def _mesh_of(self, number: int) -> int:
+        node = member(self._nodes, number, "node")
+        if "skin" in node:
+            self._warnings["rest-shape"] = "skinning is ignored: the rest shape is used"
+        return integer(node, "mesh", -1)
+
+    def _triangle_count(self, number: int) -> int:
+        mesh = self._mesh_of(number)
+        if mesh < 0:
+            return 0
+        if mesh not in self._counts:
+            self._counts[mesh] = sum(len(indices) // 12 for _, indices in self._mesh(mesh))
+        return self._counts[mesh]
+
+    def _mesh(self, number: int) -> list[tuple[bytes, bytes]]:
+        """(float64 vertices, uint32 triangles) of each primitive that has triangles."""
+        if number not in self._meshes:
+            mesh = member(items(self._document, "meshes"), number, "mesh")
+            primitives = (
+                self._primitive(primitive, f"mesh {number}")
+                for primitive in items(mesh, "primitives")
+            )
+            self._meshes[number] = [primitive for primitive in primitives if primitive is not None]
+        return self._meshes[number]
+
+    def _primitive(self, primitive: Any, where: str) -> tuple[bytes, bytes] | None:
+        mode = integer(primitive, "mode", _TRIANGLES)
+        if mode in _NO_TRIANGLES:
+            self._warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
+            return None
+        attributes = primitive.get("attributes")
+        if mode > _FAN or not isinstance(attributes, dict) or "POSITION" not in attributes:
+            raise MeshFileError("bad-record", f"{where}: a primitive without positions or mode")
+        if primitive.get("targets"):
+            self._warnings["rest-shape"] = "morphing is ignored: the rest shape is used"
+        positions = self._accessors.positions(integer(attributes, "POSITION", -1))
+        count = len(positions) // 3
+        if "indices" in primitive:
+            corners = self._accessors.indices(integer(primitive, "indices", -1))
+        else:
+            corners = array("I", range(count))
+        if corners and max(corners) >= count:
+            raise MeshFileError(
+                "index-out-of-range",
+                f"{where}: index out of range: {max(corners)} of {count} vertices",
+            )
+        return positions.tobytes(), _triangles(corners, mode, where).tobytes()
+
+
+def _triangles(corners: array[int], mode: int, where: str) -> array[int]:
+    if mode == _TRIANGLES:
+        if len(corners) % 3:
+            raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
+        return corners
+    triangles = array("I")
+    for i in range(len(corners) - 2):
+        if mode == _FAN:
+            triangles.extend((corners[i + 1], corners[i + 2], corners[0]))
+        else:  # in a strip, every other triangle runs backwards
+            triangles.extend((corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]))
+    return triangles
+
+
+def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[float]:
+    values = items(node, key)
+    good = len(values) == count and all(
+        type(value) in (int, float) and abs(value) <= sys.float_info.max for value in values
+    )
+    if not good:
+        raise MeshFileError("bad-record", f"node {number}: {key} needs {count} finite numbers")
+    return [float(value) for value in values]
+
+
+def _rotation(quaternion: list[float]) -> Matrix:
+    norm = math.hypot(*quaternion)
+    if norm == 0.0:
+        raise MeshFileError("bad-record", "a rotation quaternion is zero")
+    x, y, z, w = (value / norm for value in quaternion)
+    return (
+        *(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0.0),
+        *(2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0.0),
+        *(2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0.0),
+        *(0.0, 0.0, 0.0, 1.0),
+    )

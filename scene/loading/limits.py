@@ -1,0 +1,22 @@
+"""What a file may cost. Each limit guards against files that are small and become huge."""
+
+from __future__ import annotations
+
+BYTES_PER_MEGABYTE = 1 << 20
+
+# A reader needs up to about three times a text file's size, so a file may take this share of the
+# memory limit.
+FILE_SHARE_OF_MEMORY = 4
+
+# Instances multiply triangles: a dozen nested components can promise 10^12 of them.
+MAX_TRIANGLES = 50_000_000
+
+# XML compresses about 4:1 to 20:1; a part that unpacks further than this, to more than a few
+# megabytes, is filler.
+MAX_INFLATION = 200
+SMALL_PART_BYTES = 8 * BYTES_PER_MEGABYTE
+MAX_PART_BYTES = 1024 * BYTES_PER_MEGABYTE
+
+# glTF is read by our own code, every range checked; what its JSON can cost is a few tens of times
+# its size, so up to here a child process would only cost time.
+IN_PROCESS_BYTES = 4 * BYTES_PER_MEGABYTE

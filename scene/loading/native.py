@@ -1,0 +1,40 @@
+"""OBJ, STL, PLY and OFF through the strict native readers, in this process."""
+
+from __future__ import annotations
+
+from satcheck.scene import _readers
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.source import Source
+
+_READERS = {
+    "obj": _readers.read_obj,
+    "stl": _readers.read_stl,
+    "ply": _readers.read_ply,
+    "off": _readers.read_off,
+}
+
+NATIVE_FORMATS = frozenset(_READERS)
+
+
+def read_native(source: Source) -> RawMesh:
+    """The mesh of a file in one of `NATIVE_FORMATS`; raises MeshFileError with line or byte."""
+    found = _READERS[source.format](source.data)
+    if isinstance(found, _readers.ReadError):
+        raise MeshFileError(found.code, f"{_place(found)}{found.message}", file=source.path)
+    return RawMesh(
+        vertices=found.vertices,
+        triangles=found.triangles,
+        precision=found.precision,
+        decimals=found.decimals,
+        significant=found.significant,
+        warnings=tuple((warning.code, warning.message) for warning in found.warnings),
+    )
+
+
+def _place(error: _readers.ReadError) -> str:
+    if error.line >= 0:
+        return f"line {error.line}: "
+    if error.offset >= 0:
+        return f"byte {error.offset}: "
+    return ""

@@ -1,0 +1,61 @@
+"""XML from strangers: an expat parser that refuses entities and names the line of a defect."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import IO, NoReturn
+from xml.parsers import expat
+
+from satcheck.scene.errors import MeshFileError
+
+_NAMESPACE_SEPARATOR = " "
+
+
+def guarded_parser(allowed_encodings: frozenset[str] | None = None) -> expat.XMLParserType:
+    """A parser whose element and attribute names read "namespace local-name".
+
+    allowed_encodings: lower-case names the XML declaration may give; None: any that expat knows.
+    Raises MeshFileError from within the parse.
+    """
+    parser = expat.ParserCreate(namespace_separator=_NAMESPACE_SEPARATOR)
+    parser.buffer_text = True
+
+    def refuse_entity(*_: object) -> NoReturn:
+        raise MeshFileError(
+            "entity-declaration",
+            f"line {parser.CurrentLineNumber}: entity declarations are refused",
+        )
+
+    def check_encoding(_version: str, encoding: str | None, _standalone: int) -> None:
+        if allowed_encodings and encoding and encoding.lower() not in allowed_encodings:
+            expected = " or ".join(sorted(allowed_encodings))
+            raise MeshFileError(
+                "bad-encoding", f"invalid XML encoding {encoding!r}: {expected} expected"
+            )
+
+    parser.EntityDeclHandler = refuse_entity
+    parser.ExternalEntityRefHandler = refuse_entity
+    parser.XmlDeclHandler = check_encoding
+    return parser
+
+
+def parse_xml(parse: Callable[[], object]) -> None:
+    """Runs a parse and turns expat's complaint into a MeshFileError."""
+    try:
+        parse()
+    except expat.ExpatError as error:
+        reason = expat.ErrorString(error.code)
+        code = "bad-encoding" if "encoding" in reason else "bad-record"
+        raise MeshFileError(code, f"line {error.lineno}: not well-formed XML: {reason}") from None
+    except (LookupError, UnicodeError) as error:
+        raise MeshFileError("bad-encoding", f"invalid XML encoding: {error}") from None
+
+
+def parse_stream(parser: expat.XMLParserType, stream: IO[bytes]) -> None:
+    parse_xml(lambda: parser.ParseFile(stream))
+
+
+def split_name(name: str) -> tuple[str, str]:
+    """(namespace, local name); the namespace is "" where there is none."""
+    namespace, _, local = name.rpartition(_NAMESPACE_SEPARATOR)
+    return namespace, local

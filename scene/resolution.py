@@ -1,0 +1,34 @@
+"""How finely a file's coordinates were written: the default width of "touching"."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from satcheck.scene.loading.raw_mesh import RawMesh
+
+FLOAT32_STEP = 2.0**-23  # spacing of float32 numbers relative to their power of two
+FLOAT64_ROUNDING = 2.0**-53  # largest relative error of rounding to float64
+
+
+def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
+    """The input's own precision, in file units.
+
+    max_coordinate: largest |coordinate| of the mesh. float32 formats: the spacing of float32 there.
+    float64 formats: half the spacing of float64 there. Written digits: half a unit of the last
+    digit of the most precise number, between these two. A number with an exponent shows digits
+    relative to its own size, so its digits are counted down from the largest coordinate: the
+    -4.4e-08 that stands for 0 in many files does not promise eight decimals.
+    """
+    float32 = max_coordinate * FLOAT32_STEP
+    float64 = max_coordinate * FLOAT64_ROUNDING
+    if raw.precision == "float32":
+        return float32
+    if raw.precision == "float64":
+        return float64
+    decimals = raw.decimals
+    if raw.significant > 0 and max_coordinate > 0.0:
+        leading = math.floor(math.log10(max_coordinate))
+        decimals = max(decimals, raw.significant - 1 - leading)
+    return max(float64, min(float32, 0.5 * 10.0**-decimals))
