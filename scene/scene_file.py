@@ -1,7 +1,8 @@
 """The scene form `satcheck-scene-1`: JSON that places mesh files and says which pairs may touch.
 
     {"schema": "satcheck-scene-1", "name", "units",
-     "bodies": [{"id", "mesh": path relative to this file, "transform": 4x4 rows, "group", "static"}],
+     "bodies": [{"id", "mesh": path relative to this file, "transform": 4x4 rows,
+                 "group", "static"}],
      "ignore_within_groups": [group], "allowed_pairs": [[id, id, reason]]}
 
 A scene file that is wrong is refused as a whole: half a scene has no meaning. What a mesh path
@@ -15,7 +16,7 @@ import math
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.issue import Issue, issue

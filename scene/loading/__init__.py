@@ -46,8 +46,7 @@ def load_mesh_file(path: str, location: Path, *, seconds: float, megabytes: int)
         topology=examined.topology,
         health=examined.health,
         issues=tuple(
-            issue(code, message, file=path)
-            for code, message in (*raw.warnings, *examined.warnings)
+            issue(code, message, file=path) for code, message in (*raw.warnings, *examined.warnings)
         ),
     )
 

@@ -91,7 +91,8 @@ def multiply(outer: Matrix | None, inner: Matrix | None) -> Matrix | None:
 def concatenate(parts: Iterable[tuple[bytes, bytes, Matrix | None]]) -> tuple[bytes, bytes]:
     """(vertices, triangles) of all parts together, each at its matrix.
 
-    parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the winding.
+    parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the
+    winding.
     """
     vertices: list[bytes] = []
     triangles = array("I")

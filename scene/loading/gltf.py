@@ -1,4 +1,4 @@
-"""glTF 2.0 and GLB: the triangles of the default scene in their rest shape, node transforms applied.
+"""glTF 2.0 and GLB: the triangles of the default scene, placed by its nodes, in their rest shape.
 
 Read here and not by a general loader: everything that has to be checked before such a loader may
 be trusted (chunks, buffers, views, accessors, the node graph) is most of the reading itself, and a

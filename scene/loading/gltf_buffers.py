@@ -95,9 +95,7 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
 class Accessors:
     """Typed arrays of a glTF document; buffers are read when first asked for."""
 
-    def __init__(
-        self, document: dict[str, Any], chunk: memoryview | None, directory: str
-    ) -> None:
+    def __init__(self, document: dict[str, Any], chunk: memoryview | None, directory: str) -> None:
         self._accessors = items(document, "accessors")
         self._views = items(document, "bufferViews")
         self._infos = items(document, "buffers")

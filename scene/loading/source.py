@@ -95,7 +95,7 @@ def _refuse_other_content(path: str, file_format: str, data: bytes) -> None:
     if content is not None and content_format != file_format:
         raise MeshFileError(
             "format-mismatch",
-            f"not a {file_format.upper()} file: its content is {content}",
+            f"not of format {file_format.upper()}: its content is {content}",
             file=path,
         )
 

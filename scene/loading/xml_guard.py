@@ -9,6 +9,7 @@ from xml.parsers import expat
 from satcheck.scene.errors import MeshFileError
 
 _NAMESPACE_SEPARATOR = " "
+_DECLARATION = "<?xml version="  # whoever stumbles within this many characters reads no XML at all
 
 
 def guarded_parser(allowed_encodings: frozenset[str] | None = None) -> expat.XMLParserType:
@@ -45,8 +46,12 @@ def parse_xml(parse: Callable[[], object]) -> None:
         parse()
     except expat.ExpatError as error:
         reason = expat.ErrorString(error.code)
-        code = "bad-encoding" if "encoding" in reason else "bad-record"
-        raise MeshFileError(code, f"line {error.lineno}: not well-formed XML: {reason}") from None
+        if "encoding" in reason or (error.lineno == 1 and error.offset < len(_DECLARATION)):
+            message = f"invalid XML encoding, or not XML: {reason}"
+            raise MeshFileError("bad-encoding", message) from None
+        raise MeshFileError(
+            "bad-record", f"line {error.lineno}: not well-formed XML: {reason}"
+        ) from None
     except (LookupError, UnicodeError) as error:
         raise MeshFileError("bad-encoding", f"invalid XML encoding: {error}") from None
 
