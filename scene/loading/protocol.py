@@ -50,7 +50,7 @@ def unpack_request(request: bytes) -> Request:
 def pack_reply(answer: RawMesh | Refusal) -> bytes:
     if isinstance(answer, Refusal):
         return _frame({"refusal": [answer.code, answer.message]}, b"", b"")
-    header = {
+    header: dict[str, object] = {
         "precision": answer.precision,
         "decimals": answer.decimals,
         "significant": answer.significant,

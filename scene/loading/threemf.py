@@ -14,6 +14,7 @@ import zipfile
 import zlib
 from array import array
 from dataclasses import dataclass, field
+from typing import IO
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
@@ -129,7 +130,7 @@ class _Package:
             parse_stream(parser, stream)
         return _part_name(targets[0]) if targets else _DEFAULT_PART
 
-    def _open(self, part: str) -> zipfile.ZipExtFile:
+    def _open(self, part: str) -> IO[bytes]:
         name = self._names.get(part.lower())
         if name is None:
             raise MeshFileError("missing-resource", f"the package has no part {part!r}")
@@ -142,7 +143,7 @@ class _Package:
                 "too-large",
                 f"part {part!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes",
             )
-        return self._package.open(entry)  # type: ignore[return-value]
+        return self._package.open(entry)
 
     def _model(self, part: str) -> _Model:
         model = self._models.get(part)
@@ -180,7 +181,7 @@ class _ModelReader:
             "item": self._on_item,
         }
 
-    def read(self, stream: zipfile.ZipExtFile) -> _Model:
+    def read(self, stream: IO[bytes]) -> _Model:
         self._parser.StartElementHandler = self._on_element
         self._parser.StartNamespaceDeclHandler = self._on_namespace
         parse_stream(self._parser, stream)
