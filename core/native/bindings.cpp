@@ -15,7 +15,9 @@
 namespace nb = nanobind;
 using namespace satcheck;
 
+namespace satcheck {
 void bind_mesh(nb::module_& m);
+}
 
 namespace {
 
