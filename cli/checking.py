@@ -10,8 +10,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.lengths import Length
-from satcheck.cli.output import PLAIN_PAGE, Document, talk, write_file
-from satcheck.core.errors import SatcheckError
+from satcheck.cli.output import PLAIN_PAGE, CannotWrite, Document, talk, write_file
 
 if TYPE_CHECKING:
     from satcheck.audit.report import Report
@@ -58,7 +57,7 @@ def _refuse_early(choices: Choices) -> None:
     if not choices.paths:
         raise click.UsageError("give two or more mesh files, or a scene file")
     if choices.output and not choices.output.absolute().parent.is_dir():
-        raise SatcheckError("cannot-write", "its folder does not exist", file=str(choices.output))
+        raise CannotWrite(str(choices.output), "its folder does not exist")
 
 
 def _report(choices: Choices) -> Report:
@@ -76,7 +75,7 @@ def _report(choices: Choices) -> Report:
         with Bar() as bar:
             return check(scene, settings, progress=bar)
     except SystemExit as stop:  # a library that ends the process must not look like an answer
-        raise SatcheckError("internal-error", f"a library called exit({stop.code!r})") from stop
+        raise RuntimeError(f"a library called exit({stop.code!r})") from stop
 
 
 def _settings(choices: Choices, scene: Scene) -> Any:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
 
-from satcheck.core.errors import SatcheckError
+import click
 
 # Wide enough that no cell is ever folded where no terminal sets a width (rich would assume 80).
 UNBOUNDED_WIDTH = 100_000
@@ -41,6 +41,13 @@ def talk(line: str) -> None:
         sys.stderr.flush()
 
 
+class CannotWrite(click.ClickException):
+    """The document could not be delivered."""
+
+    def __init__(self, where: str, reason: str | None) -> None:
+        super().__init__(f"{where}: cannot write the report: {reason} [cannot-write]")
+
+
 class Document:
     """Standard output, kept for one document.
 
@@ -65,7 +72,7 @@ class Document:
         self._stream = os.fdopen(kept, "w", encoding=encoding, errors="replace", newline="")
 
     def write(self, text: str, *, utf8: bool = False) -> None:
-        """Write it all; a closed pipe is silent, any other failure is a SatcheckError.
+        """Write it all; a closed pipe is silent, any other failure is CannotWrite.
 
         utf8: whatever the terminal's encoding (JSON is UTF-8 by definition); lone surrogates of
         undecodable file names become their `\\udcXX` escapes, which JSON reads back.
@@ -80,20 +87,16 @@ class Document:
         except OSError as error:
             _abandon(self._stream)
             if error.errno not in _READER_LEFT:
-                raise SatcheckError(
-                    "cannot-write", f"cannot write to standard output: {error.strerror}"
-                ) from None
+                raise CannotWrite("standard output", error.strerror) from None
 
 
 def write_file(path: Path, text: str) -> None:
-    """Write UTF-8 to a file; SatcheckError where that fails."""
+    """Write UTF-8 to a file; CannotWrite where that fails."""
     try:
         with path.open("w", encoding="utf-8", errors="backslashreplace", newline="") as stream:
             stream.write(text)
     except OSError as error:
-        raise SatcheckError(
-            "cannot-write", f"cannot write the report: {error.strerror}", file=str(path)
-        ) from None
+        raise CannotWrite(str(path), error.strerror) from None
 
 
 def _abandon(stream: TextIO) -> None:
