@@ -129,7 +129,7 @@ def run_isolated(module: str, request: bytes, *, seconds: float, megabytes: int)
         conversation = _Conversation(process, request, megabytes * _BYTES_PER_MEGABYTE)
         try:
             finished = conversation.wait(deadline)
-            if finished:
+            if finished and not conversation.reply_too_large:
                 _let_go(process)
         finally:
             process.kill()  # also on Ctrl-C
