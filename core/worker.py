@@ -51,6 +51,17 @@ class WorkerError(SatcheckError):
         return type(self), self.args  # each subclass keeps what it was made from in args
 
 
+class WorkerNotStarted(WorkerError):
+    """The system refused to start a child process."""
+
+    def __init__(self, module: str, reason: str) -> None:
+        super().__init__(
+            "worker-not-started", f"no process could be started for {module}: {reason}"
+        )
+        self.args = (module, reason)
+        self.reason = reason
+
+
 class WorkerTimeout(WorkerError):
     """The child was killed at its time limit."""
 
@@ -110,21 +121,24 @@ def run_isolated(module: str, request: bytes, *, seconds: float, megabytes: int)
     megabytes: limit of the child's address space in MiB. Systems that refuse such a limit (macOS,
         Windows) still have the time limit. A reply larger than this is refused everywhere.
 
-    The child runs with one OpenMP thread. Raises WorkerTimeout, WorkerOutOfMemory, WorkerCrashed,
-    or WorkerFailed when serve() itself raises.
+    The child runs with one OpenMP thread. Raises WorkerNotStarted, WorkerTimeout,
+    WorkerOutOfMemory, WorkerCrashed, or WorkerFailed when serve() itself raises.
     """
     import subprocess
 
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     deadline = time.monotonic() + seconds
-    process = subprocess.Popen(
-        [sys.executable, "-P", "-m", "satcheck.core.worker", module, str(megabytes)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        bufsize=0,
-        env=environment,
-    )
+    try:
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-m", "satcheck.core.worker", module, str(megabytes)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            bufsize=0,
+            env=environment,
+        )
+    except OSError as error:
+        raise WorkerNotStarted(module, str(error)) from error
     with process:
         conversation = _Conversation(process, request, megabytes * _BYTES_PER_MEGABYTE)
         try:

@@ -1,1 +1,17 @@
-"""satcheck: TODO."""
+"""Concave mesh -> convex parts with a measured error, cached on disk."""
+
+from satcheck.decompose.cache import Cache, CacheInfo
+from satcheck.decompose.decomposition import decompose
+from satcheck.decompose.errors import DecompositionError
+from satcheck.decompose.result import Decomposition, Note
+from satcheck.decompose.settings import DecompositionSettings
+
+__all__ = [
+    "Cache",
+    "CacheInfo",
+    "Decomposition",
+    "DecompositionError",
+    "DecompositionSettings",
+    "Note",
+    "decompose",
+]

@@ -18,6 +18,7 @@ from satcheck.core.worker import (
     WorkerCrashed,
     WorkerError,
     WorkerFailed,
+    WorkerNotStarted,
     WorkerOutOfMemory,
     WorkerTimeout,
     run_isolated,
@@ -134,6 +135,15 @@ def test_a_missing_module_is_a_failure() -> None:
     assert caught.value.exception_type == "ModuleNotFoundError"
 
 
+def test_a_system_that_starts_no_process_is_an_error(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "no_python"))
+    with pytest.raises(WorkerNotStarted) as caught:
+        ask(b"echo x")
+    assert caught.value.code == "worker-not-started"
+
+
 def test_one_thread_and_no_working_directory_in_the_child(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -196,6 +206,7 @@ def test_the_child_does_not_outlive_its_parent(tmp_path: Path, how: signal.Signa
 @pytest.mark.parametrize(
     "error",
     [
+        WorkerNotStarted("m", "no room"),
         WorkerTimeout("m", 2.0),
         WorkerOutOfMemory("m", 64),
         WorkerCrashed("m", -11, "a\nb"),

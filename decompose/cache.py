@@ -1,0 +1,135 @@
+"""Convex parts on disk, addressed by the content they were computed from.
+
+An entry is one file, `<key>.parts`: magic, the key, the SHA-256 of the payload, the payload. It is
+published by renaming a complete file over the name, so a reader sees all of it or nothing; one that
+is damaged anyway counts as missing and is replaced by the next writer. Two processes that need the
+same entry at once compute it once: the second waits for the first one's file lock.
+
+A cache that cannot be read or written never stops the work: it only costs the time it would have
+saved. What happened is in the notes of the result.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import struct
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+DIRECTORY_VARIABLE: Final = "SATCHECK_CACHE_DIR"
+_SUBDIRECTORY: Final = "decompositions"  # the user's directory may hold other things: never touched
+_ENTRY_SUFFIX: Final = ".parts"
+_LOCK_SUFFIX: Final = ".lock"
+_TEMPORARY_SUFFIX: Final = ".tmp"
+_HEADER: Final = struct.Struct("<8s32s32s")  # magic, key, SHA-256 of the payload
+_MAGIC: Final = b"SATPARTS"
+
+
+@dataclass(frozen=True, slots=True)
+class CacheInfo:
+    """path: where the entries are; bytes: their total size."""
+
+    path: Path
+    entries: int
+    bytes: int
+
+
+class Cache:
+    """A directory of entries. Makes no directory before the first entry is stored."""
+
+    def __init__(self, directory: Path | None = None) -> None:
+        """directory: None is $SATCHECK_CACHE_DIR or else the user's cache directory."""
+        self.path = (_default_directory() if directory is None else directory) / _SUBDIRECTORY
+
+    def info(self) -> CacheInfo:
+        sizes = []
+        for entry in self._files(_ENTRY_SUFFIX):
+            with suppress(OSError):  # removed by somebody else meanwhile
+                sizes.append(entry.stat().st_size)
+        return CacheInfo(self.path, len(sizes), sum(sizes))
+
+    def clear(self) -> int:
+        """Removes every entry; returns how many. Raises OSError when one cannot be removed."""
+        entries = self._files(_ENTRY_SUFFIX)
+        for file in entries:
+            file.unlink(missing_ok=True)
+        for file in self._files(_TEMPORARY_SUFFIX) + self._files(_LOCK_SUFFIX):
+            with suppress(OSError):  # in use by somebody else; it does no harm
+                file.unlink(missing_ok=True)
+        return len(entries)
+
+    def load(self, key: bytes) -> bytes | None:
+        """The payload stored under a key of 32 bytes; None where there is none or a damaged one."""
+        try:
+            data = self._entry(key).read_bytes()
+        except OSError:
+            return None
+        if len(data) < _HEADER.size:
+            return None
+        magic, stored_key, checksum = _HEADER.unpack_from(data)
+        payload = data[_HEADER.size :]
+        if magic != _MAGIC or stored_key != key or hashlib.sha256(payload).digest() != checksum:
+            return None
+        return payload
+
+    def store(self, key: bytes, payload: bytes) -> None:
+        """Publishes a payload, replacing what is there. Raises OSError where it cannot."""
+        import tempfile
+
+        self.path.mkdir(parents=True, exist_ok=True)
+        header = _HEADER.pack(_MAGIC, key, hashlib.sha256(payload).digest())
+        descriptor, name = tempfile.mkstemp(suffix=_TEMPORARY_SUFFIX, dir=self.path)
+        temporary = Path(name)
+        try:
+            with os.fdopen(descriptor, "wb") as file:
+                file.write(header)
+                file.write(payload)
+                file.flush()
+                os.fsync(file.fileno())
+            temporary.replace(self._entry(key))
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
+
+    @contextmanager
+    def single_flight(self, key: bytes, seconds: float) -> Iterator[None]:
+        """Holds the lock of one key, so that one process at a time computes its payload.
+
+        Raises OSError where there can be no lock, TimeoutError after `seconds` of waiting.
+        """
+        from filelock import FileLock, Timeout
+
+        self.path.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(self.path / (key.hex() + _LOCK_SUFFIX), timeout=seconds)
+        try:
+            lock.acquire()
+        except Timeout as error:
+            raise TimeoutError(f"{lock.lock_file} was held for more than {seconds:g} s") from error
+        except NotImplementedError as error:  # file systems without locks
+            raise OSError(str(error)) from error
+        try:
+            yield
+        finally:
+            lock.release()
+
+    def _entry(self, key: bytes) -> Path:
+        return self.path / (key.hex() + _ENTRY_SUFFIX)
+
+    def _files(self, suffix: str) -> list[Path]:
+        try:
+            return sorted(file for file in self.path.iterdir() if file.suffix == suffix)
+        except OSError:
+            return []
+
+
+def _default_directory() -> Path:
+    chosen = os.environ.get(DIRECTORY_VARIABLE)
+    if chosen:
+        return Path(chosen)
+    import platformdirs
+
+    return platformdirs.user_cache_path("satcheck", appauthor=False)

@@ -1,0 +1,59 @@
+"""A mesh cut into pieces that can be decomposed one by one, without changing the solid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from satcheck.core import Mesh
+
+Bounds = tuple[tuple[float, float, float], tuple[float, float, float]]
+
+
+def independent_pieces(mesh: Mesh) -> list[Mesh]:
+    """Pieces of a solid mesh whose union, as solids, is that solid.
+
+    Each outward shell is a piece of its own, together with the cavities that may lie in it: a
+    cavity decomposed alone would be filled. By bounding boxes, so that two shells may stay together
+    without need, but a cavity is never parted from its shell.
+    """
+    components = mesh.components()
+    if len(components) < 2:
+        return [mesh]
+    cavities = [part for part in components if part.topology().volume < 0.0]
+    groups = [[part] for part in components if part.topology().volume >= 0.0]
+    for cavity in cavities:
+        around = [group for group in groups if any(_encloses(shell, cavity) for shell in group)]
+        joined = [shell for group in around for shell in group]
+        groups = [group for group in groups if group not in around]
+        groups.append([*joined, cavity])
+    return [merged(group) for group in groups]
+
+
+def merged(meshes: Sequence[Mesh]) -> Mesh:
+    """All triangles in one mesh; nothing is welded."""
+    if len(meshes) == 1:
+        return meshes[0]
+    import numpy as np
+
+    offsets = np.cumsum([0] + [mesh.vertex_count for mesh in meshes[:-1]])
+    return Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate(
+            [mesh.triangles + offset for mesh, offset in zip(meshes, offsets, strict=True)]
+        ).astype(np.uint32),
+    )
+
+
+def diagonal(mesh: Mesh) -> float:
+    """Of the bounding box."""
+    low, high = mesh.bounds
+    return sum((b - a) ** 2 for a, b in zip(low, high, strict=True)) ** 0.5
+
+
+def _encloses(outer: Mesh, inner: Mesh) -> bool:
+    """By bounding boxes: False only where `inner` cannot lie in `outer`."""
+    (outer_low, outer_high), (inner_low, inner_high) = outer.bounds, inner.bounds
+    return all(
+        low <= inner_low[axis] and inner_high[axis] <= high
+        for axis, (low, high) in enumerate(zip(outer_low, outer_high, strict=True))
+    )
