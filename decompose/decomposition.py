@@ -7,37 +7,15 @@ import time
 from dataclasses import replace
 from typing import Final
 
-from satcheck.core import Mesh, Polytope, Surface
-from satcheck.core.worker import (
-    WorkerError,
-    WorkerOutOfMemory,
-    WorkerTimeout,
-    run_isolated,
-)
+from satcheck.core import Mesh, Polytope
 from satcheck.decompose import errors
 from satcheck.decompose.cache import Cache
-from satcheck.decompose.coacd_server import decode_reply, encode_request
-from satcheck.decompose.components import diagonal, independent_pieces
 from satcheck.decompose.errors import DecompositionError
-from satcheck.decompose.inner_parts import inner_parts
-from satcheck.decompose.measure import missing_error, outside_error
-from satcheck.decompose.result import (
-    CACHE_UNAVAILABLE,
-    FLAT_PARTS_DROPPED,
-    OPEN_MESH,
-    Decomposition,
-    Note,
-    decode,
-    encode,
-)
+from satcheck.decompose.result import CACHE_UNAVAILABLE, Decomposition, Note, decode, encode
 from satcheck.decompose.settings import DecompositionSettings
 
-_SERVER: Final = "satcheck.decompose.coacd_server"
 # Counted up when anything that decides the content of a cache entry changes, its layout included.
 _SCHEMA: Final = b"satcheck-parts-1"
-# A piece this close to its hull, in diagonals of its bounding box, is one part: CoACD's own cuts
-# are no better (it moves them by up to 1e-4 to keep off vertices).
-_CONVEX_ENOUGH: Final = 1e-4
 
 
 def decompose(
@@ -144,90 +122,6 @@ def _load(cache: Cache, key: bytes, settings: DecompositionSettings) -> Decompos
 def _compute(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
 ) -> Decomposition:
-    started = time.monotonic()
-    notes = []
-    solid = mesh.topology().solid
-    if solid:
-        parts, dropped = _parts_of_solid(mesh, settings, seconds, megabytes)
-    else:
-        notes.append(
-            Note(
-                OPEN_MESH,
-                "the mesh is not a closed, consistently oriented surface: the parts are those of "
-                "a thickened copy rebuilt from voxels, their error is measured against the surface",
-            )
-        )
-        parts, dropped = _run_coacd([mesh], settings, seconds, megabytes, remesh=True)
-    if not parts:
-        raise DecompositionError(errors.BAD_OUTPUT, "CoACD returned no solid convex part")
-    if dropped:
-        notes.append(Note(FLAT_PARTS_DROPPED, f"{dropped} flat parts of CoACD's were dropped"))
-    surface = Surface(mesh, solid)
-    return Decomposition(
-        parts=tuple(parts),
-        inner=inner_parts(parts, surface) if solid else (None,) * len(parts),
-        outside=outside_error(parts, surface, settings.threshold),
-        missing=missing_error(mesh, parts),
-        seconds=time.monotonic() - started,
-        from_cache=False,
-        settings=settings,
-        notes=tuple(notes),
-    )
+    from satcheck.decompose.computation import compute  # numpy, not on the path of a cache hit
 
-
-def _parts_of_solid(
-    mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
-) -> tuple[list[Polytope], int]:
-    """(parts, number of flat ones dropped): convex pieces as they are, the others by CoACD."""
-    parts, concave = [], []
-    for piece in independent_pieces(mesh):
-        limit = _CONVEX_ENOUGH * diagonal(piece)
-        if piece.convexity_defect(limit) <= limit:
-            parts.append(piece.convex_hull())
-        else:
-            concave.append(piece)
-    if not concave:
-        return parts, 0
-    found, dropped = _run_coacd(concave, settings, seconds, megabytes, remesh=False)
-    return parts + found, dropped
-
-
-def _run_coacd(
-    meshes: list[Mesh],
-    settings: DecompositionSettings,
-    seconds: float,
-    megabytes: int,
-    *,
-    remesh: bool,
-) -> tuple[list[Polytope], int]:
-    """(parts, number of flat ones dropped)."""
-    request = encode_request(settings, [mesh.to_bytes() for mesh in meshes], remesh=remesh)
-    try:
-        reply = run_isolated(_SERVER, request, seconds=seconds, megabytes=megabytes)
-    except WorkerError as error:
-        raise _explained(error) from error
-    try:
-        hulls = [Mesh.from_bytes(*part).convex_hull() for part in decode_reply(reply)]
-    except ValueError as error:
-        raise DecompositionError(
-            errors.BAD_OUTPUT, f"CoACD returned parts that are no meshes: {error}"
-        ) from error
-    parts = [hull for hull in hulls if hull.dimension == 3]
-    return parts, len(hulls) - len(parts)
-
-
-def _explained(error: WorkerError) -> DecompositionError:
-    """What became of the child, as a failure of the decomposition."""
-    if isinstance(error, WorkerTimeout):
-        return DecompositionError(
-            errors.TIMEOUT,
-            f"no convex parts after {error.seconds:g} s; raise the limit or the threshold",
-        )
-    if isinstance(error, WorkerOutOfMemory):
-        return DecompositionError(
-            errors.OUT_OF_MEMORY,
-            f"the convex parts need more than {error.megabytes} MiB; raise the limit or the "
-            "threshold",
-        )
-    code = errors.FAILED if error.code == "worker-failed" else errors.CRASHED
-    return DecompositionError(code, f"CoACD gave no convex parts: {error.message}")
+    return compute(mesh, settings, seconds, megabytes)

@@ -1,0 +1,74 @@
+"""The pieces of a mesh's surface inside a convex body, and their points nearest to a place."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from satcheck.decompose.half_spaces import NOISE, HalfSpaces
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+
+def surface_inside(triangles: Floats, body: HalfSpaces) -> Floats:
+    """Triangles (m, 3, 3) clipped to the inside of the body, as triangles (k, 3, 3).
+
+    What only lies on the body's boundary, within rounding, is left out.
+    """
+    noise = NOISE * body.size
+    above = np.stack([-body.slack(triangles[:, corner]) for corner in range(3)], axis=1)
+    entering = (above.min(axis=1) < -noise).all(axis=1)
+    pieces = []
+    for triangle, crosses in zip(
+        triangles[entering], above[entering].max(axis=1) > 0.0, strict=True
+    ):
+        polygon = _clipped(triangle, body.normals[crosses], body.offsets[crosses], noise)
+        pieces += [polygon[[0, corner, corner + 1]] for corner in range(1, len(polygon) - 1)]
+    return np.array(pieces).reshape(-1, 3, 3)
+
+
+def nearest_points(triangles: Floats) -> Floats:
+    """The point of each triangle (n, 3, 3) that is nearest to the origin, (n, 3)."""
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    normal = np.cross(b - a, c - a)
+    square = (normal * normal).sum(axis=1)
+    flat = square <= 0.0
+    foot = normal * ((normal * a).sum(axis=1) / np.where(flat, 1.0, square))[:, None]
+    on_triangle = ~flat
+    for tail, head in ((a, b), (b, c), (c, a)):
+        on_triangle &= (np.cross(head - tail, foot - tail) * normal).sum(axis=1) >= 0.0
+    edges = np.stack([_nearest_on_segment(p, q) for p, q in ((a, b), (b, c), (c, a))])
+    best = np.argmin((edges * edges).sum(axis=2), axis=0)
+    points: Floats = np.where(on_triangle[:, None], foot, edges[best, np.arange(len(best))])
+    return points
+
+
+def _clipped(polygon: Floats, normals: Floats, offsets: Floats, noise: float) -> Floats:
+    """The convex polygon (n, 3) below all planes; empty when it does not reach `noise` below one.
+
+    Ivan Sutherland, Gary Hodgman, "Reentrant Polygon Clipping" (1974).
+    """
+    for normal, offset in zip(normals, offsets, strict=True):
+        above = polygon @ normal - offset
+        if above.min() >= -noise:
+            return polygon[:0]
+        inside = above <= 0.0
+        crossing = inside != np.roll(inside, -1)
+        following, above_following = np.roll(polygon, -1, axis=0), np.roll(above, -1)
+        share = above[crossing] / (above[crossing] - above_following[crossing])
+        cut = polygon[crossing] + share[:, None] * (following[crossing] - polygon[crossing])
+        order = np.concatenate([np.flatnonzero(inside), np.flatnonzero(crossing) + 0.5])
+        polygon = np.concatenate([polygon[inside], cut])[np.argsort(order)]
+    return polygon
+
+
+def _nearest_on_segment(tail: Floats, head: Floats) -> Floats:
+    """Of each segment (n, 3)-(n, 3) the point nearest to the origin."""
+    along = head - tail
+    square = (along * along).sum(axis=1)
+    share = -(tail * along).sum(axis=1) / np.where(square > 0.0, square, 1.0)
+    points: Floats = tail + np.clip(share, 0.0, 1.0)[:, None] * along
+    return points
