@@ -13,6 +13,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+
 from satcheck.core import Mesh, Polytope, Surface
 from satcheck.decompose.half_spaces import (
     NOISE,
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 _SEEDS: Final = 64  # points of the part that are tried as the first centre
+_PAIRS_AT_ONCE: Final = 1 << 15  # of seed and triangle: bounds the memory at some 20 MiB
 _ROUNDS: Final = 3
 _WORTHWHILE_GAIN: Final = 1.02  # in volume, for one more round
 _FLATTEST: Final = 1e-9  # least over largest variance of an ellipsoid
@@ -88,12 +90,7 @@ def _deepest_seed(
     seeds = np.concatenate([corners.mean(axis=0)[None], shares @ corners])
     reach = np.linalg.norm(body.normals @ np.linalg.inv(shape), axis=1)
     to_boundary = (body.slack(seeds) / reach).min(axis=1)
-    to_surface = np.array(
-        [
-            np.linalg.norm(nearest_points((obstacles - seed) @ shape.T), axis=1).min()
-            for seed in seeds
-        ]
-    )
+    to_surface = _distances(seeds @ shape.T, obstacles @ shape.T)
     for index in np.argsort(-np.minimum(to_boundary, to_surface), kind="stable"):
         x, y, z = (float(coordinate) for coordinate in seeds[index])
         winding = solid.winding_number((x, y, z))
@@ -101,6 +98,18 @@ def _deepest_seed(
             seed: Floats = seeds[index]
             return seed
     return None
+
+
+def _distances(points: Floats, triangles: Floats) -> Floats:
+    """From each point (n, 3) to the nearest of the triangles (m, 3, 3)."""
+    at_once = max(1, _PAIRS_AT_ONCE // len(triangles))
+    distances = []
+    for first in range(0, len(points), at_once):
+        chunk = points[first : first + at_once]
+        moved = (triangles - chunk[:, None, None]).reshape(-1, 3, 3)
+        nearest = np.linalg.norm(nearest_points(moved), axis=1).reshape(len(chunk), -1)
+        distances.append(nearest.min(axis=1))
+    return np.concatenate(distances)
 
 
 def _grown(body: HalfSpaces, obstacles: Floats, seed: Floats, shape: Floats) -> Polytope | None:

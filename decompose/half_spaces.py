@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+
 from satcheck.core import Mesh
 
 if TYPE_CHECKING:

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import compress, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
+
 from satcheck.decompose.half_spaces import NOISE, HalfSpaces
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
+
+Point = tuple[float, float, float]
+Plane = tuple[Point, float]  # unit normal, offset
 
 
 def surface_inside(triangles: Floats, body: HalfSpaces) -> Floats:
@@ -21,13 +27,14 @@ def surface_inside(triangles: Floats, body: HalfSpaces) -> Floats:
     noise = NOISE * body.size
     above = np.stack([-body.slack(triangles[:, corner]) for corner in range(3)], axis=1)
     entering = (above.min(axis=1) < -noise).all(axis=1)
-    pieces = []
-    for triangle, crosses in zip(
-        triangles[entering], above[entering].max(axis=1) > 0.0, strict=True
+    planes = list(zip(body.normals.tolist(), body.offsets.tolist(), strict=True))
+    pieces: list[tuple[Point, Point, Point]] = []
+    for triangle, crossed in zip(
+        triangles[entering].tolist(), above[entering].max(axis=1) > 0.0, strict=True
     ):
-        polygon = _clipped(triangle, body.normals[crosses], body.offsets[crosses], noise)
-        pieces += [polygon[[0, corner, corner + 1]] for corner in range(1, len(polygon) - 1)]
-    return np.array(pieces).reshape(-1, 3, 3)
+        polygon = _clipped(triangle, compress(planes, crossed), noise)
+        pieces += [(polygon[0], a, b) for a, b in pairwise(polygon[1:])]
+    return np.array(pieces, dtype=np.float64).reshape(-1, 3, 3)
 
 
 def nearest_points(triangles: Floats) -> Floats:
@@ -46,23 +53,33 @@ def nearest_points(triangles: Floats) -> Floats:
     return points
 
 
-def _clipped(polygon: Floats, normals: Floats, offsets: Floats, noise: float) -> Floats:
-    """The convex polygon (n, 3) below all planes; empty when it does not reach `noise` below one.
+def _clipped(polygon: list[Point], planes: Iterable[Plane], noise: float) -> list[Point]:
+    """The convex polygon below all planes; empty when it does not reach `noise` below one.
 
-    Ivan Sutherland, Gary Hodgman, "Reentrant Polygon Clipping" (1974).
+    Ivan Sutherland, Gary Hodgman, "Reentrant Polygon Clipping" (1974). In plain Python: for
+    polygons of a few corners it is several times faster than array operations.
     """
-    for normal, offset in zip(normals, offsets, strict=True):
-        above = polygon @ normal - offset
-        if above.min() >= -noise:
-            return polygon[:0]
-        inside = above <= 0.0
-        crossing = inside != np.roll(inside, -1)
-        following, above_following = np.roll(polygon, -1, axis=0), np.roll(above, -1)
-        share = above[crossing] / (above[crossing] - above_following[crossing])
-        cut = polygon[crossing] + share[:, None] * (following[crossing] - polygon[crossing])
-        order = np.concatenate([np.flatnonzero(inside), np.flatnonzero(crossing) + 0.5])
-        polygon = np.concatenate([polygon[inside], cut])[np.argsort(order)]
+    for (nx, ny, nz), offset in planes:
+        above = [nx * x + ny * y + nz * z - offset for x, y, z in polygon]
+        if min(above) >= -noise:
+            return []
+        if max(above) <= 0.0:
+            continue
+        kept = []
+        for index, point in enumerate(polygon):
+            before = above[index - 1]
+            if (before <= 0.0) != (above[index] <= 0.0):
+                share = before / (before - above[index])
+                kept.append(_between(polygon[index - 1], point, share))
+            if above[index] <= 0.0:
+                kept.append(point)
+        polygon = kept
     return polygon
+
+
+def _between(tail: Point, head: Point, share: float) -> Point:
+    (ax, ay, az), (bx, by, bz) = tail, head
+    return ax + share * (bx - ax), ay + share * (by - ay), az + share * (bz - az)
 
 
 def _nearest_on_segment(tail: Floats, head: Floats) -> Floats:

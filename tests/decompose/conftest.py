@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from satcheck.core import Mesh
 from satcheck.decompose import Cache
 

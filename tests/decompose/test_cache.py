@@ -8,6 +8,7 @@ import threading
 from pathlib import Path
 
 import pytest
+
 from satcheck.decompose.cache import DIRECTORY_VARIABLE, Cache
 
 KEY = bytes(range(32))
