@@ -1,0 +1,50 @@
+"""decompose/free_region.py: large, inside the part, and free of the surface but for rounding."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from satcheck.core import Mesh, Polytope, Surface
+from satcheck.decompose.free_region import free_region
+from satcheck.decompose.half_spaces import around
+
+
+def volume(polytope: Polytope) -> float:
+    return polytope.to_mesh().topology().volume
+
+
+def test_the_hull_of_an_l_becomes_a_body_inside_the_l(l_shape: Mesh) -> None:
+    region = free_region(l_shape.convex_hull(), Surface(l_shape, True))
+    assert volume(region) > 1.5  # the L has 3, the largest box in it 2
+    inner_edge = np.array([[1.0, 1.0, 0.0], [1.0, 1.0, 0.5], [1.0, 1.0, 1.0]])
+    inside = around(np.asarray(region.vertices), np.asarray(region.triangles)).slack(inner_edge)
+    assert inside.min(axis=1).max() < 1e-6
+    body = around(np.asarray(l_shape.convex_hull().vertices), l_shape.convex_hull().triangles)
+    assert body.slack(np.asarray(region.vertices)).min() > -1e-6
+
+
+def test_a_part_that_the_surface_does_not_enter_is_returned_as_it_is(
+    l_shape: Mesh, box: Mesh
+) -> None:
+    foot = Mesh(np.asarray(box.vertices) * [2.0, 1.0, 1.0], np.asarray(box.triangles))
+    part = foot.convex_hull()
+    assert volume(part) == pytest.approx(2.0)
+    assert free_region(part, Surface(l_shape, True)) is part
+
+
+def test_a_part_outside_the_mesh_is_returned_as_it_is(l_shape: Mesh, box: Mesh) -> None:
+    part = box.translated((1.5, 1.5, 0.0)).convex_hull()
+    assert free_region(part, Surface(l_shape, True)) is part
+
+
+@pytest.mark.parametrize("exponent", [-200, -30, 30, 200])
+def test_the_region_scales_with_the_mesh(l_shape: Mesh, exponent: int) -> None:
+    def scaled(mesh: Mesh) -> Mesh:
+        return Mesh(np.ldexp(np.asarray(mesh.vertices), exponent), np.asarray(mesh.triangles))
+
+    here = free_region(l_shape.convex_hull(), Surface(l_shape, True))
+    there = free_region(scaled(l_shape).convex_hull(), Surface(scaled(l_shape), True))
+    np.testing.assert_allclose(
+        np.ldexp(np.asarray(there.vertices), -exponent), np.asarray(here.vertices), atol=1e-9
+    )
