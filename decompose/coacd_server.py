@@ -40,7 +40,7 @@ def decode_reply(reply: bytes) -> list[tuple[bytes, bytes]]:
 
 
 def serve(request: bytes) -> bytes:
-    import coacd
+    import coacd  # type: ignore[import-untyped]
     import numpy as np
 
     coacd.set_log_level("off")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from satcheck.core import Mesh
@@ -47,7 +48,7 @@ def merged(meshes: Sequence[Mesh]) -> Mesh:
 def diagonal(mesh: Mesh) -> float:
     """Of the bounding box."""
     low, high = mesh.bounds
-    return sum((b - a) ** 2 for a, b in zip(low, high, strict=True)) ** 0.5
+    return math.dist(low, high)
 
 
 def _encloses(outer: Mesh, inner: Mesh) -> bool:
