@@ -198,7 +198,10 @@ def check(
 
 @satcheck.group(context_settings=_HELP_NAMES)
 def cache() -> None:
-    """The cache of convex parts: info, clear."""
+    """The cache of convex parts: info, clear.
+
+    It lies in the user's cache folder, or where SATCHECK_CACHE_DIR says.
+    """
 
 
 @cache.command()

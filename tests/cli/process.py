@@ -43,8 +43,8 @@ def environment(variables: Mapping[str, str] | None = None) -> dict[str, str]:
 
 
 def private_cache(folder: Path) -> dict[str, str]:
-    """Variables that move the user's cache folder on any system."""
-    return dict.fromkeys(("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME"), str(folder))
+    """Variables that give a test a cache of its own."""
+    return {"SATCHECK_CACHE_DIR": str(folder)}
 
 
 def satcheck(
