@@ -153,8 +153,9 @@ def turned_inside_out(mesh: Mesh) -> Mesh:
 # --- formats ----------------------------------------------------------------------------------
 
 
-def obj(mesh: Mesh) -> bytes:
-    lines = [f"v {x:.12g} {y:.12g} {z:.12g}" for x, y, z in mesh.points]
+def obj(mesh: Mesh, form: str = ".12g") -> bytes:
+    """The digits written are the precision that a reader may assume."""
+    lines = [f"v {x:{form}} {y:{form}} {z:{form}}" for x, y, z in mesh.points]
     lines += ["f " + " ".join(str(i + 1) for i in face) for face in mesh.faces]
     return ("\n".join(lines) + "\n").encode()
 
@@ -281,8 +282,8 @@ def samples() -> dict[str, bytes]:
         "link_a.ply": ply(chain),
         "link_b.glb": glb(moved(chain, lambda p: (p[0] + 4.0, -p[2] + 0.0, p[1]))),
         "needle.stl": stl(needle(tip=(1.25, 0.75, 1.75), length=20.0, half_width=1 / 128)),
-        "far_a.obj": obj(box((e, n, 0.0), (e + 1, n + 1, 1.0))),
-        "far_b.obj": obj(box((e + 0.875, n + 0.25, 0.25), (e + 1.875, n + 1.25, 1.25))),
+        "far_a.obj": obj(box((e, n, 0.0), (e + 1, n + 1, 1.0)), ".3f"),
+        "far_b.obj": obj(box((e + 0.875, n + 0.25, 0.25), (e + 1.875, n + 1.25, 1.25)), ".3f"),
         "fin_box.obj": obj(with_fin(big_box)),
         "open_box.off": off(without_lid(box((1.0, -1.0, 1.0), (5.0, 3.0, 4.0)))),
         "inside_out.stl": stl_text(turned_inside_out(box((-1.5, 0.25, 0.5), (0.5, 1.25, 1.5)))),
