@@ -136,6 +136,7 @@ def satcheck() -> None:
     "-j",
     "--jobs",
     type=click.IntRange(min=0),
+    metavar="N",
     default=0,
     help="Threads; 0 is one per core. Changes no answer.  [default: 0]",
 )

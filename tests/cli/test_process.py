@@ -375,6 +375,27 @@ def test_no_colour_on_request(variables: dict[str, str]) -> None:
     assert "\x1b" not in sent
 
 
+SLOW = (
+    "import time\n"
+    "import satcheck.audit as door\n"
+    "real = door.check\n"
+    "def slow(*arguments, **options):\n"
+    "    time.sleep(1.5)\n"
+    "    return real(*arguments, **options)\n"
+    "door.check = slow\n"
+)
+
+
+@on_posix
+def test_long_work_shows_a_bar_to_a_person_only(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text(SLOW, encoding="utf-8")
+    slow = {"PYTHONPATH": str(tmp_path)}
+    assert "checking" in in_terminal(*PUSHED, columns=100, variables=slow)
+    assert "checking" not in in_terminal(*PUSHED, columns=100)
+    ran = satcheck(*PUSHED, env={**slow, "FORCE_COLOR": "1"})
+    assert ran.err == ""
+
+
 # --- help, version, completion ----------------------------------------------------------------
 
 
