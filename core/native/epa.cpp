@@ -121,6 +121,9 @@ class ExpandingPolytope {
   bool expand(const SupportPoint& point, std::uint32_t seed_face);
 
   const Face& face(std::uint32_t index) const { return faces_[index]; }
+  bool contains(const SupportPoint& point) const {
+    return std::any_of(vertices_.begin(), vertices_.end(), [&](const SupportPoint& v) { return v.same_as(point); });
+  }
   const SupportPoint& vertex(std::uint32_t index) const { return vertices_[index]; }
   bool has_vertex(std::uint32_t f, const SupportPoint& point) const {
     for (std::uint32_t v : faces_[f].vertex) {
@@ -284,15 +287,19 @@ bool ExpandingPolytope::expand(const SupportPoint& point, std::uint32_t seed_fac
   return true;
 }
 
+// The facet with the weights of the origin's projection onto its plane, clamped to the facet.
 Simplex weighted_facet(const ExpandingPolytope& polytope, const Face& face) {
-  Simplex facet;
-  for (std::uint32_t v : face.vertex) facet.add(polytope.vertex(v));
-  // Weights of the origin's projection onto the plane of the facet, clamped to the facet.
   const Vec3 foot = face.normal * face.distance;
-  Simplex shifted = facet;
-  for (int i = 0; i < 3; ++i) shifted.vertex[i].w = facet.vertex[i].w - foot;
-  reduce(shifted);
-  return shifted;
+  Simplex facet;
+  for (std::uint32_t v : face.vertex) {
+    SupportPoint p = polytope.vertex(v);
+    p.w = p.w - foot;
+    facet.add(p);
+  }
+  const ClosestPoint closest = closest_point(facet);
+  for (SupportPoint& p : facet.vertex) p.w = p.w + foot;
+  keep(facet, closest);
+  return facet;
 }
 
 }  // namespace
@@ -341,7 +348,10 @@ EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
       result.status = EpaResult::Status::depth;
       return result;
     }
-    if (!polytope.expand(w, f)) return result;  // stalled
+    // A vertex that is there already and still outside a face: rounding has bent the polytope, and
+    // going on could go on for ever. What was proven so far stands.
+    result.lower = face.distance - m.support_error();
+    if (polytope.contains(w) || !polytope.expand(w, f)) return result;
   }
 }
 

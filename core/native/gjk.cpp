@@ -44,18 +44,19 @@ GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
     }
     if (goal == GjkGoal::overlap && result.lower > noise) break;
     if (result.upper - result.lower <= gap || result.simplex.contains(w)) break;
-    Simplex next = result.simplex;
-    next.add(w);
-    const ClosestPoint closest = reduce(next);
-    if (closest.encloses) {
-      result.simplex = next;
+    result.simplex.add(w);
+    const ClosestPoint closest = closest_point(result.simplex);
+    if (closest.count == 0) {
       result.v = {0, 0, 0};
       result.status = GjkResult::Status::encloses;
       return result;
     }
-    const double distance = norm(closest.v);
-    if (!(distance < result.upper)) break;
-    result.simplex = next;
+    const double distance = std::sqrt(closest.distance_squared);
+    if (!(distance < result.upper)) {
+      --result.simplex.count;
+      break;
+    }
+    keep(result.simplex, closest);
     result.v = closest.v;
     result.upper = distance;
   }

@@ -10,8 +10,8 @@
 namespace satcheck {
 
 struct SupportPoint {
-  Vec3 w;                 // a - b
-  Vec3 a, b;              // witness points on A and on B, frame of A
+  Vec3 w;  // a - b
+  Vec3 a;  // witness point on A, frame of A; the one on B is a - w
   std::uint32_t index_a, index_b;
 
   // The same vertex pair; curved shapes have no indices and compare by position.
@@ -34,7 +34,7 @@ struct MinkowskiDifference {
     const CorePoint on_a = core_support(a, direction);
     const CorePoint on_b = core_support(b, transpose_times(b_in_a.rotation, -direction));
     const Vec3 pb = b_in_a * on_b.point;
-    return {on_a.point - pb, on_a.point, pb, on_a.index, on_b.index};
+    return {on_a.point - pb, on_a.point, on_a.index, on_b.index};
   }
 
   // Upper bound on the rounding error of a support value along a unit axis.

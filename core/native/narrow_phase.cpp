@@ -103,8 +103,11 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
     case EpaResult::Status::stalled:
       break;
   }
-  if (!solid_polytopes(m)) return answer;  // the upper bound holds, the lower one is unknown
-  return from_sat(m, Query::depth, result);
+  if (solid_polytopes(m)) return from_sat(m, Query::depth, result);
+  answer.lower = e.lower;
+  answer.has_axis = std::isfinite(e.upper);
+  answer.witness = overlap_witness(m, e);
+  return answer;
 }
 
 CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& result) {

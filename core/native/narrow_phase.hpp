@@ -25,9 +25,11 @@ struct PairResult {
   int gjk_iterations = 0, epa_iterations = 0, axes_tested = 0;
 };
 
-// Up to this many vertices on the larger of two polytopes, SAT over faces and arcs is faster than
-// GJK + EPA. Measured by bench/crossover.py; boxes always take SAT.
-inline constexpr std::size_t kSatVertexLimit = 8;
+// Up to this many vertices on the larger of two polytopes, SAT over faces and arcs would be faster than
+// GJK + EPA. Measured by bench/crossover.py: already at 4 vertices a side (the smallest solid) SAT takes
+// 1.4 times as long for overlap and 2 times for depth, at 12 vertices 17 and 7 times. So 3: only
+// boxes, whose 15 axes need no arcs, take SAT; `MethodChoice::sat` asks for it by name.
+inline constexpr std::size_t kSatVertexLimit = 3;
 
 // Poses are rigid. Query overlap gives the outcome only and stops at the first proof.
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,

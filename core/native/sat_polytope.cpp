@@ -12,36 +12,25 @@ namespace satcheck {
 
 namespace {
 
-struct PlacedEdge {
-  Vec3 tail, direction;        // unit direction
-  Vec3 normal_left, normal_right;
-};
-
-std::vector<PlacedEdge> place_edges(const Polytope& polytope, const Pose& pose, double normal_sign) {
-  std::vector<PlacedEdge> edges;
-  edges.reserve(polytope.edges.size());
-  for (const PolytopeEdge& e : polytope.edges) {
-    const Vec3 tail = pose * polytope.vertices[e.tail];
-    const Vec3 d = pose.rotation * (polytope.vertices[e.head] - polytope.vertices[e.tail]);
-    edges.push_back({tail, d * (1 / norm(d)), pose.rotation * polytope.face_normal[e.left] * normal_sign,
-                     pose.rotation * polytope.face_normal[e.right] * normal_sign});
+// B's edges in A's frame, with the normals of -B.
+void place_arcs(const std::vector<EdgeArc>& arcs, const Pose& pose, std::vector<EdgeArc>& placed) {
+  placed.clear();
+  for (const EdgeArc& e : arcs) {
+    placed.push_back({pose * e.tail, pose.rotation * e.direction, -(pose.rotation * e.normal_left),
+                      -(pose.rotation * e.normal_right)});
   }
-  return edges;
 }
 
 enum class Arcs { apart, uncertain, cross };
 
-Arcs classify_arcs(const PlacedEdge& a, const PlacedEdge& b) {
+Arcs classify_arcs(const EdgeArc& a, const EdgeArc& b) {
   const double b_left = dot(b.normal_left, a.direction), b_right = dot(b.normal_right, a.direction);
-  if ((b_left > kArcUncertain && b_right > kArcUncertain) || (b_left < -kArcUncertain && b_right < -kArcUncertain)) {
-    return Arcs::apart;
-  }
+  const double b_least = std::fmin(std::fabs(b_left), std::fabs(b_right));
+  if (b_left * b_right > 0 && b_least > kArcUncertain) return Arcs::apart;
   const double a_left = dot(a.normal_left, b.direction), a_right = dot(a.normal_right, b.direction);
-  if ((a_left > kArcUncertain && a_right > kArcUncertain) || (a_left < -kArcUncertain && a_right < -kArcUncertain)) {
-    return Arcs::apart;
-  }
-  const double least = std::min({std::fabs(b_left), std::fabs(b_right), std::fabs(a_left), std::fabs(a_right)});
-  if (least <= kArcUncertain) return Arcs::uncertain;
+  const double a_least = std::fmin(std::fabs(a_left), std::fabs(a_right));
+  if (a_left * a_right > 0 && a_least > kArcUncertain) return Arcs::apart;
+  if (std::fmin(a_least, b_least) <= kArcUncertain) return Arcs::uncertain;
   // Both arcs cross the other's great circle; they meet unless they do so on opposite sides.
   const Vec3 n = cross(a.direction, b.direction);
   const bool same_side = (dot(n, a.normal_left + a.normal_right) > 0) == (dot(n, b.normal_left + b.normal_right) > 0);
@@ -77,11 +66,11 @@ SatResult sat_polytopes(const MinkowskiDifference& m, SatGoal goal) {
     offer(support_along(m, axis), axis, Feature::face_b, Shape::kNoIndex, f);
     if (separates()) return best;
   }
-  const std::vector<PlacedEdge> edges_a = place_edges(m.a.polytope, {}, 1);
-  const std::vector<PlacedEdge> edges_b = place_edges(m.b.polytope, m.b_in_a, -1);
-  for (std::size_t i = 0; i < edges_a.size(); ++i) {
-    for (std::size_t j = 0; j < edges_b.size(); ++j) {
-      const PlacedEdge &ea = edges_a[i], &eb = edges_b[j];
+  thread_local std::vector<EdgeArc> arcs_b;
+  place_arcs(m.b.arcs, m.b_in_a, arcs_b);
+  for (std::size_t i = 0; i < m.a.arcs.size(); ++i) {
+    for (std::size_t j = 0; j < arcs_b.size(); ++j) {
+      const EdgeArc &ea = m.a.arcs[i], &eb = arcs_b[j];
       const Arcs arcs = classify_arcs(ea, eb);
       if (arcs == Arcs::apart) continue;
       Vec3 axis = cross(ea.direction, eb.direction);

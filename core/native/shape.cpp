@@ -32,6 +32,17 @@ double largest_coordinate(const std::vector<Vec3>& points) {
   return extent;
 }
 
+std::vector<EdgeArc> arcs_of(const Polytope& p) {
+  std::vector<EdgeArc> arcs;
+  if (p.dimension < 3) return arcs;
+  arcs.reserve(p.edges.size());
+  for (const PolytopeEdge& e : p.edges) {
+    const Vec3 d = p.vertices[e.head] - p.vertices[e.tail];
+    arcs.push_back({p.vertices[e.tail], d * (1 / norm(d)), p.face_normal[e.left], p.face_normal[e.right]});
+  }
+  return arcs;
+}
+
 }  // namespace
 
 Shape make_hull(Polytope polytope) {
@@ -46,6 +57,7 @@ Shape make_hull(Polytope polytope) {
     for (Vec3& p : polytope.vertices) p = p - centre;
   }
   shape.polytope = std::move(polytope);
+  shape.arcs = arcs_of(shape.polytope);
   shape.lanes = VertexLanes(shape.polytope.vertices);
   shape.extent = largest_coordinate(shape.polytope.vertices);
   return shape;

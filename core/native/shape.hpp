@@ -15,6 +15,12 @@ namespace satcheck {
 
 enum class ShapeKind : std::uint8_t { hull, box, sphere, capsule, cylinder, cone, ellipsoid };
 
+// An edge as the separating axis test needs it: where it runs and the normals of its two faces.
+struct EdgeArc {
+  Vec3 tail, direction;  // unit direction
+  Vec3 normal_left, normal_right;
+};
+
 struct Shape {
   static constexpr std::uint32_t kNoIndex = 0xffffffffu;
 
@@ -27,6 +33,7 @@ struct Shape {
   // world's origin to its own without any rounding (0 where that would round).
   Polytope polytope;
   VertexLanes lanes;
+  std::vector<EdgeArc> arcs;  // of a solid hull
   Vec3 origin;
   double extent = 0;  // largest |coordinate| of the core, relative to `origin`
 

@@ -6,24 +6,12 @@ namespace satcheck {
 
 namespace {
 
-struct Candidate {
-  Vec3 v;
-  double distance_squared = INFINITY;
-  int index[3] = {0, 0, 0};
-  double weight[3] = {1, 0, 0};
-  int count = 0;
-
-  void offer(const Candidate& other) {
-    if (other.distance_squared < distance_squared) *this = other;
-  }
-};
-
-Candidate closest_on_vertex(const Simplex& s, int i) {
+ClosestPoint closest_on_vertex(const Simplex& s, int i) {
   const Vec3 p = s.vertex[i].w;
   return {p, norm_squared(p), {i, 0, 0}, {1, 0, 0}, 1};
 }
 
-Candidate closest_on_segment(const Simplex& s, int i, int j) {
+ClosestPoint closest_on_segment(const Simplex& s, int i, int j) {
   const Vec3 p = s.vertex[i].w, q = s.vertex[j].w, e = q - p;
   const double length_squared = norm_squared(e);
   const double along = -dot(p, e);
@@ -38,7 +26,7 @@ Candidate closest_on_segment(const Simplex& s, int i, int j) {
   return {v, norm_squared(v), {i, j, 0}, {1 - t, t, 0}, 2};
 }
 
-Candidate closest_on_triangle(const Simplex& s, int i, int j, int k) {
+ClosestPoint closest_on_triangle(const Simplex& s, int i, int j, int k) {
   const Vec3 p = s.vertex[i].w, q = s.vertex[j].w, r = s.vertex[k].w;
   const Vec3 n = cross(q - p, r - p);
   const double area_squared = norm_squared(n);
@@ -49,7 +37,7 @@ Candidate closest_on_triangle(const Simplex& s, int i, int j, int k) {
     const double sum = wp + wq + wr;
     return {v, norm_squared(v), {i, j, k}, {wp / sum, wq / sum, wr / sum}, 3};
   }
-  Candidate best;
+  ClosestPoint best;
   if (!(wr > 0)) best.offer(closest_on_segment(s, i, j));
   if (!(wp > 0)) best.offer(closest_on_segment(s, j, k));
   if (!(wq > 0)) best.offer(closest_on_segment(s, k, i));
@@ -70,8 +58,8 @@ FaceSides sides_of_origin(const Simplex& s) {
   return {{!(va * whole > 0), !(vb * whole > 0), !(vc * whole > 0), !(vd * whole > 0)}};
 }
 
-Candidate closest_on_faces(const Simplex& s, const FaceSides& sides) {
-  Candidate best;
+ClosestPoint closest_on_faces(const Simplex& s, const FaceSides& sides) {
+  ClosestPoint best;
   if (sides.outside[3]) best.offer(closest_on_triangle(s, 0, 1, 2));
   if (sides.outside[2]) best.offer(closest_on_triangle(s, 0, 1, 3));
   if (sides.outside[1]) best.offer(closest_on_triangle(s, 0, 2, 3));
@@ -89,30 +77,26 @@ Vec3 Simplex::witness_a() const {
 
 Vec3 Simplex::witness_b() const {
   Vec3 p;
-  for (int i = 0; i < count; ++i) p = p + vertex[i].b * weight[i];
+  for (int i = 0; i < count; ++i) p = p + (vertex[i].a - vertex[i].w) * weight[i];
   return p;
 }
 
-ClosestPoint reduce(Simplex& s) {
-  Candidate best;
-  if (s.count == 4) {
-    const FaceSides sides = sides_of_origin(s);
-    if (!sides.any()) return {{0, 0, 0}, true};
-    best = closest_on_faces(s, sides);
-  } else {
-    best = s.count == 1   ? closest_on_vertex(s, 0)
-           : s.count == 2 ? closest_on_segment(s, 0, 1)
-                          : closest_on_triangle(s, 0, 1, 2);
-  }
-  // Indices may come in any order: pick out before writing over.
-  SupportPoint kept[3];
-  for (int i = 0; i < best.count; ++i) kept[i] = s.vertex[best.index[i]];
-  for (int i = 0; i < best.count; ++i) {
+ClosestPoint closest_point(const Simplex& s) {
+  if (s.count == 1) return closest_on_vertex(s, 0);
+  if (s.count == 2) return closest_on_segment(s, 0, 1);
+  if (s.count == 3) return closest_on_triangle(s, 0, 1, 2);
+  const FaceSides sides = sides_of_origin(s);
+  return sides.any() ? closest_on_faces(s, sides) : ClosestPoint{{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0};
+}
+
+void keep(Simplex& s, const ClosestPoint& closest) {
+  SupportPoint kept[3];  // indices may come in any order: pick out before writing over
+  for (int i = 0; i < closest.count; ++i) kept[i] = s.vertex[closest.index[i]];
+  for (int i = 0; i < closest.count; ++i) {
     s.vertex[i] = kept[i];
-    s.weight[i] = best.weight[i];
+    s.weight[i] = closest.weight[i];
   }
-  s.count = best.count;
-  return {best.v, false};
+  s.count = closest.count;
 }
 
 }  // namespace satcheck

@@ -5,7 +5,7 @@
 
 namespace satcheck {
 
-// Up to four support points of A - B and, after reduce(), the weights of the closest point.
+// Up to four support points of A - B and the weights of a point of their hull.
 struct Simplex {
   SupportPoint vertex[4];
   double weight[4] = {1, 0, 0, 0};
@@ -22,17 +22,25 @@ struct Simplex {
   Vec3 witness_b() const;
 };
 
+// The point of a simplex closest to the origin, and the vertices that carry it.
 struct ClosestPoint {
-  Vec3 v;                // closest point of the simplex to the origin
-  bool encloses = false;  // a tetrahedron around the origin; v is 0 then
+  Vec3 v;
+  double distance_squared = INFINITY;
+  int index[3] = {0, 0, 0};
+  double weight[3] = {1, 0, 0};
+  int count = 0;          // 0: the tetrahedron encloses the origin
+  void offer(const ClosestPoint& other) {
+    if (other.distance_squared < distance_squared) *this = other;
+  }
 };
 
-// Finds the closest point and keeps only the vertices of the feature that carries it.
-//
 // Deviation from Ericson, "Real-Time Collision Detection" (2004), 5.1, and from Montanari,
 // Petrinic and Barbieri, "Improving the GJK Algorithm" (2017): no chain of region tests. The inside
 // of a face counts only when all its weights are positive; otherwise the edges of non-positive weight
 // compete by distance, so a misjudged sign costs accuracy in the last digit, not the region.
-ClosestPoint reduce(Simplex& simplex);
+ClosestPoint closest_point(const Simplex& simplex);
+
+// Keeps only the vertices that carry the closest point, with their weights.
+void keep(Simplex& simplex, const ClosestPoint& closest);
 
 }  // namespace satcheck

@@ -15,12 +15,17 @@ VertexLanes::VertexLanes(const std::vector<Vec3>& points) {
 
 namespace {
 
-std::uint32_t first_best(const double* best, const double* where) {
-  std::size_t winner = 0;
-  for (std::size_t l = 1; l < VertexLanes::kLanes; ++l) {
-    if (best[l] > best[winner] || (best[l] == best[winner] && where[l] < where[winner])) winner = l;
+// Folds lanes pairwise; conditional moves, because which lane wins is as good as random.
+inline std::uint32_t first_best(double* best, double* where) {
+  for (std::size_t half = VertexLanes::kLanes / 2; half > 0; half /= 2) {
+    for (std::size_t l = 0; l < half; ++l) {
+      const bool later = (best[l + half] > best[l]) |
+                         ((best[l + half] == best[l]) & (where[l + half] < where[l]));
+      best[l] = later ? best[l + half] : best[l];
+      where[l] = later ? where[l + half] : where[l];
+    }
   }
-  return static_cast<std::uint32_t>(where[winner]);
+  return static_cast<std::uint32_t>(where[0]);
 }
 
 }  // namespace
