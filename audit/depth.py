@@ -17,6 +17,7 @@ from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector, Witness
+from satcheck.audit.short_escape import shorter_escape
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
 from satcheck.audit.verify import Escape, verified_escape
 
@@ -46,6 +47,10 @@ def measure_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     lower = 0.0
     if contact.proven:
         lower = min(max(crossing_depth(pair, contact), inner_depth(pair, upper, plan)), upper)
+    if pair.may("exact") and upper - lower > pair.settings.depth_width * upper:
+        shorter = shorter_escape(pair, upper, normal, lower, plan)
+        if shorter is not None:
+            upper, normal = _length_and_normal(shorter)
     return Depth(lower, upper, upper, normal, verified_escape(pair, upper, normal, plan))
 
 
@@ -64,9 +69,7 @@ def _convex_depth(pair: Pair, result: core.PairResult, plan: Plan) -> Depth:
 
 def nudged_depth(pair: Pair, contact: Contact, nudge: Vector) -> Depth:
     """The depth of a pair that a verified translation of A within the touch band frees."""
-    length = math.hypot(*nudge)
-    upper = length * (1 + 2 * UNIT_ROUNDOFF)
-    normal = (-nudge[0] / length, -nudge[1] / length, -nudge[2] / length)
+    upper, normal = _length_and_normal(nudge)
     lower = min(crossing_depth(pair, contact), upper)
     return Depth(lower, upper, upper, normal, Escape(nudge, True))
 
@@ -81,6 +84,14 @@ def _upper_bound(pair: Pair, plan: Plan) -> tuple[float, Vector]:
             length, normal, how = -hulls.lower, hulls.normal, "hulls of the whole meshes"
     plan.record("depth", "upper bound", f"at most {length:.6g} by the {how}")
     return length, normal
+
+
+def _length_and_normal(translation: Vector) -> tuple[float, Vector]:
+    """Its length, rounded up, and the direction against it; both exact along an axis."""
+    length = math.hypot(*translation)
+    x, y, z = (0.0 - c / length for c in translation)
+    along_axis = sum(c != 0 for c in translation) == 1
+    return length if along_axis else math.nextafter(length, math.inf), (x, y, z)
 
 
 def crossing_depth(pair: Pair, contact: Contact) -> float:

@@ -48,7 +48,9 @@ def inner_parts(body: PlacedBody, plan: Plan) -> list[Part]:
     if body.convex:
         return [Part(body.hull_shape(), body.bounds)]
     found = decomposition(body, plan)
-    return [] if found is None else [_placed(part, body) for part in found.inner]
+    return (
+        [] if found is None else [_placed(part, body) for part in found.inner if part is not None]
+    )
 
 
 def covering(body: PlacedBody, plan: Plan) -> Covering | None:
