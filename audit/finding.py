@@ -28,7 +28,6 @@ def finding_id(a: str, b: str) -> str:
 def examine(pair: Pair, plan: Plan) -> Finding:
     """Everything asked about one pair. Warnings go to the plan."""
     contact = settle(pair, plan)
-    _warn_of_surfaces(pair, plan)
     if contact.relation in OVERLAPS:
         return _overlapping(pair, contact, plan)
     return _apart(pair, contact, measure_gap(pair, contact, plan), plan)
@@ -47,18 +46,19 @@ def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:
     return _finding(a, b, "indeterminate", plan, severity="warning", reason=reason)
 
 
-def _warn_of_surfaces(pair: Pair, plan: Plan) -> None:
-    """Only a rung that looked at the triangles would have noticed containment."""
-    if not any(stage.stage == "triangles" for stage in plan.stages):
-        return
-    for body in (pair.a, pair.b):
-        if not body.solid:
-            plan.complain(
-                "surface-only",
-                body.id,
-                "not a closed, oriented solid: its surface was checked, whether it contains "
-                "another body was not, and an overlap has no proven least depth",
-            )
+def _weakness(pair: Pair, contact: Contact) -> str | None:
+    """What the answer leaves out; the relation of hulls that are apart leaves out nothing."""
+    hollow = [body.id for body in (pair.a, pair.b) if not body.solid]
+    if not contact.proven:
+        return (
+            f"not proven at --accuracy {pair.settings.accuracy}"
+            if not pair.may("exact")
+            else ("a degenerate contact was sampled")
+        )
+    if not hollow or contact.gap_lower > 0:
+        return None
+    verb = "is no solid" if len(hollow) == 1 else "are no solids"
+    return f"surfaces only: {' and '.join(hollow)} {verb}, so containment is not defined"
 
 
 def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
@@ -80,6 +80,7 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
         exact_relation=contact.relation if contact.proven else None,
         quality=_depth_quality(contact, depth),
         tolerance=pair.tolerance,
+        reason=_weakness(pair, contact),
         **_rule(pair, relation),
         **figures,
     )
@@ -129,6 +130,7 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
         exact_relation=contact.relation if contact.proven else None,
         quality="exact" if proven else "estimate",
         tolerance=pair.tolerance,
+        reason=_weakness(pair, contact),
         **_rule(pair, relation),
         **figures,
     )

@@ -71,7 +71,7 @@ def shrunken_hull(body: PlacedBody) -> Part | None:
         for row in range(3)
     ]
     shrunk = hull.transformed((*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0))
-    return Part(core.Hull(shrunk), shrunk.bounds)
+    return Part(core.Hull(shrunk.convex_hull()), shrunk.bounds)
 
 
 def _deep_point(body: PlacedBody, hull: core.Mesh) -> tuple[Vector, float]:

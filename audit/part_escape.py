@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
+PENETRATING = 2  # the outcome's number in batched results
 TRACE_STEPS = 24
 PROJECTIONS = 12
 # A facet nearly parallel to the way out would be left only far away: step as if at this cosine.
@@ -82,7 +83,7 @@ class PartPairs:
             query="depth",
             threads=1,
         )
-        depth = np.where(np.isfinite(found.distance), -found.distance, -np.inf)
+        depth = np.where(found.outcome == PENETRATING, -found.distance, 0.0)
         deepest = int(np.argmax(depth))
         if depth[deepest] <= self._free:
             return None

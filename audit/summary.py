@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import fields
@@ -90,12 +91,19 @@ def _body_report(body: PlacedBody) -> BodyReport:
         sha256=file.sha256,
         path=None,
         triangles=file.mesh.triangle_count,
-        health={field.name: getattr(file.health, field.name) for field in fields(file.health)},
+        health={
+            field.name: _finite(getattr(file.health, field.name)) for field in fields(file.health)
+        },
         resolution=body.resolution,
         convex=body.shared.convex.known,
         parts=parts and len(parts.parts),
         part_error=parts and PartError(parts.outside, parts.missing),
     )
+
+
+def _finite(value: bool | int | float | str) -> bool | int | float | str | None:
+    """A volume that overflowed is not known; None says so."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def issues_of(scene: Scene, roster: Roster, of_pairs: Iterable[Issue]) -> tuple[Issue, ...]:
