@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from satcheck.audit.boxes import largest_coordinate
+from satcheck.audit.boxes import diagonal, largest_coordinate
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
+from satcheck.audit.tolerances import TOUCH_FRACTION
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,10 +22,16 @@ class Pair:
 
     @property
     def tolerance(self) -> float:
-        """Half width of the touch band, world units: by default either surface may be off by its
-        own input precision, so the sum of both."""
+        """Half width of the touch band, world units.
+
+        By default either surface may be off by its own input precision, so the sum of both; but
+        coordinates without decimals, far from the origin, must not swallow a whole body.
+        """
         asked = self.settings.tolerance
-        return self.a.resolution + self.b.resolution if asked is None else asked
+        if asked is not None:
+            return asked
+        size = min(diagonal(self.a.bounds), diagonal(self.b.bounds))
+        return min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
 
     @property
     def asked_gap(self) -> float:

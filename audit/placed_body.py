@@ -64,7 +64,7 @@ class SharedMesh:
             seed=settings.part_seed,
             seconds=settings.part_seconds,
             megabytes=settings.part_megabytes,
-            cache=Cache(directory and Path(directory)) if settings.cache else None,
+            cache=Cache(None if directory is None else Path(directory)) if settings.cache else None,
         )
 
 

@@ -142,9 +142,9 @@ class Finding:
     exact_relation: Relation | None = None
     tolerance: float | None = None
     distance: float | None = None
-    depth: float | None
+    depth: float | None = None
     depth_bounds: tuple[float, float] | None = None
-    quality: Quality | None
+    quality: Quality | None = None
     normal: Vector | None = None
     mtv: Vector | None = None
     mtv_moves: Literal["a"] | None = None

@@ -96,8 +96,8 @@ def _body_report(body: PlacedBody) -> BodyReport:
         },
         resolution=body.resolution,
         convex=body.shared.convex.known,
-        parts=parts and len(parts.parts),
-        part_error=parts and PartError(parts.outside, parts.missing),
+        parts=None if parts is None else len(parts.parts),
+        part_error=None if parts is None else PartError(parts.outside, parts.missing),
     )
 
 

@@ -23,6 +23,10 @@ LENGTHENING_ULPS = (4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4
 # convex: its shrunken hull is worth trying as an inner body before it is decomposed.
 NEARLY_CONVEX = 0.02
 
+# The default touch band is at most this fraction of the smaller body's box diagonal. The float32
+# coordinates of a part that is 1/4000 of the assembly it sits in still keep their full precision.
+TOUCH_FRACTION = 1e-3
+
 # A depth interval this narrow, relatively, comes from rounding alone and is called exact.
 EXACT_WIDTH = 1e-9
 
