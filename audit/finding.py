@@ -6,14 +6,13 @@ import hashlib
 import math
 from typing import Any
 
-from satcheck.audit.depth import Depth, measure_depth, nudged_depth
+from satcheck.audit.depth import Depth, measure_depth
 from satcheck.audit.gap import Gap, measure_gap
 from satcheck.audit.ladder import Contact, boxes_apart, settle
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Severity
 from satcheck.audit.tolerances import EXACT_WIDTH
-from satcheck.audit.touch_band import flush_nudge
 
 CLEARANCE_RULE = "clearance"
 ID_DIGITS = 12
@@ -64,10 +63,10 @@ def _weakness(pair: Pair, contact: Contact) -> str | None:
 def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
     nudge = None
     if contact.convex is None and contact.relation == "penetrating" and pair.may("exact"):
+        from satcheck.audit.touch_band import flush_nudge
+
         nudge = flush_nudge(pair, contact, plan)
-    depth: Depth | None = None
-    if pair.settings.depth:
-        depth = nudged_depth(pair, contact, nudge) if nudge else measure_depth(pair, contact, plan)
+    depth = measure_depth(pair, contact, nudge, plan) if pair.settings.depth else None
     relation: Relation = "touching" if nudge or _shallow(pair, contact) else contact.relation
     figures = {} if depth is None else _depth_figures(depth)
     if pair.settings.clearance is not None and depth is not None and contact.convex is not None:

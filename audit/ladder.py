@@ -7,6 +7,7 @@ case: what it could not prove is then an estimate, and it can only err towards "
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from satcheck import core
@@ -47,7 +48,7 @@ def settle(pair: Pair, plan: Plan) -> Contact:
     if gap > pair.asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
     if _oriented_boxes_apart(pair, plan):
-        return Contact("separated", True, pair.asked_gap)
+        return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
     if not pair.may("hull"):
         return _apart_or_guess(gap)
     contact = _convex(pair, plan) if pair.both_convex else _hulls(pair, plan, gap)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.depth import crossing_depth
+from satcheck.audit.concave_depth import crossing_depth
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan

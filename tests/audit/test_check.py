@@ -1,0 +1,148 @@
+"""The whole of a check: which pairs are asked, how they add up, what survives a failure."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+
+import jsonschema
+import pytest
+
+from satcheck.audit import Settings, check
+from satcheck.core.errors import SatcheckError
+from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
+
+
+def adds_up(report):
+    pairs = report.summary.pairs
+    assert pairs.total == pairs.pruned + pairs.decided + pairs.allowed + pairs.indeterminate
+    assert sum(report.summary.by_relation.values()) == pairs.total - pairs.allowed
+    return pairs
+
+
+def row(tmp_path, count, step=0.75, **extra):
+    """Unit boxes in a row, each overlapping its neighbours when step < 1."""
+    write(tmp_path, box=unit_box())
+    bodies = [(f"b{k}", "box.obj", pose(k * step)) for k in range(count)]
+    return placed_scene(tmp_path, bodies, **extra)
+
+
+def test_all_pairs_of_a_row(tmp_path):
+    report = check(row(tmp_path, 5))
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.pruned, pairs.decided) == (10, 6, 4)
+    assert len(report.findings) == 10
+    assert report.summary.verdict == "fail"
+    assert [(f.a, f.b) for f in report.findings[:4]] == [
+        ("b0", "b1"),
+        ("b0", "b2"),
+        ("b0", "b3"),
+        ("b0", "b4"),
+    ]
+
+
+@pytest.mark.parametrize(("listed", "count"), [(None, 10), (True, 10), (False, 4)])
+def test_pruned_pairs_are_listed_on_request(tmp_path, listed, count):
+    report = check(row(tmp_path, 5), Settings(list_pruned=listed))
+    assert len(report.findings) == count
+    assert report.summary.by_relation["separated"] == 6
+    adds_up(report)
+
+
+def test_many_bodies_list_only_what_was_looked_at(tmp_path):
+    report = check(row(tmp_path, 20))
+    assert adds_up(report).total == 190
+    assert len(report.findings) == 19
+
+
+def test_allowed_pairs_cost_nothing(tmp_path):
+    report = check(row(tmp_path, 3, allowed_pairs=[["b1", "b0", "meant to"]]))
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.allowed, pairs.decided, pairs.pruned) == (3, 1, 1, 1)
+    assert [(f.a, f.b) for f in report.findings] == [("b0", "b2"), ("b1", "b2")]
+
+
+def test_pairs_within_an_ignored_group_are_not_asked(tmp_path):
+    write(tmp_path, box=unit_box())
+    bodies = [
+        ("a", "box.obj", pose(), "arm"),
+        ("b", "box.obj", pose(0.5), "arm"),
+        ("c", "box.obj", pose(0.75), "tool"),
+        ("d", "box.obj", pose(0.25), "tool"),
+    ]
+    report = check(placed_scene(tmp_path, bodies, ignore_within_groups=["arm"]))
+    pairs = adds_up(report)
+    assert pairs.total == 5
+    assert ("a", "b") not in [(f.a, f.b) for f in report.findings]
+    assert ("c", "d") in [(f.a, f.b) for f in report.findings]
+
+
+def test_an_unreadable_file_leaves_its_pairs_indeterminate(tmp_path):
+    broken = tmp_path / "broken.obj"
+    broken.write_text("v 0 0 nan\nf 1 1 1\n", encoding="utf-8")
+    paths = write(tmp_path, a=unit_box(), b=unit_box(2))
+    report = check([paths[0], broken, paths[1]])
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.indeterminate) == (3, 2)
+    assert report.summary.verdict == "incomplete"
+    reasons = [f.reason for f in report.findings if f.relation == "indeterminate"]
+    assert all(reason.startswith("unreadable") for reason in reasons)
+    assert any(issue.severity == "error" for issue in report.issues)
+    assert [body.triangles for body in report.bodies] == [12, 12, None]
+
+
+def test_one_body_is_refused(tmp_path):
+    with pytest.raises(SatcheckError) as caught:
+        check(write(tmp_path, a=unit_box()))
+    assert caught.value.code == "too-few-bodies"
+
+
+def test_a_check_of_nothing_never_passes(tmp_path):
+    write(tmp_path, box=unit_box())
+    bodies = [("a", "box.obj", pose(), "g"), ("b", "box.obj", pose(0.5), "g")]
+    report = check(placed_scene(tmp_path, bodies, ignore_within_groups=["g"]))
+    assert report.summary.pairs.total == 0
+    assert report.summary.verdict == "incomplete"
+
+
+def test_threads_change_nothing(tmp_path):
+    scene = row(tmp_path, 14)
+    one = check(scene, Settings(jobs=1)).to_dict(timings=False)
+    many = check(row(tmp_path, 14), Settings(jobs=4)).to_dict(timings=False)
+    assert json.dumps(one) == json.dumps(many)
+
+
+def test_progress_counts_every_pair(tmp_path):
+    seen = []
+    check(row(tmp_path, 12), Settings(jobs=2), progress=lambda done, of: seen.append((done, of)))
+    assert seen == [(k, 11) for k in range(1, 12)]
+
+
+def test_a_failing_pair_does_not_take_the_others_with_it(tmp_path, monkeypatch):
+    original = check.__globals__["examine"]
+
+    def failing(pair, plan):
+        if pair.a.id == "b1":
+            raise ZeroDivisionError("made up")
+        return original(pair, plan)
+
+    monkeypatch.setitem(check.__globals__, "examine", failing)
+    report = check(row(tmp_path, 4))
+    adds_up(report)
+    assert [f.relation for f in report.findings if f.reason] == ["indeterminate"]
+    assert [issue.code for issue in report.issues] == ["internal-error"]
+    assert "made up" in report.tracebacks[0]
+
+
+def test_ids_hold_no_positions(tmp_path):
+    first = check(row(tmp_path, 3))
+    second = check(row(tmp_path, 3, step=0.5))
+    assert [f.id for f in first.findings] == [f.id for f in second.findings]
+    assert len({f.id for f in first.findings}) == 3
+
+
+def test_the_report_keeps_to_the_published_schema(tmp_path):
+    schema = json.loads(files("satcheck.cli.report").joinpath("report.schema.json").read_text())
+    scene = scene_of(tmp_path, a=unit_box(), b=unit_box(0.5), c=unit_box(9), d=bracket())
+    for settings in (Settings(clearance=10.0), Settings(depth=False), Settings(accuracy="aabb")):
+        jsonschema.validate(check(scene, settings).to_dict(), schema)

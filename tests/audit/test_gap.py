@@ -1,0 +1,66 @@
+"""Distances: only where a clearance asks for them, with normal and witness points."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.audit import Settings, check
+from tests.audit.shapes import bracket, scene_of, unit_box
+
+
+def only(report):
+    (finding,) = report.findings
+    return finding
+
+
+def near_box(tmp_path, **settings):
+    return only(check(scene_of(tmp_path, a=unit_box(), b=unit_box(1.5)), Settings(**settings)))
+
+
+def test_no_clearance_no_distance(tmp_path):
+    finding = near_box(tmp_path)
+    assert (finding.relation, finding.distance, finding.witness) == ("separated", None, None)
+
+
+def test_below_the_clearance(tmp_path):
+    finding = near_box(tmp_path, clearance=0.75)
+    assert (finding.relation, finding.severity, finding.rule) == ("near", "error", "clearance")
+    assert finding.distance == 0.5
+    assert finding.normal == (1.0, 0.0, 0.0)
+    assert finding.witness.b[0] - finding.witness.a[0] == 0.5
+    assert finding.exact_relation == "separated"
+
+
+def test_the_clearance_itself_is_kept(tmp_path):
+    finding = near_box(tmp_path, clearance=0.5)
+    assert (finding.relation, finding.severity) == ("separated", "none")
+
+
+def test_beyond_the_clearance_nothing_is_measured(tmp_path):
+    finding = near_box(tmp_path, clearance=0.25)
+    assert [stage.stage for stage in finding.plan] == ["aabb"]
+
+
+def test_bodies_that_touch_keep_no_clearance(tmp_path):
+    scene = scene_of(tmp_path, a=unit_box(), b=unit_box(1.0))
+    assert only(check(scene)).severity == "note"
+    finding = only(check(scene, Settings(clearance=0.1)))
+    assert (finding.relation, finding.severity) == ("touching", "error")
+
+
+@pytest.mark.parametrize(("clearance", "relation"), [(0.75, "near"), (0.25, "separated")])
+def test_concave_distance(tmp_path, clearance, relation):
+    scene = scene_of(tmp_path, a=bracket(), b=unit_box(2.5, 3, 1))
+    finding = only(check(scene, Settings(clearance=clearance)))
+    assert finding.relation == relation
+    assert finding.distance == 0.5
+    assert finding.normal == (1.0, 0.0, 0.0)
+    assert "distance" in [stage.stage for stage in finding.plan]
+
+
+def test_a_capped_ladder_cannot_measure(tmp_path):
+    scene = scene_of(tmp_path, a=bracket(), b=unit_box(4.5, 4.5, 1))
+    finding = only(check(scene, Settings(accuracy="hull", clearance=5.0)))
+    assert (finding.relation, finding.quality) == ("near", "estimate")
+    assert finding.distance is None
+    assert finding.exact_relation == "separated"
