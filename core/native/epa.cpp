@@ -24,6 +24,7 @@ struct Face {
   std::uint32_t neighbour[3];  // across the edge vertex[i], vertex[i + 1]
   Vec3 normal;                 // unit, outward
   double distance;             // signed plane distance from the origin, positive when it is inside
+  double slenderness_squared;  // (longest edge / twice the area)^2: what its normal's rounding error grows with
   bool alive;
 };
 
@@ -51,17 +52,11 @@ bool set_plane(Face& face, Vec3 a, Vec3 b, Vec3 c, double scale) {
   const Triangle3 t = span(a, b, c);
   const double thin = kFlat * scale;
   if (!(t.area_squared > thin * thin * t.longest_squared)) return false;
-  face.normal = t.normal * (1 / std::sqrt(t.area_squared));
+  const double inverse_area = 1 / std::sqrt(t.area_squared);
+  face.normal = t.normal * inverse_area;
   face.distance = dot(face.normal, a);
+  face.slenderness_squared = t.longest_squared * inverse_area * inverse_area;
   return true;
-}
-
-// Bounds the rounding error of the plane distance of a face. The vertices carry half a support error
-// each; the normal turns by the error of the cross product over its length, and the edges'
-// coordinates are rounded to `scale`, not to themselves.
-double plane_error(Vec3 a, Vec3 b, Vec3 c, double scale) {
-  const Triangle3 t = span(a, b, c);
-  return kSupportError * scale * (1 + scale * std::sqrt(t.longest_squared / t.area_squared));
 }
 
 // Buffers of one thread, kept between pairs so that a query allocates nothing.
@@ -105,14 +100,17 @@ class ExpandingPolytope {
     return best;
   }
 
-  // A lower bound of the signed penetration that grants every face its own rounding error.
+  // A lower bound of the signed penetration that grants every face its own rounding error: the
+  // vertices carry half a support error each, and the normal turns by the error of the cross product
+  // over its length, where the edges' coordinates are rounded to `scale`, not to themselves.
   double least_proven_distance() const {
+    const double noise = m_.support_error(), turned = noise * m_.scale;
     double least = INFINITY;
     for (const Face& face : faces_) {
-      // The error is at least a support error: a face farther out than that cannot be the least.
-      if (!face.alive || face.distance - m_.support_error() > least) continue;
-      const std::uint32_t* v = face.vertex;
-      least = std::min(least, face.distance - plane_error(vertices_[v[0]].w, vertices_[v[1]].w, vertices_[v[2]].w, m_.scale));
+      if (!face.alive) continue;
+      const double margin = face.distance - noise - least;
+      if (margin > 0 && turned * turned * face.slenderness_squared <= margin * margin) continue;
+      least = std::min(least, face.distance - noise - turned * std::sqrt(face.slenderness_squared));
     }
     return least;
   }
