@@ -11,6 +11,7 @@ from satcheck.core._native import (
     Ellipsoid,
     Hull,
     Mesh,
+    MeshRelation,
     PairResult,
     PairResults,
     PolygonResult,
@@ -21,6 +22,7 @@ from satcheck.core._native import (
     Topology,
     check_pair,
     check_pairs,
+    mesh_relation,
     sat_polygons,
 )
 
@@ -32,6 +34,7 @@ __all__ = [
     "Ellipsoid",
     "Hull",
     "Mesh",
+    "MeshRelation",
     "PairResult",
     "PairResults",
     "PolygonResult",
@@ -42,5 +45,6 @@ __all__ = [
     "Topology",
     "check_pair",
     "check_pairs",
+    "mesh_relation",
     "sat_polygons",
 ]

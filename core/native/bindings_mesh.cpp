@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "mesh_checks.hpp"
+#include "mesh_pair.hpp"
 #include "polytope.hpp"
 #include "surface.hpp"
 #include "topology.hpp"
-#include "winding.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -184,9 +184,40 @@ void bind_surface(nb::module_& m) {
       .def("winding_number",
            [](const Surface& s, const Tuple3& point) {
              if (!s.solid) throw std::invalid_argument("the surface is not a solid");
-             return winding_number(s.mesh, s.bvh, finite_point(point));
+             return winding_number(s, finite_point(point));
            },
            "point"_a, ReleaseGil());
+}
+
+const char* relation_name(Relation relation) {
+  switch (relation) {
+    case Relation::kSeparated: return "separated";
+    case Relation::kTouching: return "touching";
+    case Relation::kPenetrating: return "penetrating";
+    case Relation::kContains: return "contains";
+    case Relation::kInside: return "inside";
+    case Relation::kCoincident: return "coincident";
+  }
+  return "";
+}
+
+std::int64_t triangle_number(std::uint32_t triangle) {
+  return triangle == kNoTriangle ? -1 : static_cast<std::int64_t>(triangle);
+}
+
+void bind_mesh_relation(nb::module_& m) {
+  nb::class_<MeshRelation>(m, "MeshRelation")
+      .def_prop_ro("relation", [](const MeshRelation& r) { return relation_name(r.relation); })
+      .def_ro("proven", &MeshRelation::proven)
+      .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
+      .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
+      .def_prop_ro("point",
+                   [](const MeshRelation& r) {
+                     return r.point ? std::optional(to_tuple(*r.point)) : std::nullopt;
+                   })
+      .def_ro("box_tests", &MeshRelation::box_tests)
+      .def_ro("triangle_tests", &MeshRelation::triangle_tests);
+  m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil());
 }
 
 }  // namespace
@@ -196,6 +227,7 @@ void bind_mesh(nb::module_& m) {
   bind_polytope(m);
   bind_mesh_class(m);
   bind_surface(m);
+  bind_mesh_relation(m);
 }
 
 }  // namespace satcheck

@@ -1,15 +1,18 @@
 #include "surface.hpp"
 
+#include <limits>
 #include <stdexcept>
 
 #include "edge_table.hpp"
+#include "patches.hpp"
 #include "topology.hpp"
+#include "winding.hpp"
 
 namespace satcheck {
 namespace {
 
-bool has_inside(const Mesh& mesh) {
-  const Mesh welded = weld(mesh);
+// Does every edge run equally often in both directions?
+bool has_inside(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     int balance = 0;
@@ -19,13 +22,42 @@ bool has_inside(const Mesh& mesh) {
   return edges.size() > 0;
 }
 
+std::vector<SurfacePart> find_parts(const Mesh& welded) {
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  DisjointSets sets(welded.vertices.size());
+  for (const Triangle& t : welded.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  std::vector<std::uint32_t> part_of(welded.vertices.size(), kNone);
+  std::vector<SurfacePart> parts;
+  for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
+    std::uint32_t& part = part_of[sets.find(welded.triangles[t][0])];
+    if (part == kNone) {
+      part = static_cast<std::uint32_t>(parts.size());
+      parts.push_back({t, {}});
+    }
+    include(parts[part].box, triangle_box(welded, t));
+  }
+  return parts;
+}
+
 }  // namespace
 
 Surface make_surface(const Mesh& mesh, bool solid) {
-  if (solid && !has_inside(mesh)) {
+  Surface surface;
+  surface.mesh = weld(mesh);
+  surface.solid = solid;
+  if (solid && !has_inside(surface.mesh)) {
     throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
   }
-  return {mesh, build_bvh(mesh), solid};
+  surface.bvh = build_bvh(surface.mesh);
+  surface.parts = find_parts(surface.mesh);
+  return surface;
+}
+
+std::optional<int> winding_number(const Surface& surface, Vec3 point) {
+  return winding_number(surface.mesh, surface.bvh, point);
 }
 
 }  // namespace satcheck

@@ -1,15 +1,26 @@
-// A mesh with its tree, built once and shared between queries and threads.
+// A mesh with what queries need of it, built once and shared between queries and threads.
 #pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
 
 #include "bvh.hpp"
 #include "mesh.hpp"
 
 namespace satcheck {
 
+// A part of a surface that is connected through common vertices.
+struct SurfacePart {
+  std::uint32_t triangle;  // one of it
+  Aabb box;
+};
+
 struct Surface {
-  Mesh mesh;
+  Mesh mesh;  // welded
   Bvh bvh;
-  // Closed and consistently wound, as told by its owner: winding numbers say what is inside.
+  std::vector<SurfacePart> parts;
+  // Closed and consistently wound: winding numbers say what is inside.
   bool solid = false;
 };
 
@@ -17,8 +28,12 @@ struct Surface {
 // consistently wound, for then it has no inside.
 Surface make_surface(const Mesh& mesh, bool solid);
 
-inline Vec3 corner(const Mesh& mesh, std::uint32_t triangle, int i) {
-  return mesh.vertices[mesh.triangles[triangle][static_cast<std::size_t>(i)]];
+// Winding number of a point with respect to a solid; nothing when the point is on the surface.
+std::optional<int> winding_number(const Surface& surface, Vec3 point);
+
+inline std::array<Vec3, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
 }  // namespace satcheck

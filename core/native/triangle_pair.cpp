@@ -122,6 +122,22 @@ Vec3 plane_crossing(const Corners& plane, Vec3 p, Vec3 q) {
   return p + (q - p) * t;
 }
 
+// Where two edges of coplanar or collinear triangles meet.
+Vec3 edge_meeting_point(const Corners& a, const Corners& b) {
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = a[i], q = a[(i + 1) % 3], r = b[k], s = b[(k + 1) % 3];
+      if (!segments_meet(p, q, r, s)) continue;
+      // The point of p q in the plane through r s across p q.
+      const Vec3 u = q - p, v = s - r, across = cross(v, cross(u, v));
+      const double speed = dot(u, across);
+      const double t = speed == 0 ? 0.5 : dot(r - p, across) / speed;
+      return p + u * std::fmin(1.0, std::fmax(0.0, t));
+    }
+  }
+  return a[0];
+}
+
 }  // namespace
 
 bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t) {
@@ -200,6 +216,28 @@ Vec3 crossing_point(const Corners& a, const Corners& b) {
                         ? plane_crossing(b, la.p, ia.high)
                         : plane_crossing(a, lb.p, ib.high);
   return low * 0.5 + high * 0.5;
+}
+
+Vec3 contact_point(const Corners& a, const Corners& b) {
+  for (const Vec3& p : a) {
+    if (segment_meets_triangle(p, p, b)) return p;
+  }
+  for (const Vec3& p : b) {
+    if (segment_meets_triangle(p, p, a)) return p;
+  }
+  // No corner lies in the other triangle: an edge goes through it, or two edges meet.
+  const Corners* sheets[2] = {&a, &b};
+  for (int s = 0; s < 2; ++s) {
+    const Corners &edges = *sheets[s], &sheet = *sheets[1 - s];
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = edges[i], q = edges[(i + 1) % 3];
+      if (!segment_meets_triangle(p, q, sheet)) continue;
+      const int side_p = orientation(sheet[0], sheet[1], sheet[2], p);
+      const int side_q = orientation(sheet[0], sheet[1], sheet[2], q);
+      if (side_p * side_q < 0) return plane_crossing(sheet, p, q);
+    }
+  }
+  return edge_meeting_point(a, b);
 }
 
 }  // namespace satcheck

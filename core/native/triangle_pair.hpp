@@ -34,4 +34,7 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t);
 // A point near the middle of the segment along which crossing triangles cross. Rounded.
 Vec3 crossing_point(const Corners& a, const Corners& b);
 
+// A common point of touching triangles. Rounded.
+Vec3 contact_point(const Corners& a, const Corners& b);
+
 }  // namespace satcheck
