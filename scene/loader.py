@@ -33,7 +33,7 @@ def load_scene(
     """
     loader = _Loader(seconds_per_file, megabytes_per_file)
     for path in paths:
-        given = str(path).replace("\\", "/") if isinstance(path, Path) else path
+        given = path.as_posix() if isinstance(path, Path) else path
         if Path(path).suffix.lower() == SCENE_SUFFIX:
             loader.add_scene(given, Path(path))
         else:
