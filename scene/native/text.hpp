@@ -18,7 +18,7 @@ class Lines {
   bool next(std::string_view& line);
   // As `next`, but skips lines that hold only blanks and, from `comment` on, drops the rest of a line.
   bool next_filled(std::string_view& line, char comment);
-  // As `next`; a backslash at the end of a line joins the following one.
+  // As `next`; a backslash at the end of a line without a comment joins the following one.
   bool next_joined(std::string_view& line);
 
   std::int64_t number() const { return number_; }  // of the line last returned (its first physical line)

@@ -1,0 +1,110 @@
+"""`load_scene` over several inputs: ids, units, issues, and what must not be imported."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import subprocess
+import sys
+
+import pytest
+
+from satcheck.scene import CODES, load_scene
+from tests.scene import files
+
+# What costs more to import than reading an OBJ and an STL file takes.
+EXPENSIVE = {
+    "numpy",
+    "trimesh",
+    "scipy",
+    "zipfile",
+    "xml.parsers.expat",
+    "lxml",
+    "networkx",
+    "subprocess",
+    "multiprocessing",
+    "concurrent.futures",
+    "asyncio",
+    "importlib.metadata",
+    "email",
+}
+
+
+def test_ids_are_stems_made_unique(tmp_path):
+    (tmp_path / "other").mkdir()
+    paths = [tmp_path / "a.obj", tmp_path / "other" / "a.obj", tmp_path / "a.obj"]
+    for path in paths:
+        path.write_bytes(files.obj())
+    scene = load_scene(paths)
+    assert [body.id for body in scene.bodies] == ["a", "a-2", "a-3"]
+    assert [body.name for body in scene.bodies] == ["a", "a", "a"]
+    assert scene.bodies[0].file is scene.bodies[2].file
+
+
+def test_ids_of_two_scenes_keep_their_allowed_pairs(tmp_path):
+    (tmp_path / "cube.obj").write_bytes(files.obj())
+    document = {
+        "schema": "satcheck-scene-1",
+        "units": "mm",
+        "bodies": [{"id": id_, "mesh": "cube.obj"} for id_ in "ab"],
+        "allowed_pairs": [["a", "b", "glued"]],
+    }
+    for name in ("one.json", "two.json"):
+        (tmp_path / name).write_text(json.dumps(document))
+    scene = load_scene([tmp_path / "one.json", tmp_path / "two.json"])
+    assert [body.id for body in scene.bodies] == ["a", "b", "a-2", "b-2"]
+    assert set(scene.allowed_pairs) == {frozenset(("a", "b")), frozenset(("a-2", "b-2"))}
+    assert scene.units == "mm"
+    document["units"] = "m"
+    (tmp_path / "two.json").write_text(json.dumps(document))
+    assert load_scene([tmp_path / "one.json", tmp_path / "two.json"]).units is None
+
+
+def test_a_warning_names_the_body_where_it_is_the_only_one(tmp_path):
+    (tmp_path / "open.obj").write_bytes(files.obj(faces=files.CUBE[1:]))
+    once = load_scene([tmp_path / "open.obj"])
+    twice = load_scene([tmp_path / "open.obj"] * 2)
+    assert [(issue.code, issue.body) for issue in once.issues] == [("not-closed", "open")]
+    assert [(issue.code, issue.body) for issue in twice.issues] == [("not-closed", None)]
+
+
+def test_sha256_and_format(tmp_path):
+    (tmp_path / "cube.stl").write_bytes(files.binary_stl())
+    file = load_scene([str(tmp_path / "cube.stl")]).bodies[0].file
+    assert file.format == "stl"
+    assert file.path == str(tmp_path / "cube.stl")
+    assert len(file.sha256) == 64
+
+
+def test_results_are_frozen(tmp_path):
+    (tmp_path / "cube.stl").write_bytes(files.binary_stl())
+    body = load_scene([tmp_path / "cube.stl"]).bodies[0]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        body.id = "x"  # type: ignore[misc]
+
+
+def test_codes_are_kebab_case_with_one_sentence_each():
+    for name, code in CODES.items():
+        assert name == code.name
+        assert name.replace("-", "").isalnum()
+        assert name == name.lower()
+        assert code.severity in ("error", "warning", "note")
+        assert code.meaning.endswith(".")
+        assert code.meaning.count(". ") == 0
+
+
+def test_reading_obj_stl_and_glb_imports_nothing_expensive(tmp_path):
+    (tmp_path / "a.obj").write_bytes(files.obj())
+    (tmp_path / "b.stl").write_bytes(files.binary_stl())
+    (tmp_path / "c.glb").write_bytes(files.glb())
+    script = (
+        "import sys; before = set(sys.modules)\n"
+        "from satcheck.scene import load_scene\n"
+        "assert len(load_scene(sys.argv[1:]).bodies) == 3\n"
+        "print(*(set(sys.modules) - before))"
+    )
+    paths = [str(tmp_path / name) for name in ("a.obj", "b.stl", "c.glb")]
+    run = subprocess.run(
+        [sys.executable, "-c", script, *paths], capture_output=True, text=True, check=True
+    )
+    assert EXPENSIVE.isdisjoint(run.stdout.split())

@@ -1,0 +1,77 @@
+"""How finely coordinates were written, in the file and in the world."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from satcheck.scene import Body
+from satcheck.scene.bodies import largest_stretch
+from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.resolution import file_resolution
+from tests.scene import files
+from tests.scene.loading import loaded
+
+
+def raw(precision, decimals=0, significant=0):
+    return RawMesh(b"", b"", precision, decimals, significant)
+
+
+@pytest.mark.parametrize(
+    ("mesh", "largest", "resolution"),
+    [
+        (raw("float32"), 8.0, 2.0**-20),
+        (raw("float64"), 8.0, 2.0**-50),
+        (raw("written-digits", decimals=1), 8.0, 2.0**-20),  # never coarser than float32
+        (raw("written-digits", decimals=9), 8.0, 0.5e-9),
+        (raw("written-digits", decimals=30), 8.0, 2.0**-50),  # never finer than float64
+        (raw("written-digits", significant=7), 8.0, 0.5e-6),
+        (raw("written-digits", significant=7), 0.5, 0.5e-7),
+        (raw("written-digits", decimals=9, significant=3), 8.0, 0.5e-9),
+        (raw("written-digits", decimals=3), 0.0, 0.0),
+    ],
+)
+def test_file_resolution(mesh, largest, resolution):
+    assert file_resolution(mesh, largest) == pytest.approx(resolution, rel=1e-15, abs=0.0)
+
+
+def test_noise_with_an_exponent_does_not_promise_its_decimals(tmp_path):
+    noisy = files.obj().replace(b"v 0 0 0\n", b"v -4.37114e-08 0 0\n")
+    assert loaded(tmp_path, "a.obj", noisy).resolution == 2.0**-23
+
+
+def test_formats(tmp_path):
+    assert loaded(tmp_path, "a.stl", files.binary_stl()).resolution == 2.0**-23
+    assert loaded(tmp_path, "a.glb", files.glb()).resolution == 2.0**-23
+    assert loaded(tmp_path, "a.ply", files.binary_ply()).resolution == 2.0**-23
+    assert loaded(tmp_path, "b.ply", files.binary_ply(double=True)).resolution == 2.0**-53
+    digits = files.obj().replace(b"v 1 1 1\n", b"v 1.000000000 1 1\n")
+    assert loaded(tmp_path, "a.obj", digits).resolution == pytest.approx(0.5e-9, rel=1e-12, abs=0.0)
+    model = files.object_3mf(1).replace('x="1"', 'x="1.00000000"')
+    assert loaded(tmp_path, "a.3mf", files.threemf(model)).resolution == pytest.approx(
+        0.5e-8, rel=1e-12, abs=0.0
+    )
+
+
+@pytest.mark.parametrize(
+    ("linear", "stretch"),
+    [
+        ((1, 0, 0, 0, 1, 0, 0, 0, 1), 1),
+        ((0, -1, 0, 1, 0, 0, 0, 0, 1), 1),
+        ((2, 0, 0, 0, -3, 0, 0, 0, 0.5), 3),
+        ((1, 1, 0, 0, 1, 0, 0, 0, 1), (1 + math.sqrt(5)) / 2),  # a shear
+    ],
+)
+def test_largest_stretch(linear, stretch):
+    a, b, c = linear[:3], linear[3:6], linear[6:]
+    transform = (*a, 7.0, *b, 8.0, *c, 9.0, 0.0, 0.0, 0.0, 1.0)
+    assert largest_stretch(transform) == pytest.approx(stretch, rel=1e-14)
+
+
+def test_world_resolution_adds_the_rounding_of_the_placement(tmp_path):
+    file = loaded(tmp_path, "a.stl", files.binary_stl())
+    assert Body("a", "a", file).resolution_world == 2.0**-23
+    far = (2.0, 0.0, 0.0, 1e9, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+    expected = 2.0 * 2.0**-23 + (1e9 + 2) * 2.0**-53
+    assert Body("a", "a", file, far).resolution_world == pytest.approx(expected, rel=1e-12, abs=0.0)
