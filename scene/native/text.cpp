@@ -112,7 +112,7 @@ bool Lines::next_filled(std::string_view& line, char comment) {
 
 bool Lines::next_joined(std::string_view& line) {
   if (!next(line)) return false;
-  // A comment ends with its line: "# made by C:\\models\\" must not swallow the vertex below it.
+  // A comment ends with its line: one that ends in a Windows path must not swallow the vertex below it.
   const bool continued = !line.empty() && line.back() == '\\' && line.find('#') == std::string_view::npos;
   if (!continued) return true;
   const std::int64_t first = number_;
