@@ -298,7 +298,7 @@ def test_ctrl_c_is_130(tmp_path: Path) -> None:
     time.sleep(0.1)
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=30)
-    assert (process.returncode, out, err) == (130, "", "satcheck: interrupted\n")
+    assert (process.returncode, out, err.strip()) == (130, "", "satcheck: interrupted")
 
 
 # --- how it looks -----------------------------------------------------------------------------
