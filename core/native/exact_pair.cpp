@@ -1,6 +1,8 @@
-// Every facet of A - B is a face of A, a face of -B, or spanned by an edge of each, so "does a plane
-// separate the hulls, at least weakly" is a finite question about signs of determinants of
-// coordinate differences. The float64 supports leave only the axes within `slack` of separating.
+// Do the surfaces have a common point? If not, the hulls are apart or nested. If so, the origin lies in
+// A - B, and on its boundary exactly when one of the facets that hold it separates weakly. Such a facet
+// is a face of A, a face of -B, or spanned by an edge of each that meet: a finite question about signs
+// of determinants of coordinate differences. The float64 supports leave only the axes within
+// `slack` of separating to be tested.
 
 #include "exact_pair.hpp"
 
@@ -8,12 +10,11 @@
 
 #include "predicates.hpp"
 #include "tolerances.hpp"
+#include "triangle_pair.hpp"
 
 namespace satcheck {
 
 namespace {
-
-enum class Separation { none, weak, strict };
 
 struct Hull {
   Polytope polytope;
@@ -60,40 +61,39 @@ Triangle corners_of(const Polytope& p, std::size_t f) {
   return best;
 }
 
-// `owner` lies on or below each of its own faces, exactly; the sign of `other` decides.
-Separation across_face(const Polytope& owner, const Triangle& t, const Polytope& other) {
-  bool touches = false;
-  for (Vec3 p : other.vertices) {
-    const int side = orientation(owner.vertices[t[0]], owner.vertices[t[1]], owner.vertices[t[2]], p);
-    if (side < 0) return Separation::none;
-    touches = touches || side == 0;
-  }
-  return touches ? Separation::weak : Separation::strict;
+// Is all of `other` on or above the plane of a face of `owner`, which lies on or below it?
+bool face_separates(const Polytope& owner, const Triangle& t, const Polytope& other) {
+  return std::all_of(other.vertices.begin(), other.vertices.end(), [&](Vec3 p) {
+    return orientation(owner.vertices[t[0]], owner.vertices[t[1]], owner.vertices[t[2]], p) >= 0;
+  });
 }
 
 struct Segment {
   Vec3 tail, head;
 };
 
-// The planes parallel to both edges: is A on one side and B on the other of the one through A's edge?
-Separation across_edges(const Polytope& a, Segment ea, const Polytope& b, Segment eb) {
-  int a_min = 1, a_max = -1, b_min = 1, b_max = -1;
-  for (Vec3 p : a.vertices) {
-    const int side = determinant_sign(ea.tail, ea.head, eb.tail, eb.head, ea.tail, p);
-    a_min = std::min(a_min, side);
-    a_max = std::max(a_max, side);
-    if (a_min < 0 && a_max > 0) return Separation::none;
+struct Range {
+  int min = 1, max = -1;
+};
+
+// Signs of p's sides of the plane through ea parallel to eb.
+Range sides_of(const Polytope& p, Segment ea, Segment eb) {
+  Range range;
+  for (Vec3 v : p.vertices) {
+    const int side = determinant_sign(ea.tail, ea.head, eb.tail, eb.head, ea.tail, v);
+    range = {std::min(range.min, side), std::max(range.max, side)};
+    if (range.min < 0 && range.max > 0) break;
   }
-  for (Vec3 p : b.vertices) {
-    const int side = determinant_sign(ea.tail, ea.head, eb.tail, eb.head, ea.tail, p);
-    b_min = std::min(b_min, side);
-    b_max = std::max(b_max, side);
-    if (b_min < 0 && b_max > 0) return Separation::none;
-  }
-  if (a_min == 0 && a_max == 0 && b_min == 0 && b_max == 0) return Separation::none;  // parallel: no axis
-  if ((a_max <= 0 && b_min > 0) || (a_min >= 0 && b_max < 0)) return Separation::strict;
-  if ((a_max <= 0 && b_min >= 0) || (a_min >= 0 && b_max <= 0)) return Separation::weak;
-  return Separation::none;
+  return range;
+}
+
+// Are A and B on two sides of the plane through A's edge that is parallel to B's?
+bool edges_separate(const Polytope& a, Segment ea, const Polytope& b, Segment eb) {
+  const Range ra = sides_of(a, ea, eb);
+  if (ra.min < 0 && ra.max > 0) return false;
+  const Range rb = sides_of(b, ea, eb);
+  if (ra.min == 0 && ra.max == 0 && rb.min == 0 && rb.max == 0) return false;  // parallel edges: no axis
+  return (ra.max <= 0 && rb.min >= 0) || (ra.min >= 0 && rb.max <= 0);
 }
 
 std::vector<Segment> edges_of(const Polytope& p) {
@@ -103,22 +103,75 @@ std::vector<Segment> edges_of(const Polytope& p) {
   return edges;
 }
 
+std::vector<Triangle> triangles_of(const Polytope& p) {
+  if (p.dimension == 0) return {{0, 0, 0}};
+  if (p.dimension == 1) return {{0, 1, 1}};
+  return p.triangles;
+}
+
+template <class Points>
+Aabb bounds_of(const Points& points) {
+  Aabb box;
+  for (Vec3 p : points) box.include(p);
+  return box;
+}
+
 class ExactPair {
  public:
   ExactPair(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double slack)
-      : a_(a, a.front()), b_(b, a.front()), slack_(slack) {}
+      : a_(a, a.front()),
+        b_(b, a.front()),
+        bounds_a_(bounds_of(a_.polytope.vertices)),
+        bounds_b_(bounds_of(b_.polytope.vertices)),
+        slack_(slack) {}
 
-  Outcome decide() {
+  Outcome decide() const {
+    if (!surfaces_meet()) {
+      return holds(a_.polytope, b_.polytope.vertices[0]) || holds(b_.polytope, a_.polytope.vertices[0])
+                 ? Outcome::penetrating
+                 : Outcome::separated;
+    }
     // Two flats whose dimensions add up to less than three span no volume between them.
-    const bool spans_volume = a_.polytope.dimension + b_.polytope.dimension >= 3;
-    Separation best = std::max(best_face_axis(a_, b_, 1), best_face_axis(b_, a_, -1));
-    if (best != Separation::strict) best = std::max(best, best_edge_axis());
-    if (best == Separation::strict) return Outcome::separated;
-    if (best == Separation::none && spans_volume) return Outcome::penetrating;
-    return Outcome::touching;
+    if (a_.polytope.dimension + b_.polytope.dimension < 3) return Outcome::touching;
+    const bool weakly = some_face_separates(a_, b_, 1) || some_face_separates(b_, a_, -1) || some_edges_separate();
+    return weakly ? Outcome::touching : Outcome::penetrating;
   }
 
  private:
+  bool surfaces_meet() const {
+    const std::vector<Corners> near_a = triangles_near(a_.polytope, bounds_b_);
+    const std::vector<Corners> near_b = triangles_near(b_.polytope, bounds_a_);
+    for (const Corners& s : near_a) {
+      const Aabb box = bounds_of(s);
+      for (const Corners& t : near_b) {
+        if (meet(box, bounds_of(t)) && classify(s, t) != TriangleContact::kDisjoint) return true;
+      }
+    }
+    return false;
+  }
+
+  static std::vector<Corners> triangles_near(const Polytope& p, const Aabb& box) {
+    std::vector<Corners> near;
+    for (const Triangle& t : triangles_of(p)) {
+      const Corners corners{p.vertices[t[0]], p.vertices[t[1]], p.vertices[t[2]]};
+      if (meet(bounds_of(corners), box)) near.push_back(corners);
+    }
+    return near;
+  }
+
+  static std::vector<Segment> edges_near(const Polytope& p, const Aabb& box) {
+    std::vector<Segment> edges = edges_of(p);
+    std::erase_if(edges, [&](const Segment& e) { return !meet(bounds_of(std::array{e.tail, e.head}), box); });
+    return edges;
+  }
+
+  static bool holds(const Polytope& p, Vec3 point) {
+    if (p.dimension < 3) return false;
+    return std::all_of(p.triangles.begin(), p.triangles.end(), [&](const Triangle& t) {
+      return orientation(p.vertices[t[0]], p.vertices[t[1]], p.vertices[t[2]], point) <= 0;
+    });
+  }
+
   // Can this axis separate, even weakly, once its own error is granted? Vertices that refuted the last
   // axis are tried first: most axes fall at once.
   bool worth_testing(const RoundedAxis& axis, Vec3 sign_unit) const {
@@ -145,35 +198,34 @@ class ExactPair {
     return true;
   }
 
-  Separation best_face_axis(const Hull& owner, const Hull& other, double sign) const {
-    Separation best = Separation::none;
+  bool some_face_separates(const Hull& owner, const Hull& other, double sign) const {
+    const Vec3* v = owner.polytope.vertices.data();
     for (std::size_t f = 0; f < owner.polytope.face_count(); ++f) {
       const Triangle t = corners_of(owner.polytope, f);
-      const Vec3* v = owner.polytope.vertices.data();
       const RoundedAxis axis = axis_across(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]);
       if (std::isfinite(axis.error) && !worth_testing(axis, axis.unit * sign)) continue;
-      best = std::max(best, across_face(owner.polytope, t, other.polytope));
-      if (best == Separation::strict) break;
+      if (face_separates(owner.polytope, t, other.polytope)) return true;
     }
-    return best;
+    return false;
   }
 
-  Separation best_edge_axis() const {
-    Separation best = Separation::none;
-    const std::vector<Segment> edges_b = edges_of(b_.polytope);
-    for (const Segment& ea : edges_of(a_.polytope)) {
+  bool some_edges_separate() const {
+    const std::vector<Segment> edges_b = edges_near(b_.polytope, bounds_a_);
+    for (const Segment& ea : edges_near(a_.polytope, bounds_b_)) {
+      const Aabb box = bounds_of(std::array{ea.tail, ea.head});
       for (const Segment& eb : edges_b) {
+        if (!meet(box, bounds_of(std::array{eb.tail, eb.head}))) continue;
         const RoundedAxis axis = axis_across(ea.head - ea.tail, eb.head - eb.tail);
         const bool trusted = std::isfinite(axis.error);
         if (trusted && !worth_testing(axis, axis.unit) && !worth_testing(axis, -axis.unit)) continue;
-        best = std::max(best, across_edges(a_.polytope, ea, b_.polytope, eb));
-        if (best == Separation::strict) return best;
+        if (edges_separate(a_.polytope, ea, b_.polytope, eb)) return true;
       }
     }
-    return best;
+    return false;
   }
 
   Hull a_, b_;
+  Aabb bounds_a_, bounds_b_;
   double slack_;
   mutable std::size_t last_a_ = 0, last_b_ = 0;
 };

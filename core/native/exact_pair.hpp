@@ -9,8 +9,8 @@ namespace satcheck {
 // of a float64 support value: only axes within it of separating are tested exactly, all others
 // are known to overlap. Never undecided.
 //
-// separated: an axis with a gap. touching: an axis without overlap, and a common point.
-// penetrating: no facet normal of the Minkowski difference separates even weakly.
+// touching: a common point, and a plane that holds the hulls apart weakly. penetrating: a common point
+// and no such plane, or one hull inside the other. separated: neither.
 Outcome decide_exactly(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double slack);
 
 }  // namespace satcheck
