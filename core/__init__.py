@@ -11,6 +11,7 @@ from satcheck.core._native import (
     Ellipsoid,
     Hull,
     Mesh,
+    MeshDistance,
     MeshRelation,
     PairResult,
     PairResults,
@@ -22,6 +23,8 @@ from satcheck.core._native import (
     Topology,
     check_pair,
     check_pairs,
+    deviation,
+    mesh_distance,
     mesh_relation,
     sat_polygons,
 )
@@ -34,6 +37,7 @@ __all__ = [
     "Ellipsoid",
     "Hull",
     "Mesh",
+    "MeshDistance",
     "MeshRelation",
     "PairResult",
     "PairResults",
@@ -45,6 +49,8 @@ __all__ = [
     "Topology",
     "check_pair",
     "check_pairs",
+    "deviation",
+    "mesh_distance",
     "mesh_relation",
     "sat_polygons",
 ]

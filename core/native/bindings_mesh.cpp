@@ -12,7 +12,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "convexity.hpp"
+#include "deviation.hpp"
 #include "mesh_checks.hpp"
+#include "mesh_distance.hpp"
 #include "mesh_pair.hpp"
 #include "polytope.hpp"
 #include "surface.hpp"
@@ -126,7 +129,8 @@ void bind_mesh_class(nb::module_& m) {
       .def("topology", &measure_topology, ReleaseGil())
       .def("oriented", &orient, ReleaseGil())
       .def("components", &split_components, ReleaseGil())
-      .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil());
+      .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
+      .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil());
 }
 
 void bind_topology(nb::module_& m) {
@@ -186,6 +190,12 @@ void bind_surface(nb::module_& m) {
              if (!s.solid) throw std::invalid_argument("the surface is not a solid");
              return winding_number(s, finite_point(point));
            },
+           "point"_a, ReleaseGil())
+      .def("nearest",
+           [](const Surface& s, const Tuple3& point) {
+             const NearestPoint nearest = nearest_point(s, finite_point(point));
+             return std::make_tuple(nearest.distance, to_tuple(nearest.point));
+           },
            "point"_a, ReleaseGil());
 }
 
@@ -220,6 +230,22 @@ void bind_mesh_relation(nb::module_& m) {
   m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil());
 }
 
+void bind_mesh_distance(nb::module_& m) {
+  nb::class_<MeshDistance>(m, "MeshDistance")
+      .def_ro("distance", &MeshDistance::distance)
+      .def_prop_ro("witness_a", [](const MeshDistance& d) { return to_tuple(d.witness_a); })
+      .def_prop_ro("witness_b", [](const MeshDistance& d) { return to_tuple(d.witness_b); })
+      .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
+      .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
+  m.def("mesh_distance", &mesh_distance, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil());
+  m.def("deviation",
+        [](const Mesh& surface_of, const Surface& solid, double tolerance) {
+          const Deviation d = deviation(surface_of, solid, tolerance);
+          return std::make_tuple(d.lower, d.upper);
+        },
+        "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil());
+}
+
 }  // namespace
 
 void bind_mesh(nb::module_& m) {
@@ -228,6 +254,7 @@ void bind_mesh(nb::module_& m) {
   bind_mesh_class(m);
   bind_surface(m);
   bind_mesh_relation(m);
+  bind_mesh_distance(m);
 }
 
 }  // namespace satcheck
