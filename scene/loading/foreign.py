@@ -14,6 +14,7 @@ from satcheck.scene.loading.raw_mesh import RawMesh
 from satcheck.scene.loading.source import Source
 
 _WORKER = "satcheck.scene.loading.foreign_worker"
+_LONGEST_MESSAGE = 200  # characters of what a library says
 _CODE_OF_WORKER = {
     "worker-timeout": "reader-timeout",
     "worker-out-of-memory": "reader-out-of-memory",
@@ -47,5 +48,12 @@ def _explain(error: WorkerError, source: Source, megabytes: int) -> str:
     if error.code == "worker-out-of-memory":
         return f"reading this {kind} file needs more than {megabytes} MiB"
     if isinstance(error, WorkerFailed):
-        return f"the {kind} reader failed: {error.exception_type}: {error.exception_message}"
-    return f"the {kind} reader died: {error.message}"
+        return _one_line(
+            f"the {kind} reader failed: {error.exception_type}: {error.exception_message}"
+        )
+    return _one_line(f"the {kind} reader died: {error.message}")
+
+
+def _one_line(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= _LONGEST_MESSAGE else line[:_LONGEST_MESSAGE] + " ..."

@@ -246,6 +246,11 @@ REFUSED = {
         "reference-cycle",
         "contains itself",
     ),
+    "no_offset.dae": (
+        files.collada().replace(b'offset="0"', b""),
+        "reader-failed",
+        "the DAE reader failed: TypeError",
+    ),
     "nothing.dae": (files.collada(nodes=""), "empty-mesh", "no triangles"),
     "passwd": (b"root:x:0:0\n", "unsupported-format", "unsupported format"),
 }
