@@ -32,7 +32,8 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     if contact.relation == "touching":
         witness = contact.point and Witness(contact.point, contact.point)
         return Gap(0.0, 0.0, None, witness)
-    if contact.gap_lower > pair.asked_gap or not pair.may("exact"):
+    settled = contact.gap_lower > pair.asked_gap or pair.asked_gap == 0
+    if settled or not pair.may("exact"):
         return Gap(contact.gap_lower, math.inf)
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
     limit = pair.tolerance if pair.settings.clearance is None else math.inf

@@ -64,9 +64,17 @@ def test_coincident(tmp_path):
 
 
 def test_inside_the_notch_triangles_decide_and_nothing_more(tmp_path):
-    finding = only(check(scene_of(tmp_path, a=bracket(), b=unit_box(3, 3, 1))))
+    scene = scene_of(tmp_path, a=bracket(), b=unit_box(3, 3, 1))
+    finding = only(check(scene, Settings(tolerance=0.0)))
     assert (finding.relation, finding.quality) == ("separated", "exact")
     assert stages(finding) == ["aabb", "hull", "triangles"]
+
+
+def test_the_touch_band_asks_whether_the_gap_is_within_it(tmp_path):
+    finding = only(check(scene_of(tmp_path, a=bracket(), b=unit_box(3, 3, 1))))
+    assert stages(finding) == ["aabb", "hull", "triangles", "distance"]
+    assert finding.plan[-1].result == "beyond"
+    assert finding.distance is None
 
 
 def test_hulls_apart_need_no_triangles(tmp_path):
@@ -100,7 +108,7 @@ def test_box_inside_the_material_of_a_concave_body(tmp_path):
 )
 def test_accuracy_caps_the_ladder(tmp_path, accuracy, relation, quality, allowed):
     scene = scene_of(tmp_path, a=bracket(), b=unit_box(3, 3, 1))
-    finding = only(check(scene, Settings(accuracy=accuracy, depth=False)))
+    finding = only(check(scene, Settings(accuracy=accuracy, depth=False, tolerance=0.0)))
     assert (finding.relation, finding.quality) == (relation, quality)
     assert set(stages(finding)) == allowed
     assert finding.exact_relation == ("separated" if accuracy == "exact" else None)
