@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 
 DIGITS = 6
+# Relative. A bound this close to its six digits is shown as these: the last place of a float64
+# computation is not worth a whole unit in the sixth digit.
+ROUNDOFF = 1e-12
 
 
 def number(value: float) -> str:
@@ -13,10 +16,9 @@ def number(value: float) -> str:
 
 
 def bounds(low: float, high: float) -> str:
-    """A proven interval, rounded outward, so that what is shown is still true."""
-    if low == high:
-        return number(low)
-    return f"{_rounded(low, down=True)} .. {_rounded(high, down=False)}"
+    """A proven interval, rounded outward, so that what is shown is still true (to ROUNDOFF)."""
+    shown = (_rounded(low, down=True), _rounded(high, down=False))
+    return shown[0] if shown[0] == shown[1] else " .. ".join(shown)
 
 
 def vector(values: tuple[float, float, float]) -> str:
@@ -38,7 +40,8 @@ def duration(microseconds: float) -> str:
 
 def _rounded(value: float, *, down: bool) -> str:
     text = number(value)
-    if value == 0 or (float(text) <= value if down else float(text) >= value):
+    outward = value - float(text) if down else float(text) - value
+    if outward >= -ROUNDOFF * abs(value):
         return text
     step = 10.0 ** (math.floor(math.log10(abs(value))) - DIGITS + 1)
     return number(value - step if down else value + step)

@@ -185,8 +185,8 @@ def _remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
     lines = []
     for finding in shown:
         pair = f"{finding.a} and {finding.b}"
-        if finding.exact_relation not in (None, finding.relation) and finding.tolerance:
-            band = number(finding.tolerance)
+        if finding.relation == "touching" and finding.exact_relation not in (None, "touching"):
+            band = number(finding.tolerance or 0.0)
             lines.append(Text(f"{pair}: exactly {finding.exact_relation}, by no more than {band}"))
         if finding.reason:
             lines.append(Text(f"{pair}: {finding.reason}"))

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from satcheck.cli.report.numbers import bounds, duration, number, vector
+from satcheck.cli.report.numbers import ROUNDOFF, bounds, duration, number, vector
 
 LENGTHS = st.floats(min_value=1e-30, max_value=1e30)
 
@@ -27,9 +27,13 @@ def test_bounds_that_meet_are_one_number() -> None:
 def test_shown_bounds_are_still_bounds(first: float, second: float) -> None:
     low, high = sorted((first, second))
     shown = bounds(low, high).split(" .. ")
-    if low != high:
-        assert float(shown[0]) <= low
-        assert high <= float(shown[1])
+    assert float(shown[0]) <= low * (1 + ROUNDOFF)
+    assert high * (1 - ROUNDOFF) <= float(shown[-1])
+
+
+def test_rounding_errors_are_not_shown() -> None:
+    assert bounds(1.2499988, 1.2500000000000488) == "1.24999 .. 1.25"
+    assert bounds(0.9999999999998315, 1.0000000000000222) == "1"
 
 
 @pytest.mark.parametrize(

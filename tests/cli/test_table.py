@@ -49,6 +49,10 @@ def test_the_touch_band_hides_nothing() -> None:
     assert "block and flush: exactly penetrating, by no more than 2.5e-07" in shown(TOUCHING)
 
 
+def test_what_is_near_is_separated_without_further_words() -> None:
+    assert "exactly" not in shown(replace(SEPARATED, relation="near", distance=0.5))
+
+
 def test_what_was_not_decided_comes_with_its_reason() -> None:
     assert "block and soup: the time limit was reached" in shown(UNDECIDED)
 
