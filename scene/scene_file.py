@@ -1,7 +1,7 @@
 """The scene form `satcheck-scene-1`: JSON that places mesh files and says which pairs may touch.
 
     {"schema": "satcheck-scene-1", "name", "units",
-     "bodies": [{"id", "mesh": path relative to this file, "transform": 4x4 rows,
+     "bodies": [{"id", "mesh": path, from this file on, "transform": 4x4 rows,
                  "group", "static"}],
      "ignore_within_groups": [group], "allowed_pairs": [[id, id, reason]]}
 
@@ -149,9 +149,9 @@ class _Reader:
         )
 
     def _mesh_location(self, mesh: str, body: str) -> Path:
-        """Scenes share meshes by `../` paths, so not the place is judged but what is there."""
-        if "\0" in mesh or Path(mesh).is_absolute():
-            raise self._error("outside-path", f"mesh path {mesh!r} is not relative: refused", body)
+        """Scenes share meshes across folders: not the place is judged, but what is there."""
+        if "\0" in mesh:
+            raise self._error("bad-scene", f"mesh path {mesh!r} holds a NUL character", body)
         location = self._location.parent / mesh
         if location.suffix.lower() not in FORMATS:
             raise self._error(
