@@ -304,7 +304,6 @@ Simplex weighted_facet(const ExpandingPolytope& polytope, const Face& face) {
 
 EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
   EpaResult result;
-  result.upper = INFINITY;
   thread_local Workspace workspace;
   ExpandingPolytope polytope(m, workspace);
   Vec3 flat_normal;
@@ -315,11 +314,10 @@ EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
     result.status = EpaResult::Status::flat;
     result.axis = towards <= against ? flat_normal : -flat_normal;
     result.upper = std::min(towards, against);
-    result.lower = -INFINITY;
     return result;
   }
   const double noise = m.support_error();
-  const double closed = (m.curved ? kCurvedGap : kVisible) * m.scale;
+  const double closed = (m.curved ? kCurvedFacetGap : kVisible) * m.scale;
   for (;;) {
     const std::uint32_t f = polytope.closest_face();
     const Face face = polytope.face(f);
@@ -348,7 +346,13 @@ EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
     }
     // A vertex that is there already and still outside a face: rounding has bent the polytope, and
     // going on could go on for ever. What was proven so far stands.
-    result.lower = face.distance - m.support_error();
+    if (m.curved) {
+      result.lower = std::max(result.lower, polytope.least_proven_distance());
+      result.status = EpaResult::Status::bounded;
+      if (result.iterations >= kCurvedExpansions) return result;
+    } else {
+      result.lower = face.distance - m.support_error();
+    }
     if (polytope.contains(w) || !polytope.expand(w, f)) return result;
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact_region.hpp"
+#include "curved_axis.hpp"
 #include "epa.hpp"
 #include "exact_pair.hpp"
 #include "tolerances.hpp"
@@ -14,6 +15,7 @@ namespace {
 // Signed penetration of the cores of A and B, before margins: > 0 overlap, < 0 gap.
 struct CoreAnswer {
   double lower = -INFINITY, upper = INFINITY;
+  double value = INFINITY;  // between them: minus the distance of the witness points, or the support value
   Vec3 axis;      // unit, A to B, frame of A
   Witnesses witness;
   bool has_axis = false;  // axis and witness are set
@@ -39,7 +41,7 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   const SatResult sat = boxes ? sat_boxes(m, goal) : sat_polytopes(m, goal);
   result.axes_tested += sat.axes_tested;
   CoreAnswer answer;
-  answer.lower = answer.upper = sat.penetration;
+  answer.lower = answer.upper = answer.value = sat.penetration;
   answer.axis = sat.axis;
   answer.has_axis = true;
   answer.method = Method::sat;
@@ -55,7 +57,7 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
 // `lower_bound` of the distance may come from another stage than GJK's own axes.
 CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, double lower_bound) {
   CoreAnswer answer;
-  answer.lower = -std::fmax(g.upper, lower_bound);
+  answer.lower = answer.value = -std::fmax(g.upper, lower_bound);
   answer.upper = -lower_bound;
   answer.axis = g.upper > 0 ? g.v * (-1 / g.upper) : -g.axis;
   answer.has_axis = true;
@@ -71,11 +73,12 @@ CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, d
 Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
   const Witnesses facet{e.facet.witness_a(), e.facet.witness_b()};
   const double miss = norm(facet.a - facet.b - e.axis * e.upper);
-  if (miss <= (m.curved ? kCurvedGap * m.scale : m.support_error())) return facet;
+  if (e.facet.count > 0 && miss <= (m.curved ? kCurvedFacetGap * m.scale : m.support_error())) return facet;
   if (m.a.is_polytope() && m.b.is_polytope()) return contact_region_centre(m, e.axis, e.upper);
   MinkowskiDifference touching = m;
   touching.b_in_a.translation = touching.b_in_a.translation + e.axis * e.upper;
-  const GjkResult g = gjk(touching, GjkGoal::distance);
+  GjkResult g = gjk(touching, GjkGoal::distance);
+  if (g.status == GjkResult::Status::encloses) weigh_enclosed_origin(g.simplex);
   return {g.simplex.witness_a(), g.simplex.witness_b() - e.axis * e.upper};
 }
 
@@ -86,9 +89,10 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
   answer.method = Method::epa;
   answer.feature = m.curved ? Feature::curved : Feature::vertices;
   answer.axis = e.axis;
-  answer.upper = e.upper;
+  answer.upper = answer.value = e.upper;
   switch (e.status) {
     case EpaResult::Status::depth:
+    case EpaResult::Status::bounded:
       answer.lower = e.lower;
       answer.has_axis = true;
       if (query != Query::overlap) answer.witness = overlap_witness(m, e);
@@ -96,7 +100,7 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
     case EpaResult::Status::separated:  // too close for GJK to prove, but its closest points hold
       return from_gjk_distance(m, g, -e.upper);
     case EpaResult::Status::flat:
-      answer.lower = -g.upper;
+      answer.lower = answer.value = -g.upper;
       answer.has_axis = true;
       answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
       return answer;
@@ -119,12 +123,26 @@ CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& resul
   return from_epa(m, g, query, result);
 }
 
-Outcome classify(double lower, double upper, double noise, bool curved) {
+// Curved shapes have no exact stage: bounds that close around 0 mean that they touch.
+Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m) {
+  const double margin = m.a.margin + m.b.margin, noise = m.support_error();
+  const double lower = core.lower + margin, upper = core.upper + margin;
   if (upper < -noise) return Outcome::separated;
   if (lower > noise) return Outcome::penetrating;
-  // Curved shapes have no exact stage: they touch when the whole interval is inside the bound.
-  const double band = curved ? std::fmax(noise, 2 * (upper - lower)) : noise;
+  const double band = m.curved || margin > 0 ? 2 * kCurvedFacetGap * m.scale : noise;
   return lower >= -band && upper <= band ? Outcome::touching : Outcome::undecided;
+}
+
+// The last digits of a curved pair's axis: a smaller upper bound. An overlap takes the axis over.
+void polish(const MinkowskiDifference& m, CoreAnswer& core) {
+  const AxisSupport best = least_support_near(m, core.axis);
+  if (!(best.value < core.upper)) return;
+  core.upper = best.value;
+  if (core.method == Method::gjk) return;
+  core.value = best.value;
+  core.axis = best.axis;
+  const Vec3 middle = (core.witness.a + core.witness.b) * 0.5, half = core.axis * (core.value / 2);
+  core.witness = {middle + half, middle - half};
 }
 
 std::vector<Vec3> world_vertices(const Shape& shape, const Pose& pose) {
@@ -138,11 +156,8 @@ void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const 
                     PairResult& result) {
   const double margin = m.a.margin + m.b.margin;
   const Pose to_world = core_placement(m.a, pose_a);
-  // Which of the two bounds is the number itself: the distance of the witness points for a gap, the
-  // support value along the axis for a penetration.
-  const double penetration = core.upper < 0 ? core.lower : core.upper;
   result.has_distance = true;
-  result.distance = -(penetration + margin);
+  result.distance = -(core.value + margin);
   result.lower = -(core.upper + margin) - noise;
   result.upper = -(core.lower + margin) + noise;
   result.normal = to_world.rotation * core.axis;
@@ -185,7 +200,8 @@ PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const 
   result.feature = core.feature;
   result.index_a = core.index_a;
   result.index_b = core.index_b;
-  result.outcome = classify(core.lower + margin, core.upper + margin, noise, m.curved || margin > 0);
+  if (m.curved && core.has_axis && query != Query::overlap) polish(m, core);
+  result.outcome = classify(core, m);
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
   const double confirmed_below = core.method == Method::sat ? kShallow * m.scale : noise;
   const bool in_doubt = result.outcome != Outcome::separated && core.lower + margin <= confirmed_below;

@@ -44,18 +44,28 @@ ClosestPoint closest_on_triangle(const Simplex& s, int i, int j, int k) {
   return best;
 }
 
+// Signed volumes of the origin with each face: all of the sign of the whole when it is inside.
+struct Volumes {
+  double opposite[4];  // face i lies opposite vertex i
+  double whole() const { return opposite[0] + opposite[1] + opposite[2] + opposite[3]; }
+};
+
+Volumes volumes_of_origin(const Simplex& s) {
+  const Vec3 a = s.vertex[0].w, b = s.vertex[1].w, c = s.vertex[2].w, d = s.vertex[3].w;
+  return {{dot(b, cross(d, c)), dot(a, cross(c, d)), dot(a, cross(d, b)), dot(a, cross(b, c))}};
+}
+
 // Which faces of the tetrahedron have the origin on their outer side (or on their plane).
 struct FaceSides {
-  bool outside[4];  // face i lies opposite vertex i
+  bool outside[4];
   bool any() const { return outside[0] || outside[1] || outside[2] || outside[3]; }
 };
 
 FaceSides sides_of_origin(const Simplex& s) {
-  const Vec3 a = s.vertex[0].w, b = s.vertex[1].w, c = s.vertex[2].w, d = s.vertex[3].w;
-  // Signed volumes of the origin with each face: all of the sign of the whole when it is inside.
-  const double va = dot(b, cross(d, c)), vb = dot(a, cross(c, d)), vc = dot(a, cross(d, b)), vd = dot(a, cross(b, c));
-  const double whole = va + vb + vc + vd;
-  return {{!(va * whole > 0), !(vb * whole > 0), !(vc * whole > 0), !(vd * whole > 0)}};
+  const Volumes v = volumes_of_origin(s);
+  const double whole = v.whole();
+  return {{!(v.opposite[0] * whole > 0), !(v.opposite[1] * whole > 0), !(v.opposite[2] * whole > 0),
+           !(v.opposite[3] * whole > 0)}};
 }
 
 ClosestPoint closest_on_faces(const Simplex& s, const FaceSides& sides) {
@@ -87,6 +97,12 @@ ClosestPoint closest_point(const Simplex& s) {
   if (s.count == 3) return closest_on_triangle(s, 0, 1, 2);
   const FaceSides sides = sides_of_origin(s);
   return sides.any() ? closest_on_faces(s, sides) : ClosestPoint{{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0};
+}
+
+void weigh_enclosed_origin(Simplex& s) {
+  const Volumes v = volumes_of_origin(s);
+  const double whole = v.whole();
+  for (int i = 0; i < 4; ++i) s.weight[i] = v.opposite[i] / whole;
 }
 
 void keep(Simplex& s, const ClosestPoint& closest) {

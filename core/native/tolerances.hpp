@@ -22,9 +22,22 @@ inline constexpr double kVisible = 16 * kUnitRoundoff;
 // A simplex, or a Minkowski difference, is flat when it is thinner than this fraction of the scale.
 inline constexpr double kFlat = 64 * kUnitRoundoff;
 
-// Bounds of curved shapes close only in the limit; the loops stop at this fraction of the scale.
-// Facets have width sqrt(gap) there, so that their normals still carry 5 digits more than noise.
+// Bounds of curved shapes close only in the limit; GJK stops at this fraction of the scale.
 inline constexpr double kCurvedGap = 1e-11;
+
+// EPA stops earlier on curved shapes. A facet of width s leaves a gap of about s^2 / 8, and the support
+// errors turn its normal by 40 roundoffs / s: below s = 1e-4, that is a gap of 1e-9, the proven bounds
+// drift apart again. Newton's method adds the last digits of the axis, not of the proof.
+inline constexpr double kCurvedFacetGap = 1e-9;
+
+// Where all ways out are equally long (concentric balls, cylinders) the bounds of EPA close with the
+// number of facets only. After so many expansions of a curved pair the bounds reached are the answer.
+inline constexpr int kCurvedExpansions = 512;
+
+// Newton steps on the axis of a curved pair, and the turn of its forward differences (radians), which
+// is the square root of the roundoff. From an axis good to 1e-4 two steps reach the last digit.
+inline constexpr int kPolishSteps = 4;
+inline constexpr double kPolishAngle = 1e-8;
 
 // Cross products of edges with sin^2 of their angle below this are left to the face axes, whose
 // overlap they share to second order in the angle: 1e-12 * scale / 2 at most, below this the
