@@ -28,8 +28,10 @@ from satcheck.core._native import (
     mesh_relation,
     sat_polygons,
 )
+from satcheck.core.conventions import OUTCOMES
 
 __all__ = [
+    "OUTCOMES",
     "Box",
     "Capsule",
     "Cone",

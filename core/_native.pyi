@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, Literal
 
-from numpy import float64, uint8, uint32
+from numpy import float64, int32, uint8, uint32
 from numpy.typing import NDArray
 
 Point = tuple[float, float, float]
@@ -91,7 +91,8 @@ class Surface:
     def nearest(self, point: Point) -> tuple[float, Point]: ...
 
 # Convex shapes, placed by a rigid pose: None (at the origin), (tx, ty, tz), or
-# (tx, ty, tz, qx, qy, qz, qw) with a quaternion of any length but zero. Axes of revolution are local z.
+# (tx, ty, tz, qx, qy, qz, qw) with a quaternion of any length but zero. Axes of revolution are
+# local z.
 
 Pose = Sequence[float] | None
 Query = Literal["overlap", "depth", "distance"]
@@ -161,7 +162,7 @@ class PairResults:
     def __len__(self) -> int: ...
     def __getitem__(self, index: int) -> PairResult: ...
     # Views over the records, (n,) or (n, 3). Outcomes 0 separated, 1 touching, 2 penetrating,
-    # 3 undecided; methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact. Numbers are 0 for query "overlap".
+    # 3 undecided; methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact. NaN is what was not asked for.
     @property
     def outcome(self) -> NDArray[uint8]: ...
     @property
@@ -178,6 +179,12 @@ class PairResults:
     def witness_a(self) -> NDArray[float64]: ...
     @property
     def witness_b(self) -> NDArray[float64]: ...
+    @property
+    def gjk_iterations(self) -> NDArray[int32]: ...
+    @property
+    def epa_iterations(self) -> NDArray[int32]: ...
+    @property
+    def axes_tested(self) -> NDArray[int32]: ...
 
 class PolygonResult:
     @property

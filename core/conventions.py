@@ -14,6 +14,9 @@ from __future__ import annotations
 
 Vector = tuple[float, float, float]
 
+# What the numbers in PairResults.outcome stand for.
+OUTCOMES = ("separated", "touching", "penetrating", "undecided")
+
 
 def depth_from_distance(distance: float) -> float:
     """Penetration depth of a signed distance; 0.0 for a gap or a touch."""

@@ -159,7 +159,10 @@ void bind_pair_results(nb::module_& m) {
       .def_prop_ro("upper", &column<&PairResult::upper, double, 1>)
       .def_prop_ro("normal", &column<&PairResult::normal, double, 3>)
       .def_prop_ro("witness_a", &column<&PairResult::witness_a, double, 3>)
-      .def_prop_ro("witness_b", &column<&PairResult::witness_b, double, 3>);
+      .def_prop_ro("witness_b", &column<&PairResult::witness_b, double, 3>)
+      .def_prop_ro("gjk_iterations", &column<&PairResult::gjk_iterations, int, 1>)
+      .def_prop_ro("epa_iterations", &column<&PairResult::epa_iterations, int, 1>)
+      .def_prop_ro("axes_tested", &column<&PairResult::axes_tested, int, 1>);
 }
 
 PairResults check_many(const std::vector<const Shape*>& shapes, Indices index_a, Indices index_b, Poses poses_a,
@@ -254,6 +257,8 @@ void bind_polygons(nb::module_& m) {
 }  // namespace
 
 NB_MODULE(_native, m) {
+  // Shapes held by a module that lives until the interpreter ends are no leak, and no news for stderr.
+  nb::set_leak_warnings(false);
   bind_mesh(m);
   bind_shapes(m);
   bind_pair_result(m);

@@ -17,11 +17,12 @@ struct PairResult {
   Method method = Method::none;  // the stage that decided
   Feature feature = Feature::none;
   std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
-  // Signed distance, > 0 a gap, < 0 a penetration, with bounds; only for queries depth and distance.
+  // Signed distance, > 0 a gap, < 0 a penetration, with bounds. NaN when it was not asked for.
   bool has_distance = false;
-  double distance = 0, lower = 0, upper = 0;
-  Vec3 normal;                // unit, from A to B, world
-  Vec3 witness_a, witness_b;  // world; distance * normal = witness_b - witness_a
+  double distance = NAN, lower = NAN, upper = NAN;
+  Vec3 normal{NAN, NAN, NAN};  // unit, from A to B, world
+  Vec3 witness_a{NAN, NAN, NAN};  // world; distance * normal = witness_b - witness_a
+  Vec3 witness_b{NAN, NAN, NAN};
   int gjk_iterations = 0, epa_iterations = 0, axes_tested = 0;
 };
 
