@@ -1,0 +1,1 @@
+"""Slow truths. Nothing in here imports `satcheck`."""
