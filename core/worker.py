@@ -40,7 +40,13 @@ _STDERR_TAIL_LINES = 6
 _POLL_SECONDS = 0.1  # between looks for Ctrl-C, where a blocked wait would not notice it
 _REAP_SECONDS = 5.0  # for a child that closed its reply, and for its pipes, to be gone
 _ORPHANED_EXIT_CODE = 3
-_MEMORY_SIGNS = ("bad_alloc", "MemoryError", "Cannot allocate memory", "out of memory")
+_MEMORY_SIGNS = (
+    "bad_alloc",
+    "MemoryError",
+    "Cannot allocate memory",
+    "out of memory",
+    "failed to map segment",  # a shared library that did not fit
+)
 _WINDOWS_NO_MEMORY_EXIT_CODE = 0xC0000017  # STATUS_NO_MEMORY
 
 

@@ -10,9 +10,10 @@ origin and scaled by a power of two to unit size. The scaling is exact both ways
 
 from __future__ import annotations
 
-import struct
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
+from satcheck.core import Mesh
 from satcheck.decompose.blocks import pack_blocks, unpack_blocks
 from satcheck.decompose.settings import DecompositionSettings
 
@@ -20,16 +21,15 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-_FLAG: Final = struct.Struct("<?")
+_MANIFOLD: Final = b"manifold"
+_NOT_MANIFOLD: Final = b"not manifold"
 
 
-def encode_request(
-    settings: DecompositionSettings, meshes: list[tuple[bytes, bytes]], *, remesh: bool
-) -> bytes:
-    """remesh: let CoACD rebuild the mesh from voxels where it is not a closed manifold."""
-    blocks = [settings.to_bytes(), _FLAG.pack(remesh)]
-    for vertices, triangles in meshes:
-        blocks += [vertices, triangles]
+def encode_request(settings: DecompositionSettings, meshes: Sequence[Mesh]) -> bytes:
+    """Meshes that are no closed manifolds are rebuilt from voxels by CoACD: it crashes on them."""
+    blocks = [settings.to_bytes()]
+    for mesh in meshes:
+        blocks += [_MANIFOLD if mesh.topology().manifold else _NOT_MANIFOLD, *mesh.to_bytes()]
     return pack_blocks(blocks)
 
 
@@ -44,18 +44,19 @@ def serve(request: bytes) -> bytes:
     import numpy as np
 
     coacd.set_log_level("off")
-    settings_block, remesh_block, *mesh_blocks = unpack_blocks(request)
+    settings_block, *mesh_blocks = unpack_blocks(request)
     settings = DecompositionSettings.from_bytes(settings_block)
-    (remesh,) = _FLAG.unpack(remesh_block)
     blocks = []
-    for vertex_block, triangle_block in zip(mesh_blocks[0::2], mesh_blocks[1::2], strict=True):
+    for kind, vertex_block, triangle_block in zip(
+        mesh_blocks[0::3], mesh_blocks[1::3], mesh_blocks[2::3], strict=True
+    ):
         vertices = np.frombuffer(vertex_block, dtype="<f8").reshape(-1, 3)
         triangles = np.frombuffer(triangle_block, dtype="<u4").reshape(-1, 3)
         centre, exponent = _unit_frame(vertices)
         parts = coacd.run_coacd(
             coacd.Mesh(np.ldexp(vertices - centre, -exponent), triangles.astype(np.int32)),
             threshold=settings.threshold,
-            preprocess_mode="auto" if remesh else "off",
+            preprocess_mode="off" if kind == _MANIFOLD else "auto",
             resolution=settings.resolution,
             mcts_nodes=settings.mcts_nodes,
             mcts_iterations=settings.mcts_iterations,

@@ -44,7 +44,7 @@ def compute(
                 "a thickened copy rebuilt from voxels, their error is measured against the surface",
             )
         )
-        parts, dropped = _run_coacd([mesh], settings, seconds, megabytes, remesh=True)
+        parts, dropped = _run_coacd([mesh], settings, seconds, megabytes)
     if not parts:
         raise DecompositionError(errors.BAD_OUTPUT, "CoACD returned no solid convex part")
     if dropped:
@@ -75,7 +75,7 @@ def _parts_of_solid(
             concave.append(piece)
     if not concave:
         return parts, 0
-    found, dropped = _run_coacd(concave, settings, seconds, megabytes, remesh=False)
+    found, dropped = _run_coacd(concave, settings, seconds, megabytes)
     return parts + found, dropped
 
 
@@ -84,11 +84,9 @@ def _run_coacd(
     settings: DecompositionSettings,
     seconds: float,
     megabytes: int,
-    *,
-    remesh: bool,
 ) -> tuple[list[Polytope], int]:
     """(parts, number of flat ones dropped)."""
-    request = encode_request(settings, [mesh.to_bytes() for mesh in meshes], remesh=remesh)
+    request = encode_request(settings, meshes)
     try:
         reply = run_isolated(_SERVER, request, seconds=seconds, megabytes=megabytes)
     except WorkerError as error:

@@ -13,10 +13,8 @@ from satcheck.decompose.settings import DecompositionSettings
 MODULE = "satcheck.decompose.coacd_server"
 
 
-def parts_of(*meshes: Mesh, remesh: bool = False) -> list[tuple[bytes, bytes]]:
-    request = encode_request(
-        DecompositionSettings(), [mesh.to_bytes() for mesh in meshes], remesh=remesh
-    )
+def parts_of(*meshes: Mesh) -> list[tuple[bytes, bytes]]:
+    request = encode_request(DecompositionSettings(), meshes)
     return decode_reply(run_isolated(MODULE, request, seconds=60.0, megabytes=4096))
 
 
@@ -53,4 +51,4 @@ def test_several_meshes_give_their_parts_in_order(l_shape: Mesh, u_shape: Mesh) 
 def test_a_mesh_it_cannot_take_kills_only_the_child() -> None:
     no_triangles = Mesh(np.eye(3), np.zeros((0, 3), dtype=np.uint32))
     with pytest.raises(WorkerCrashed):
-        parts_of(no_triangles, remesh=True)
+        parts_of(no_triangles)
