@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from typing import Final
 
 from satcheck.core import Mesh, Polytope, Surface
@@ -19,7 +20,7 @@ from satcheck.decompose.components import diagonal, independent_pieces
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.inner_parts import inner_parts
 from satcheck.decompose.measure import missing_error, outside_error
-from satcheck.decompose.result import FLAT_PARTS_DROPPED, OPEN_MESH, Decomposition, Note
+from satcheck.decompose.result import FLAT_PARTS_DROPPED, NOT_SOLID, REMESHED, Decomposition, Note
 from satcheck.decompose.settings import DecompositionSettings
 
 _SERVER: Final = "satcheck.decompose.coacd_server"
@@ -31,24 +32,14 @@ _CONVEX_ENOUGH: Final = 1e-4
 def compute(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
 ) -> Decomposition:
+    """mesh: welded. Raises DecompositionError."""
     started = time.monotonic()
-    notes = []
     solid = mesh.topology().solid
-    if solid:
-        parts, dropped = _parts_of_solid(mesh, settings, seconds, megabytes)
-    else:
-        notes.append(
-            Note(
-                OPEN_MESH,
-                "the mesh is not a closed, consistently oriented surface: the parts are those of "
-                "a thickened copy rebuilt from voxels, their error is measured against the surface",
-            )
-        )
-        parts, dropped = _run_coacd([mesh], settings, seconds, megabytes)
+    convex, concave = _sorted_pieces(mesh) if solid else ([], [mesh])
+    found = _run_coacd(concave, settings, seconds, megabytes) if concave else []
+    parts = convex + [hull for hull in found if hull.dimension == 3]
     if not parts:
         raise DecompositionError(errors.BAD_OUTPUT, "CoACD returned no solid convex part")
-    if dropped:
-        notes.append(Note(FLAT_PARTS_DROPPED, f"{dropped} flat parts of CoACD's were dropped"))
     surface = Surface(mesh, solid)
     return Decomposition(
         parts=tuple(parts),
@@ -58,25 +49,37 @@ def compute(
         seconds=time.monotonic() - started,
         from_cache=False,
         settings=settings,
-        notes=tuple(notes),
+        notes=tuple(_notes(solid, concave, dropped=len(convex) + len(found) - len(parts))),
     )
 
 
-def _parts_of_solid(
-    mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
-) -> tuple[list[Polytope], int]:
-    """(parts, number of flat ones dropped): convex pieces as they are, the others by CoACD."""
-    parts, concave = [], []
+def _notes(solid: bool, concave: list[Mesh], *, dropped: int) -> Iterator[Note]:
+    if not solid:
+        yield Note(
+            NOT_SOLID,
+            "the mesh has no inside: the error of its parts is measured against its surface, and "
+            "there are no inner parts",
+        )
+    if not all(piece.topology().manifold for piece in concave):
+        yield Note(
+            REMESHED,
+            "the mesh is not a closed manifold: it was rebuilt from voxels first, which takes long "
+            "and thickens it",
+        )
+    if dropped:
+        yield Note(FLAT_PARTS_DROPPED, f"{dropped} flat parts of CoACD's were dropped")
+
+
+def _sorted_pieces(mesh: Mesh) -> tuple[list[Polytope], list[Mesh]]:
+    """(the pieces that are convex, as hulls; the others)."""
+    convex, concave = [], []
     for piece in independent_pieces(mesh):
         limit = _CONVEX_ENOUGH * diagonal(piece)
         if piece.convexity_defect(limit) <= limit:
-            parts.append(piece.convex_hull())
+            convex.append(piece.convex_hull())
         else:
             concave.append(piece)
-    if not concave:
-        return parts, 0
-    found, dropped = _run_coacd(concave, settings, seconds, megabytes)
-    return parts + found, dropped
+    return convex, concave
 
 
 def _run_coacd(
@@ -84,21 +87,19 @@ def _run_coacd(
     settings: DecompositionSettings,
     seconds: float,
     megabytes: int,
-) -> tuple[list[Polytope], int]:
-    """(parts, number of flat ones dropped)."""
+) -> list[Polytope]:
+    """The parts of all meshes, flat ones included."""
     request = encode_request(settings, meshes)
     try:
         reply = run_isolated(_SERVER, request, seconds=seconds, megabytes=megabytes)
     except WorkerError as error:
         raise _explained(error) from error
     try:
-        hulls = [Mesh.from_bytes(*part).convex_hull() for part in decode_reply(reply)]
+        return [Mesh.from_bytes(*part).convex_hull() for part in decode_reply(reply)]
     except ValueError as error:
         raise DecompositionError(
             errors.BAD_OUTPUT, f"CoACD returned parts that are no meshes: {error}"
         ) from error
-    parts = [hull for hull in hulls if hull.dimension == 3]
-    return parts, len(hulls) - len(parts)
 
 
 def _explained(error: WorkerError) -> DecompositionError:

@@ -29,8 +29,8 @@ def decompose(
 ) -> Decomposition:
     """Splits a mesh into convex parts and measures by how much the two differ.
 
-    mesh: a solid one, welded and oriented. Others are rebuilt from voxels by CoACD first, which is
-        slow and thickens them; the notes say so.
+    mesh: is welded, and oriented where it is a closed manifold. Others are rebuilt from voxels by
+        CoACD first, which is slow and thickens them; the notes say so.
     threshold, seed: see DecompositionSettings.
     seconds, megabytes: limits of the child process that runs CoACD, and of the wait for another
         process that is computing the same parts.
@@ -42,6 +42,8 @@ def decompose(
     settings = DecompositionSettings(threshold=threshold, seed=seed)
     started = time.monotonic()
     mesh = mesh.welded()
+    if mesh.topology().manifold:
+        mesh = mesh.oriented()
     hull = _checked_hull(mesh)
     solid = mesh.topology().solid
     if solid and mesh.convexity_defect(0.0) == 0.0:

@@ -10,7 +10,8 @@ from satcheck.core import Mesh, Polytope
 from satcheck.decompose.blocks import pack_blocks, unpack_blocks
 from satcheck.decompose.settings import DecompositionSettings
 
-OPEN_MESH: Final = "decomposition-open-mesh"
+NOT_SOLID: Final = "decomposition-not-solid"
+REMESHED: Final = "decomposition-remeshed"
 FLAT_PARTS_DROPPED: Final = "decomposition-flat-parts-dropped"
 CACHE_UNAVAILABLE: Final = "decomposition-cache-unavailable"
 

@@ -19,7 +19,7 @@ from satcheck.decompose import Cache, Decomposition, DecompositionError, computa
 from satcheck.decompose import errors as codes
 from satcheck.decompose.components import merged
 from satcheck.decompose.decomposition import cache_key
-from satcheck.decompose.result import CACHE_UNAVAILABLE, OPEN_MESH, encode
+from satcheck.decompose.result import CACHE_UNAVAILABLE, NOT_SOLID, REMESHED, encode
 from satcheck.decompose.settings import DecompositionSettings
 
 
@@ -122,9 +122,17 @@ def test_split_vertices_are_welded_first(l_shape: Mesh) -> None:
     assert len(decompose(soup).parts) == 2
 
 
+def test_a_mesh_turned_inside_out_is_turned_back(l_shape: Mesh) -> None:
+    inverted = np.ascontiguousarray(np.asarray(l_shape.triangles)[:, ::-1])
+    result = decompose(Mesh(np.asarray(l_shape.vertices), inverted))
+    assert len(result.parts) == 2
+    assert result.outside < 0.01
+    assert None not in result.inner
+
+
 def test_an_open_mesh_is_decomposed_and_said_to_be_open(l_shape: Mesh) -> None:
     result = decompose(opened(l_shape), threshold=0.5)
-    assert [note.code for note in result.notes] == [OPEN_MESH]
+    assert [note.code for note in result.notes] == [NOT_SOLID, REMESHED]
     assert result.inner == (None,) * len(result.parts)
     assert result.parts
 
