@@ -8,6 +8,7 @@ triangles, because a free A has no crossing triangles either.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from satcheck import core
 from satcheck.audit.boxes import box_escape
@@ -19,58 +20,64 @@ from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
 from satcheck.audit.short_escape import shorter_escape
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.audit.triangles import crossing_depth
 from satcheck.audit.verify import Escape, verified_escape
 
 
 def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     """The depth of an overlapping pair of which the hulls do not say everything."""
-    upper, normal = _upper_bound(pair, plan)
+    hulls = _way_out_of_hulls(pair, plan)
     lower = 0.0
     if contact.proven:
-        lower = min(max(crossing_depth(pair, contact), inner_depth(pair, upper, plan)), upper)
-    if pair.may("exact") and upper - lower > pair.settings.depth_width * upper:
-        shorter = shorter_escape(pair, upper, normal, lower, plan)
-        if shorter is not None:
-            upper, normal = _length_and_normal(shorter)
-    return Depth(lower, upper, upper, normal, verified_escape(pair, upper, normal, plan))
+        known = crossing_depth(pair, contact.crossing)
+        lower = min(max(known, inner_depth(pair, hulls.upper, plan)), hulls.upper)
+    shorter = None
+    if pair.may("exact") and hulls.upper - lower > pair.settings.depth_width * hulls.upper:
+        shorter = shorter_escape(pair, hulls.upper, hulls.normal, lower, plan)
+    if shorter is not None:
+        length, normal = _length_and_normal(shorter)
+        escape = verified_escape(pair, length, normal, plan)
+        if escape.verified:
+            return Depth(lower, max(escape.bound, lower), normal, escape)
+    escape = verified_escape(pair, hulls.length, hulls.normal, plan)
+    upper = max(min(hulls.upper, escape.bound), lower)
+    return Depth(lower, upper, hulls.normal, escape)
 
 
 def nudged_depth(pair: Pair, contact: Contact, nudge: Vector) -> Depth:
     """The depth of a pair that a verified translation of A within the touch band frees."""
-    upper, normal = _length_and_normal(nudge)
-    lower = min(crossing_depth(pair, contact), upper)
-    return Depth(lower, upper, upper, normal, Escape(nudge, True))
+    length, normal = _length_and_normal(nudge)
+    upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
+    lower = min(crossing_depth(pair, contact.crossing), upper)
+    return Depth(lower, upper, normal, Escape(nudge, True, upper))
 
 
-def _upper_bound(pair: Pair, plan: Plan) -> tuple[float, Vector]:
-    """A length and a direction that free A for certain: out of B's hull, or out of its box."""
+@dataclass(frozen=True, slots=True)
+class WayOut:
+    """length: of the nominal translation along -normal; upper: that length rounded outward."""
+
+    length: float
+    upper: float
+    normal: Vector
+
+
+def _way_out_of_hulls(pair: Pair, plan: Plan) -> WayOut:
+    """What frees A for certain: out of B's hull, or out of its box."""
     length, normal = box_escape(pair.a.bounds, pair.b.bounds)
-    how = "world boxes"
+    way, how = WayOut(length, length, normal), "world boxes"
     if pair.may("hull"):
-        hulls = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
-        if hulls.outcome == "penetrating" and hulls.lower is not None and hulls.normal is not None:
-            length, normal, how = -hulls.lower, hulls.normal, "hulls of the whole meshes"
-    plan.record("depth", "upper bound", f"at most {length:.6g} by the {how}")
-    return length, normal
+        found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
+        distance, least, towards = found.distance, found.lower, found.normal
+        penetrating = found.outcome == "penetrating"
+        if penetrating and distance is not None and least is not None and towards is not None:
+            way = WayOut(-distance, -least, towards)
+            how = "hulls of the whole meshes"
+    plan.record("depth", "upper bound", f"at most {way.upper:.6g} by the {how}")
+    return way
 
 
 def _length_and_normal(translation: Vector) -> tuple[float, Vector]:
-    """Its length, rounded up, and the direction against it; both exact along an axis."""
+    """Its length and the direction against it; both exact along an axis."""
     length = math.hypot(*translation)
     x, y, z = (0.0 - c / length for c in translation)
-    along_axis = sum(c != 0 for c in translation) == 1
-    return length if along_axis else math.nextafter(length, math.inf), (x, y, z)
-
-
-def crossing_depth(pair: Pair, contact: Contact) -> float:
-    """A proven lower bound from one crossing pair of triangles; 0.0 where there is none."""
-    if contact.crossing is None:
-        return 0.0
-    triangles = [
-        core.Hull(body.mesh.vertices[body.mesh.triangles[index]])
-        for body, index in zip((pair.a, pair.b), contact.crossing, strict=True)
-    ]
-    result = core.check_pair(triangles[0], triangles[1], query="depth")
-    if result.outcome != "penetrating" or result.upper is None:
-        return 0.0
-    return max(-result.upper * (1 - 2 * UNIT_ROUNDOFF), 0.0)
+    return length, (x, y, z)

@@ -17,16 +17,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Depth:
-    """World units: lower <= true depth <= upper. value: the best single figure for it.
+    """World units: lower <= true depth <= upper.
 
     normal: unit, from A to B, along which A retreats; escape: the translation that was verified,
     which may be longer than the depth by what verification asked for. witness: with
-    witness_b - witness_a = -value * normal, known for convex pairs.
+    witness_b - witness_a = -upper * normal to rounding, known for convex pairs.
     """
 
     lower: float
     upper: float
-    value: float
     normal: Vector
     escape: Escape
     witness: Witness | None = None
@@ -50,10 +49,10 @@ def _convex_depth(pair: Pair, result: core.PairResult, plan: Plan) -> Depth:
     if result.distance is None or result.normal is None:
         raise AssertionError("a penetrating pair has a signed distance and a normal")
     value = max(-result.distance, 0.0)
-    lower = value if result.upper is None else min(max(-result.upper, 0.0), value)
-    upper = value if result.lower is None else max(-result.lower, value)
     escape = verified_escape(pair, value, result.normal, plan)
+    lower = value if result.upper is None else min(max(-result.upper, 0.0), value)
+    upper = escape.bound if result.lower is None else min(-result.lower, escape.bound)
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
-    return Depth(lower, upper, value, result.normal, escape, witness)
+    return Depth(lower, max(upper, value), result.normal, escape, witness)

@@ -70,7 +70,7 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
     relation: Relation = "touching" if nudge or _shallow(pair, contact) else contact.relation
     figures = {} if depth is None else _depth_figures(depth)
     if pair.settings.clearance is not None and depth is not None and contact.convex is not None:
-        figures["distance"] = -depth.value
+        figures["distance"] = -depth.upper
     return _finding(
         pair.a.id,
         pair.b.id,
@@ -93,7 +93,7 @@ def _shallow(pair: Pair, contact: Contact) -> bool:
 
 def _depth_figures(depth: Depth) -> dict[str, Any]:
     return {
-        "depth": depth.value,
+        "depth": depth.upper,
         "depth_bounds": (depth.lower, depth.upper),
         "normal": depth.normal,
         "mtv": depth.escape.mtv,

@@ -128,9 +128,8 @@ class Finding:
     open). tolerance: the touch band of this pair.
     quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
     is proven, the depth is a proven interval; estimate: not proven.
-    depth_bounds: contains the true depth. depth: the best figure for it; where quality is bounded,
-    the upper bound. mtv: -depth * normal, or a little longer: rounded, and lengthened until the
-    moved mesh was verified to be free.
+    depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
+    as it had to be for the moved mesh to be verified free.
     """
 
     id: str

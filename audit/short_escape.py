@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterator
 
 from satcheck import core
 from satcheck.audit.pair import Pair
@@ -16,6 +17,7 @@ from satcheck.audit.part_escape import PartPairs, short_ways_out
 from satcheck.audit.parts import covering
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
+from satcheck.audit.triangles import Crossing, triangle_corners, triangle_normal
 from satcheck.audit.verify import FREE
 
 # Exact trials for a pair of small meshes, and how many triangles the trials may visit in all.
@@ -26,6 +28,11 @@ TRIANGLES_IN_ALL = 4_000_000
 CANDIDATES = 6
 # A candidate that the meshes refuse is lengthened by these factors: parts under-cover a mesh.
 LENGTHENINGS = (1.001, 1.01, 1.05)
+
+# Where to look for the face that blocks the way: a little before its end. Only a face that the way
+# leaves nearly along its normal can offer a shorter one.
+BLOCKED_FRACTION = 0.98
+SNAP_COSINE = 0.9
 
 
 class Trials:
@@ -38,19 +45,22 @@ class Trials:
         size = pair.a.mesh.triangle_count + pair.b.mesh.triangle_count
         self.left = min(max(TRIANGLES_IN_ALL // size, LEAST_TRIALS), MOST_TRIALS)
 
-    def frees(self, t: Vector) -> bool:
-        """Whether it is proven that A is free after moving by t; False when no trial is left."""
+    def relation_at(self, t: Vector) -> core.MeshRelation | None:
+        """The relation once A has moved by t; None when no trial is left."""
         if self.left == 0:
-            return False
+            return None
         self.left -= 1
         a, b = self._pair.a, self._pair.b
         if self._moves_a:
             moved = core.Surface(a.mesh.translated(t), a.solid)
-            found = core.mesh_relation(moved, b.surface())
-        else:
-            moved = core.Surface(b.mesh.translated((-t[0], -t[1], -t[2])), b.solid)
-            found = core.mesh_relation(a.surface(), moved)
-        return found.proven and found.relation in FREE
+            return core.mesh_relation(moved, b.surface())
+        moved = core.Surface(b.mesh.translated((-t[0], -t[1], -t[2])), b.solid)
+        return core.mesh_relation(a.surface(), moved)
+
+    def frees(self, t: Vector) -> bool:
+        """Whether it is proven that A is free after moving by t; False when no trial is left."""
+        found = self.relation_at(t)
+        return found is not None and found.proven and found.relation in FREE
 
 
 def shorter_escape(
@@ -74,6 +84,8 @@ def shorter_escape(
         best = _bisected(best, lower, width, trials)
     else:
         best = _best_along(ways, upper, lower, width, trials)
+    if best is not None:
+        best = snapped(pair, best, lower, trials)
     length = upper if best is None else math.hypot(*best)
     plan.record(
         "mtv-search",
@@ -130,3 +142,52 @@ def _grid() -> list[Vector]:
         key=lambda step: (sum(map(abs, step)), step),
     )
     return [_scaled((x, y, z), 1 / math.hypot(x, y, z)) for x, y, z in steps]
+
+
+def snapped(pair: Pair, best: Vector, lower: float, trials: Trials) -> Vector:
+    """The way out along the normal of a face that blocks a slightly shorter one, if that is
+    shorter: A is then free exactly where a vertex leaves the plane of that face, so these lengths
+    are searched, not the lengths in between."""
+    length = math.hypot(*best)
+    way = _scaled(best, 1 / length)
+    found = trials.relation_at(_scaled(best, BLOCKED_FRACTION))
+    if found is None or found.triangle_a < 0 or found.triangle_b < 0:
+        return best
+    for out, lengths in _planes_left(pair, (found.triangle_a, found.triangle_b)):
+        if sum(p * q for p, q in zip(out, way, strict=True)) < SNAP_COSINE:
+            continue
+        shorter = [s for s in lengths if lower <= s < length]
+        free = _least_free(out, shorter, trials)
+        if free is not None:
+            best, length = free, math.hypot(*free)
+    return best
+
+
+def _planes_left(pair: Pair, crossing: Crossing) -> Iterator[tuple[Vector, list[float]]]:
+    """Per triangle: the direction in which A leaves its plane, and the lengths, ascending, at which
+    one vertex of the other body after another has left it."""
+    import numpy as np
+
+    for body, other, index, side in (
+        (pair.b, pair.a, crossing[1], 1.0),
+        (pair.a, pair.b, crossing[0], -1.0),
+    ):
+        normal = triangle_normal(body, index)
+        if normal is None:
+            continue
+        heights = (other.mesh.vertices - triangle_corners(body, index)[0]) @ np.array(normal)
+        yield _scaled(normal, side), np.unique(-heights[heights < 0]).tolist()
+
+
+def _least_free(way: Vector, lengths: list[float], trials: Trials) -> Vector | None:
+    """Binary search, as if every longer translation along the way were free as well."""
+    best = None
+    start, end = 0, len(lengths)
+    while start < end and trials.left:
+        middle = (start + end) // 2
+        t = _scaled(way, lengths[middle])
+        if trials.frees(t):
+            best, end = t, middle
+        else:
+            start = middle + 1
+    return best

@@ -12,11 +12,11 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.concave_depth import crossing_depth
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
+from satcheck.audit.triangles import Crossing, crossing_depth, triangle_normal
 from satcheck.audit.verify import FREE
 
 WALLS = 3
@@ -27,7 +27,7 @@ def flush_nudge(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
     """A translation of A, at most the tolerance long, after which it is free; None: none found."""
     if pair.tolerance == 0 or contact.crossing is None:
         return None
-    if crossing_depth(pair, contact) > pair.tolerance:
+    if crossing_depth(pair, contact.crossing) > pair.tolerance:
         plan.record("touch-band", "deeper", "two triangles cross by more than the tolerance")
         return None
     nudge = _search(pair, contact.crossing, ORIGIN, WALLS)
@@ -41,7 +41,7 @@ def flush_nudge(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
     return nudge
 
 
-def _search(pair: Pair, crossing: tuple[int, int], at: Vector, walls: int) -> Vector | None:
+def _search(pair: Pair, crossing: Crossing, at: Vector, walls: int) -> Vector | None:
     """Depth first: step off the crossing triangles, then off those that are then crossed."""
     step = pair.tolerance / WALLS
     for away in _ways_off(pair, crossing):
@@ -57,22 +57,13 @@ def _search(pair: Pair, crossing: tuple[int, int], at: Vector, walls: int) -> Ve
     return None
 
 
-def _ways_off(pair: Pair, crossing: tuple[int, int]) -> list[Vector]:
+def _ways_off(pair: Pair, crossing: Crossing) -> list[Vector]:
     """Unit directions for A: along B's outward normal, against its own; both ways if not solid."""
     ways = []
     for body, index, sign in ((pair.b, crossing[1], 1.0), (pair.a, crossing[0], -1.0)):
-        normal = _triangle_normal(body.mesh, index)
+        normal = triangle_normal(body, index)
         if normal is None:
             continue
         for side in (sign,) if body.solid else (sign, -sign):
             ways.append((side * normal[0], side * normal[1], side * normal[2]))
     return ways
-
-
-def _triangle_normal(mesh: core.Mesh, index: int) -> Vector | None:
-    p, q, r = (tuple(map(float, mesh.vertices[corner])) for corner in mesh.triangles[index])
-    u = (q[0] - p[0], q[1] - p[1], q[2] - p[2])
-    v = (r[0] - p[0], r[1] - p[1], r[2] - p[2])
-    normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-    length = math.hypot(*normal)
-    return None if length == 0 else (normal[0] / length, normal[1] / length, normal[2] / length)

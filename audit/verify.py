@@ -16,14 +16,15 @@ FREE = frozenset({"separated", "touching"})
 
 @dataclass(frozen=True, slots=True)
 class Escape:
-    """A translation of A, world units. verified: A's mesh, moved, has no common interior with B."""
+    """A translation of A, world units. verified: A's mesh, moved, has no common interior with B.
+
+    bound: then an upper bound of the depth, its length plus the rounding of A's moved coordinates
+    (0.0 where there is none); inf when not verified.
+    """
 
     mtv: Vector
     verified: bool
-
-    @property
-    def length(self) -> float:
-        return math.hypot(*self.mtv)
+    bound: float
 
 
 def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Escape:
@@ -35,17 +36,17 @@ def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Es
     """
     if not pair.may("hull"):
         plan.record("verify", "not asked", "the capped ladder has nothing to verify with")
-        return Escape(_along(normal, length), False)
+        return Escape(_along(normal, length), False, math.inf)
     ulp = 2 * UNIT_ROUNDOFF * (pair.largest_coordinate + length)
-    steps = (0, *LENGTHENING_ULPS) if _adds_exactly(pair, length, normal) else LENGTHENING_ULPS
+    steps = (0, *LENGTHENING_ULPS) if adds_exactly(pair, length, normal) else LENGTHENING_ULPS
     for step in steps:
         mtv = _along(normal, length + step * ulp)
         relation = relation_after(pair, mtv)
         if relation in FREE:
             plan.record("verify", relation, f"A moved by its MTV, lengthened by {step} ulp")
-            return Escape(mtv, True)
+            return Escape(mtv, True, length if step == 0 else length + (step + 2) * ulp)
     plan.record("verify", "failed", f"still not free after {LENGTHENING_ULPS[-1]} ulp more")
-    return Escape(_along(normal, length), False)
+    return Escape(_along(normal, length), False, math.inf)
 
 
 def relation_after(pair: Pair, translation: Vector) -> str:
@@ -64,7 +65,7 @@ def _along(normal: Vector, length: float) -> Vector:
     return -length * normal[0] + 0.0, -length * normal[1] + 0.0, -length * normal[2] + 0.0
 
 
-def _adds_exactly(pair: Pair, length: float, normal: Vector) -> bool:
+def adds_exactly(pair: Pair, length: float, normal: Vector) -> bool:
     """Whether the translation runs along one axis and the outermost coordinates take it exactly."""
     if sorted(abs(c) for c in normal) != [0.0, 0.0, 1.0]:
         return False
