@@ -89,7 +89,7 @@ def native_tests(folder: Path, *options: str) -> Outcome:
     built = run("cmake", "--build", str(folder), "--parallel", jobs, "--config", "Release")
     if built.state == FAILED:
         return built
-    ctest = ["ctest", "--test-dir", str(folder), "-C", "Release"]
+    ctest = ["ctest", "--test-dir", str(folder), "-C", "Release", "--parallel", jobs]
     return run(*ctest, "--output-on-failure", "--no-tests=error")
 
 
