@@ -157,6 +157,14 @@ Expansion<192> exact_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Ve
   return sum(sum(x, y), z);
 }
 
+// Is a row or a column of the matrix 0? Rounded differences are 0 only if exact ones are. The usual
+// case of axis-aligned geometry.
+bool has_zero_line(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 zero;
+  return (a.x == 0 && b.x == 0 && c.x == 0) || (a.y == 0 && b.y == 0 && c.y == 0) ||
+         (a.z == 0 && b.z == 0 && c.z == 0) || a == zero || b == zero || c == zero;
+}
+
 }  // namespace
 
 int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
@@ -171,6 +179,7 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
   const double bound = kDeterminantBound * permanent;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
+  if (permanent == 0 && has_zero_line(a, b, c)) return 0;
   return exact_determinant(p1, q1, p2, q2, p3, q3).sign();
 }
 
@@ -185,6 +194,7 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
   const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right));
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
+  if ((b[i] == a[i] || c[j] == a[j]) && (b[j] == a[j] || c[i] == a[i])) return 0;
   return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
                      difference(c[j], a[j]))
       .sign();

@@ -16,11 +16,24 @@ double fraction(double x) { return x - std::floor(x); }
 
 }  // namespace
 
-Vec3 outside_point(const Aabb& box, Vec3 from, int attempt) {
+Heading nearest_wall(const Aabb& box, Vec3 from) {
+  Heading nearest;
+  double least = INFINITY;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double down = from[axis] - box.min[axis], up = box.max[axis] - from[axis];
+    if (std::fmin(down, up) < least) {
+      least = std::fmin(down, up);
+      nearest = {axis, up <= down};
+    }
+  }
+  return nearest;
+}
+
+Vec3 outside_point(const Aabb& box, Vec3 from, Heading first, int attempt) {
   const Vec3 extent = box.max - box.min;
   const double size = std::fmax(max_abs(extent), std::numeric_limits<double>::min());
-  const int axis = attempt % 6 / 2;
-  const bool upward = attempt % 2 == 0;
+  const int axis = (first.axis + attempt % 6 / 2) % 3;
+  const bool upward = (attempt % 2 == 0) == first.upward;
   const double slope = kFirstSlope * std::pow(kSlopeGrowth, attempt);
   const double s = slope * (2 * fraction(0.5 + kStep1 * (attempt + 1)) - 1);
   const double t = slope * (2 * fraction(0.5 + kStep2 * (attempt + 1)) - 1);

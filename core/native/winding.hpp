@@ -5,8 +5,9 @@
 // another one of a fixed sequence is tried, so the answer is exact and does not depend on chance.
 #pragma once
 
+#include <algorithm>
 #include <optional>
-#include <utility>
+#include <vector>
 
 #include "bvh.hpp"
 #include "predicates.hpp"
@@ -43,8 +44,18 @@ bool point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
   return orientation(a, b, c, p) == 0 && !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c);
 }
 
-// The far end of the attempt-th segment: outside `box`, in a direction of a fixed sequence.
-Vec3 outside_point(const Aabb& box, Vec3 from, int attempt);
+// Which way to look first: along `axis`, up or down.
+struct Heading {
+  int axis = 0;
+  bool upward = true;
+};
+
+// Towards the nearest wall of the box, where the fewest triangles are likely to be in the way.
+Heading nearest_wall(const Aabb& box, Vec3 from);
+
+// The far end of the attempt-th segment: outside `box`, in a direction of a fixed sequence that
+// starts with the heading.
+Vec3 outside_point(const Aabb& box, Vec3 from, Heading first, int attempt);
 
 // A fixed sequence that would be exhausted only by a mesh with triangles in hundreds of directions
 // through one point; then there is no answer.
@@ -55,48 +66,73 @@ inline constexpr int kMaxSegments = 512;
 // p must not lie in the triangle, and `far` outside the mesh's box.
 template <class Point>
 std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Vec3 c) {
-  const int from = orientation(a, b, c, p);
-  const int to = orientation(a, b, c, far);
-  if (from == 0 && to == 0) {
-    if (collinear(a, b, c)) return 0;
-    return std::nullopt;
-  }
-  if (from == to || from == 0 || to == 0) return 0;
-  // orientation(p, far, u, v) == -orientation(far, u, v, p): an odd permutation.
+  // orientation(p, far, u, v) == -orientation(far, u, v, p): an odd permutation. These come first,
+  // for where p lies in the plane of many triangles only the side of that plane is costly.
   const int ab = orientation(far, a, b, p);
   const int bc = orientation(far, b, c, p);
   if (ab * bc < 0) return 0;
   const int ca = orientation(far, c, a, p);
   if (ab * ca < 0 || bc * ca < 0) return 0;
+  const int to = orientation(a, b, c, far);
+  const int from = orientation(a, b, c, p);
+  if (from == 0 && to == 0) {
+    if (collinear(a, b, c)) return 0;
+    return std::nullopt;
+  }
+  if (from == to || from == 0 || to == 0) return 0;
   if (ab == 0 || bc == 0 || ca == 0) return std::nullopt;
   return to;
+}
+
+// Signed crossings of the segment p -> far with the triangles that `counts(t)` accepts; nothing when
+// one of them cannot be decided.
+template <class Point, class Counts>
+std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 far,
+                                 Counts counts) {
+  Aabb path = point_box(p);
+  path.include(far);
+  int winding = 0;
+  const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
+    if (!counts(t) || !meet(path, triangle_box(mesh, t))) return true;
+    const Triangle& v = mesh.triangles[t];
+    const auto crossing =
+        segment_crossing(p, far, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]);
+    winding += crossing.value_or(0);
+    return crossing.has_value();
+  });
+  if (!generic) return std::nullopt;
+  return winding;
+}
+
+// The triangles that contain p.
+template <class Point>
+std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p) {
+  std::vector<std::uint32_t> found;
+  const Aabb p_box = point_box(p);
+  visit_box(bvh, p_box, [&](std::uint32_t t) {
+    const Triangle& v = mesh.triangles[t];
+    if (meet(p_box, triangle_box(mesh, t)) &&
+        point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) {
+      found.push_back(t);
+    }
+    return true;
+  });
+  return found;
 }
 
 // Winding number of p with respect to the triangles that `counts(t)` accepts; nothing when p lies on
 // one of them.
 template <class Point, class Counts>
 std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p, Counts counts) {
-  if (bvh.nodes.empty()) return 0;
+  if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return 0;
+  for (const std::uint32_t t : triangles_at(mesh, bvh, p)) {
+    if (counts(t)) return std::nullopt;
+  }
   const Aabb& bounds = bvh.nodes[0].box;
-  const Aabb p_box = point_box(p);
-  if (!meet(p_box, bounds)) return 0;
-  const auto corner = [&](std::uint32_t t, int i) { return mesh.vertices[mesh.triangles[t][i]]; };
-  const bool off_surface = visit_box(bvh, p_box, [&](std::uint32_t t) {
-    return !counts(t) || !point_in_triangle(p, corner(t, 0), corner(t, 1), corner(t, 2));
-  });
-  if (!off_surface) return std::nullopt;
+  const Heading first = nearest_wall(bounds, rounded_point(p));
   for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
-    const Vec3 far = outside_point(bounds, rounded_point(p), attempt);
-    Aabb path = p_box;
-    path.include(far);
-    int winding = 0;
-    const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
-      if (!counts(t)) return true;
-      const auto crossing = segment_crossing(p, far, corner(t, 0), corner(t, 1), corner(t, 2));
-      winding += crossing.value_or(0);
-      return crossing.has_value();
-    });
-    if (generic) return winding;
+    const Vec3 far = outside_point(bounds, rounded_point(p), first, attempt);
+    if (const auto winding = sum_crossings(mesh, bvh, p, far, counts)) return winding;
   }
   return std::nullopt;
 }
@@ -112,25 +148,24 @@ std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point&
 template <class Point>
 std::optional<int> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
                                   Vec3 c, int side) {
-  if (bvh.nodes.empty()) return 0;
+  if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return 0;
+  const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p);
+  const auto elsewhere = [&](std::uint32_t t) {
+    return std::find(here.begin(), here.end(), t) == here.end();
+  };
   const Aabb& bounds = bvh.nodes[0].box;
-  const Aabb p_box = point_box(p);
-  if (!meet(p_box, bounds)) return 0;
-  const auto corner = [&](std::uint32_t t, int i) { return mesh.vertices[mesh.triangles[t][i]]; };
+  const Vec3 normal = rounded_normal(a, b, c);
+  const int axis = projection_axis(normal);
+  const Heading first{axis, normal[axis] * side > 0};
   for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
-    const Vec3 far = outside_point(bounds, rounded_point(p), attempt);
+    const Vec3 far = outside_point(bounds, rounded_point(p), first, attempt);
     if (orientation(a, b, c, far) != side) continue;
-    Aabb path = p_box;
-    path.include(far);
-    int winding = 0;
-    const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
-      const Vec3 u = corner(t, 0), v = corner(t, 1), w = corner(t, 2);
-      if (point_in_triangle(p, u, v, w)) return orientation(u, v, w, far) != 0;
-      const auto crossing = segment_crossing(p, far, u, v, w);
-      winding += crossing.value_or(0);
-      return crossing.has_value();
+    const bool leaves_all = std::all_of(here.begin(), here.end(), [&](std::uint32_t t) {
+      const Triangle& v = mesh.triangles[t];
+      return orientation(mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]], far) != 0;
     });
-    if (generic) return winding;
+    if (!leaves_all) continue;
+    if (const auto winding = sum_crossings(mesh, bvh, p, far, elsewhere)) return winding;
   }
   return std::nullopt;
 }

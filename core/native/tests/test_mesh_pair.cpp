@@ -1,0 +1,146 @@
+// Relations of boxes and spheres, degenerate contacts, evidence, and what is not solid. The lattice
+// fuzz against set operations is in tests/core/test_mesh_relation.py.
+#include "mesh_pair.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "check.hpp"
+#include "flat_cells.hpp"
+#include "predicates.hpp"
+#include "shapes.hpp"
+#include "topology.hpp"
+
+using namespace satcheck;
+using namespace satcheck::testing;
+
+namespace {
+
+const Mesh cube = box({0, 0, 0}, {4, 4, 4});
+
+Relation relate(const Mesh& a, const Mesh& b) {
+  const Surface s = make_surface(a, measure_topology(a).solid), t = make_surface(b, measure_topology(b).solid);
+  const MeshRelation result = mesh_relation(s, t);
+  CHECK(result.proven);
+  return result.relation;
+}
+
+void boxes() {
+  CHECK(relate(cube, box({5, 0, 0}, {6, 1, 1})) == Relation::kSeparated);
+  CHECK(relate(cube, box({4, 0, 0}, {6, 4, 4})) == Relation::kTouching);
+  CHECK(relate(cube, box({4, 4, 4}, {6, 6, 6})) == Relation::kTouching);
+  CHECK(relate(cube, box({4, 1, 1}, {6, 2, 2})) == Relation::kTouching);
+  CHECK(relate(cube, box({3, 1, 1}, {6, 2, 2})) == Relation::kPenetrating);
+  CHECK(relate(cube, box({3, 0, 0}, {6, 4, 4})) == Relation::kPenetrating);
+  CHECK(relate(cube, box({1, 1, 1}, {2, 2, 2})) == Relation::kContains);
+  CHECK(relate(box({1, 1, 1}, {2, 2, 2}), cube) == Relation::kInside);
+  CHECK(relate(cube, box({1, 1, 1}, {2, 2, 4})) == Relation::kPenetrating);
+  CHECK(relate(cube, cube) == Relation::kCoincident);
+}
+
+void several_parts() {
+  Mesh two = box({1, 1, 1}, {2, 2, 2});
+  append(two, box({9, 9, 9}, {10, 10, 10}));
+  CHECK(relate(cube, two) == Relation::kPenetrating);
+  CHECK(relate(two, cube) == Relation::kPenetrating);
+  // A ball around the cavity of a block: no contact, the block does not contain it.
+  Mesh block = box({0, 0, 0}, {9, 9, 9});
+  append(block, reversed(box({4, 4, 4}, {5, 5, 5})));
+  CHECK(relate(block, box({3, 3, 3}, {6, 6, 6})) == Relation::kPenetrating);
+  CHECK(relate(block, box({4.25, 4.25, 4.25}, {4.75, 4.75, 4.75})) == Relation::kSeparated);
+}
+
+// Flush boxes in one mesh leave a double wall inside its material.
+void double_wall() {
+  Mesh pair = box({0, 0, 0}, {2, 2, 2});
+  append(pair, box({2, 0, 0}, {4, 2, 2}));
+  CHECK(relate(pair, box({2, 0, 0}, {3, 1, 1})) == Relation::kPenetrating);
+  CHECK(relate(pair, box({1, 0.5, 0.5}, {3, 1, 1})) == Relation::kPenetrating);
+  CHECK(relate(pair, box({1, 2, 0.5}, {3, 3, 1})) == Relation::kTouching);
+}
+
+void spheres() {
+  const Mesh ball = uv_sphere(30);
+  CHECK(relate(ball, translate(ball, {1.9, 0.1, 0.1})) == Relation::kPenetrating);
+  CHECK(relate(ball, translate(ball, {2.1, 0, 0})) == Relation::kSeparated);
+  CHECK(relate(ball, translate(ball, {0, 0, 2})) == Relation::kTouching);  // poles meet
+  CHECK(relate(ball, translate(ball, {0, 0, std::nextafter(2.0, 0.0)})) == Relation::kPenetrating);
+  CHECK(relate(ball, transform(ball, {0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1})) == Relation::kContains);
+}
+
+void open_surfaces() {
+  const Mesh sheet{{{-9, -9, 2}, {9, -9, 2}, {9, 9, 2}, {-9, 9, 2}}, {{0, 1, 2}, {0, 2, 3}}};
+  CHECK(relate(cube, sheet) == Relation::kPenetrating);
+  CHECK(relate(cube, translate(sheet, {0, 0, 2})) == Relation::kTouching);
+  CHECK(relate(cube, translate(sheet, {0, 0, 3})) == Relation::kSeparated);
+  CHECK(relate(sheet, translate(sheet, {0, 0, 1})) == Relation::kSeparated);
+  CHECK(relate(sheet, sheet) == Relation::kCoincident);
+  CHECK(relate(sheet, Mesh{}) == Relation::kSeparated);
+  CHECK(relate(Mesh{}, Mesh{}) == Relation::kSeparated);
+}
+
+// Every piece of a triangle that lines cut is sampled: count the sign vectors that are seen.
+void pieces_of_a_cut_triangle() {
+  const std::array<Vec3, 3> t{Vec3{0, 0, 1}, Vec3{8, 0, 1}, Vec3{0, 8, 1}};
+  const std::vector<PlaneSegment> cuts{{{-1, 2, 1}, {9, 2, 1}}, {{2, -1, 1}, {2, 9, 1}}, {{0, 0, 1}, {5, 5, 1}}};
+  std::vector<int> seen;
+  visit_pieces(t, cuts, [&](const PieceSampler& at) {
+    int signs = 0;
+    const ExactPoint p = at(0);
+    CHECK(orientation(t[0], t[1], t[2], p) == 0);
+    for (int i = 0; i < 3; ++i) CHECK(orientation_2d_at(t[i], t[(i + 1) % 3], p, 2) == 1);
+    for (const PlaneSegment& cut : cuts) {
+      const int side = orientation_2d_at(cut.p, cut.q, p, 2);
+      CHECK(side != 0);
+      signs = signs * 2 + (side > 0 ? 1 : 0);
+    }
+    seen.push_back(signs);
+    return true;
+  });
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  CHECK(seen.size() == 6);
+}
+
+void large_flush_contact() {
+  Mesh grid;
+  const std::uint32_t n = 60;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (std::uint32_t j = 0; j <= n; ++j)
+      for (const double z : {0.0, 1.0}) grid.vertices.push_back({i * 1.0, j * 1.0, z});
+  const auto at = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) { return 2 * (i * (n + 1) + j) + k; };
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      grid.triangles.push_back({at(i, j, 1), at(i + 1, j, 1), at(i + 1, j + 1, 1)});
+      grid.triangles.push_back({at(i, j, 1), at(i + 1, j + 1, 1), at(i, j + 1, 1)});
+      grid.triangles.push_back({at(i, j, 0), at(i + 1, j + 1, 0), at(i + 1, j, 0)});
+      grid.triangles.push_back({at(i, j, 0), at(i, j + 1, 0), at(i + 1, j + 1, 0)});
+    }
+    for (const auto& [p, q] : {std::pair<std::uint32_t, std::uint32_t>{at(i, 0, 0), at(i + 1, 0, 0)}, {at(i + 1, n, 0), at(i, n, 0)},
+                              {at(n, i, 0), at(n, i + 1, 0)}, {at(0, i + 1, 0), at(0, i, 0)}}) {
+      grid.triangles.push_back({p, q, q + 1});
+      grid.triangles.push_back({p, q + 1, p + 1});
+    }
+  }
+  CHECK(measure_topology(grid).solid);
+  const auto start = std::chrono::steady_clock::now();
+  CHECK(relate(grid, translate(grid, {0, 0, 1})) == Relation::kTouching);
+  CHECK(relate(grid, translate(grid, {0.25, 0.5, 1})) == Relation::kTouching);
+  CHECK(relate(grid, translate(grid, {0.25, 0, 0})) == Relation::kPenetrating);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  std::printf("flush plates of %zu triangles: %.3f s\n", grid.triangles.size(), elapsed.count());
+}
+
+}  // namespace
+
+int main() {
+  boxes();
+  several_parts();
+  double_wall();
+  spheres();
+  open_surfaces();
+  pieces_of_a_cut_triangle();
+  large_flush_contact();
+  return exit_status();
+}
