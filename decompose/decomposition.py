@@ -15,7 +15,7 @@ from satcheck.decompose.result import CACHE_UNAVAILABLE, Decomposition, Note, de
 from satcheck.decompose.settings import DecompositionSettings
 
 # Counted up when anything that decides the content of a cache entry changes, its layout included.
-_SCHEMA: Final = b"satcheck-parts-1"
+_SCHEMA: Final = b"satcheck-parts-2"
 
 
 def decompose(

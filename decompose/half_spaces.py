@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 NOISE: Final = 1e-9  # of a body's size: closer to a plane counts as on it
+POINTS_AT_ONCE: Final = 1 << 12  # against all planes of a body: some 10 MiB
 _CENTRE_STEPS: Final = 200
 _CENTRE_STEP_RATIO: Final = 0.95  # of one step to the one before: the last is 4e-5 of the size
 
@@ -31,6 +32,14 @@ class HalfSpaces:
         """(n, f): how far each point (n, 3) is below each plane; negative outside."""
         slack: Floats = self.offsets - points @ self.normals.T
         return slack
+
+    def heights(self, points: Floats) -> Floats:
+        """(n,): how far each point (n, 3) is above the highest plane; at most 0 inside."""
+        chunks = [
+            -self.slack(points[first : first + POINTS_AT_ONCE]).min(axis=1)
+            for first in range(0, len(points), POINTS_AT_ONCE)
+        ]
+        return np.concatenate(chunks)
 
     def cut(self, normals: Floats, offsets: Floats) -> HalfSpaces:
         return HalfSpaces(

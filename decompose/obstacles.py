@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from itertools import compress, pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from satcheck.decompose.half_spaces import NOISE, HalfSpaces
+from satcheck.decompose.half_spaces import NOISE, POINTS_AT_ONCE, HalfSpaces
+from satcheck.decompose.polygons import Point, common_part
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
-
-Point = tuple[float, float, float]
-Plane = tuple[Point, float]  # unit normal, offset
 
 
 def surface_inside(triangles: Floats, body: HalfSpaces) -> Floats:
@@ -25,15 +22,16 @@ def surface_inside(triangles: Floats, body: HalfSpaces) -> Floats:
     What only lies on the body's boundary, within rounding, is left out.
     """
     noise = NOISE * body.size
-    above = np.stack([-body.slack(triangles[:, corner]) for corner in range(3)], axis=1)
-    entering = (above.min(axis=1) < -noise).all(axis=1)
     planes = list(zip(body.normals.tolist(), body.offsets.tolist(), strict=True))
     pieces: list[tuple[Point, Point, Point]] = []
-    for triangle, crossed in zip(
-        triangles[entering].tolist(), above[entering].max(axis=1) > 0.0, strict=True
-    ):
-        polygon = _clipped(triangle, compress(planes, crossed), noise)
-        pieces += [(polygon[0], a, b) for a, b in pairwise(polygon[1:])]
+    for first in range(0, len(triangles), POINTS_AT_ONCE):
+        chunk = triangles[first : first + POINTS_AT_ONCE]
+        above = np.stack([-body.slack(chunk[:, corner]) for corner in range(3)], axis=1)
+        entering = (above.min(axis=1) < -noise).all(axis=1)
+        crossing = above[entering].max(axis=1) > 0.0
+        for triangle, crossed in zip(chunk[entering].tolist(), crossing, strict=True):
+            polygon = common_part(triangle, compress(planes, crossed), noise)
+            pieces += [(polygon[0], a, b) for a, b in pairwise(polygon[1:])]
     return np.array(pieces, dtype=np.float64).reshape(-1, 3, 3)
 
 
@@ -51,35 +49,6 @@ def nearest_points(triangles: Floats) -> Floats:
     best = np.argmin((edges * edges).sum(axis=2), axis=0)
     points: Floats = np.where(on_triangle[:, None], foot, edges[best, np.arange(len(best))])
     return points
-
-
-def _clipped(polygon: list[Point], planes: Iterable[Plane], noise: float) -> list[Point]:
-    """The convex polygon below all planes; empty when it does not reach `noise` below one.
-
-    Ivan Sutherland, Gary Hodgman, "Reentrant Polygon Clipping" (1974). In plain Python: for
-    polygons of a few corners it is several times faster than array operations.
-    """
-    for (nx, ny, nz), offset in planes:
-        above = [nx * x + ny * y + nz * z - offset for x, y, z in polygon]
-        if min(above) >= -noise:
-            return []
-        if max(above) <= 0.0:
-            continue
-        kept = []
-        for index, point in enumerate(polygon):
-            before = above[index - 1]
-            if (before <= 0.0) != (above[index] <= 0.0):
-                share = before / (before - above[index])
-                kept.append(_between(polygon[index - 1], point, share))
-            if above[index] <= 0.0:
-                kept.append(point)
-        polygon = kept
-    return polygon
-
-
-def _between(tail: Point, head: Point, share: float) -> Point:
-    (ax, ay, az), (bx, by, bz) = tail, head
-    return ax + share * (bx - ax), ay + share * (by - ay), az + share * (bz - az)
 
 
 def _nearest_on_segment(tail: Floats, head: Floats) -> Floats:

@@ -48,8 +48,8 @@ def u_shape() -> Mesh:
 
 @pytest.fixture(scope="session")
 def torus() -> Mesh:
-    """Around z, radii 1 and 0.3, 24 x 12 quadrilaterals."""
-    around, across = 24, 12
+    """Around z, radii 1 and 0.3, 16 x 8 quadrilaterals."""
+    around, across = 16, 8
     vertices = []
     for i in range(around):
         for j in range(across):
