@@ -13,35 +13,48 @@ from dataclasses import dataclass
 from satcheck import core
 from satcheck.audit.boxes import box_escape
 from satcheck.audit.depth import Depth
-from satcheck.audit.inner_bodies import inner_depth
+from satcheck.audit.inner_bodies import depth_of_hulls, depth_of_parts
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
-from satcheck.audit.short_escape import shorter_escape
+from satcheck.audit.short_escape import escape_on_meshes, escape_on_parts
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
 from satcheck.audit.triangles import crossing_depth
 from satcheck.audit.verify import Escape, verified_escape
 
 
 def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
-    """The depth of an overlapping pair of which the hulls do not say everything."""
+    """The depth of an overlapping pair of which the hulls do not say everything.
+
+    Cheap bounds first; parts, which may take seconds to compute, only where a gap is left open.
+    """
     hulls = _way_out_of_hulls(pair, plan)
-    lower = 0.0
+    lower, upper, shorter = 0.0, hulls.upper, None
     if contact.proven:
-        known = crossing_depth(pair, contact.crossing)
-        lower = min(max(known, inner_depth(pair, hulls.upper, plan)), hulls.upper)
-    shorter = None
-    if pair.may("exact") and hulls.upper - lower > pair.settings.depth_width * hulls.upper:
-        shorter = shorter_escape(pair, hulls.upper, hulls.normal, lower, plan)
+        lower = max(crossing_depth(pair, contact.crossing), depth_of_hulls(pair, plan))
+    if pair.may("exact") and _is_wide(pair, lower, upper):
+        shorter = escape_on_meshes(pair, contact, upper, hulls.normal, lower, plan)
+        upper = math.hypot(*shorter) if shorter else upper
+    if contact.proven and _is_wide(pair, lower, upper) and pair.may("parts"):
+        if not pair.both_solid:
+            plan.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
+        else:
+            lower = max(lower, depth_of_parts(pair, plan))
+            if pair.may("exact") and _is_wide(pair, lower, upper):
+                shorter = escape_on_parts(pair, upper, lower, plan) or shorter
     if shorter is not None:
         length, normal = _length_and_normal(shorter)
         escape = verified_escape(pair, length, normal, plan)
         if escape.verified:
-            return Depth(lower, max(escape.bound, lower), normal, escape)
+            return Depth(min(lower, escape.bound), escape.bound, normal, escape)
     escape = verified_escape(pair, hulls.length, hulls.normal, plan)
-    upper = max(min(hulls.upper, escape.bound), lower)
-    return Depth(lower, upper, hulls.normal, escape)
+    upper = min(hulls.upper, escape.bound)
+    return Depth(min(lower, upper), upper, hulls.normal, escape)
+
+
+def _is_wide(pair: Pair, lower: float, upper: float) -> bool:
+    return upper - lower > pair.settings.depth_width * upper
 
 
 def nudged_depth(pair: Pair, contact: Contact, nudge: Vector) -> Depth:

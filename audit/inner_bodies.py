@@ -24,33 +24,28 @@ from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import rounding_pad
 
 
-def inner_depth(pair: Pair, upper: float, plan: Plan) -> float:
-    """A proven lower bound of the depth, world units; 0.0 where nothing can be proven."""
+def depth_of_hulls(pair: Pair, plan: Plan) -> float:
+    """A proven lower bound of the depth, world units, by one inner body each; 0.0 without them."""
     if not pair.both_solid:
-        plan.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
         return 0.0
-    lower = _depth_of_hulls(pair, plan)
-    if upper - lower <= pair.settings.depth_width * upper or not pair.may("parts"):
-        return lower
-    bodies = [inner_parts(body, plan) for body in (pair.a, pair.b)]
-    if not (bodies[0] and bodies[1]):
-        return lower
-    deepest = deepest_pair(bodies[0], bodies[1])
-    plan.record(
-        "parts",
-        "lower bound",
-        f"at least {deepest:.6g} by {len(bodies[0])} and {len(bodies[1])} inner parts",
-    )
-    return max(lower, deepest)
-
-
-def _depth_of_hulls(pair: Pair, plan: Plan) -> float:
     inner_a, inner_b = shrunken_hull(pair.a), shrunken_hull(pair.b)
     if inner_a is None or inner_b is None:
         return 0.0
     lower = deepest_pair([inner_a], [inner_b])
     plan.record("depth", "lower bound", f"at least {lower:.6g} by hulls shrunk into the meshes")
     return lower
+
+
+def depth_of_parts(pair: Pair, plan: Plan) -> float:
+    """The same by the inner parts of the decomposed bodies."""
+    bodies = [inner_parts(body, plan) for body in (pair.a, pair.b)]
+    counts = f"{len(bodies[0])} and {len(bodies[1])} inner parts"
+    if not (bodies[0] and bodies[1]):
+        plan.record("parts", "failed", counts)
+        return 0.0
+    deepest = deepest_pair(bodies[0], bodies[1])
+    plan.record("parts", "lower bound", f"at least {deepest:.6g} by {counts}")
+    return deepest
 
 
 def shrunken_hull(body: PlacedBody) -> Part | None:

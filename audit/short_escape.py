@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator
 
 from satcheck import core
+from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.part_escape import PartPairs, short_ways_out
 from satcheck.audit.parts import covering
@@ -63,37 +64,47 @@ class Trials:
         return found is not None and found.proven and found.relation in FREE
 
 
-def shorter_escape(
-    pair: Pair, upper: float, normal: Vector, lower: float, plan: Plan
+def escape_on_meshes(
+    pair: Pair, contact: Contact, upper: float, normal: Vector, lower: float, plan: Plan
 ) -> Vector | None:
     """A translation of A shorter than `upper` that frees its mesh; None when none was found.
 
-    upper, normal: the length and normal of a known way out. lower: a proven lower bound.
+    Tried: off the crossing triangles, against `normal` (the known way out, `upper` long), and the
+    directions of a grid. lower: a proven lower bound, where the search may stop.
     """
     trials = Trials(pair)
     budget = trials.left
     ways = [_scaled(normal, -1.0), *_grid()]
-    candidates: list[Vector] = []
-    covers = [covering(body, plan) for body in (pair.a, pair.b)] if pair.both_solid else []
-    if covers and covers[0] is not None and covers[1] is not None:
-        pairs = PartPairs(covers[0].parts, covers[1].parts, upper)
-        candidates = short_ways_out(pairs, ways, upper)[:CANDIDATES]
-    width = pair.settings.depth_width
-    best = _first_free(candidates, upper, trials)
-    if best is not None:
-        best = _bisected(best, lower, width, trials)
-    else:
-        best = _best_along(ways, upper, lower, width, trials)
+    if contact.crossing is not None:
+        ways = [way for way, _ in _planes_left(pair, contact.crossing)] + ways
+    best = _best_along(ways, upper, lower, pair.settings.depth_width, trials)
     if best is not None:
         best = snapped(pair, best, lower, trials)
-    length = upper if best is None else math.hypot(*best)
-    plan.record(
-        "mtv-search",
-        "as before" if best is None else "shorter",
-        f"{length:.6g} after {budget - trials.left} exact trials, "
-        f"{len(candidates)} candidates from parts",
-    )
+    _record(best, upper, budget - trials.left, plan)
     return best
+
+
+def escape_on_parts(pair: Pair, upper: float, lower: float, plan: Plan) -> Vector | None:
+    """The same, starting from ways out that the convex parts of both bodies suggest."""
+    covers = [covering(body, plan) for body in (pair.a, pair.b)]
+    if covers[0] is None or covers[1] is None:
+        return None
+    trials = Trials(pair)
+    budget = trials.left
+    pairs = PartPairs(covers[0].parts, covers[1].parts, upper)
+    candidates = short_ways_out(pairs, _grid(), upper)[:CANDIDATES]
+    best = _first_free(candidates, upper, trials)
+    if best is not None:
+        best = _bisected(best, lower, pair.settings.depth_width, trials)
+        best = snapped(pair, best, lower, trials)
+    _record(best, upper, budget - trials.left, plan)
+    return best
+
+
+def _record(best: Vector | None, upper: float, trials: int, plan: Plan) -> None:
+    result = "nothing shorter" if best is None else "shorter"
+    length = upper if best is None else math.hypot(*best)
+    plan.record("mtv-search", result, f"{length:.6g} after {trials} exact trials")
 
 
 def _first_free(candidates: list[Vector], upper: float, trials: Trials) -> Vector | None:
