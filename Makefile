@@ -33,15 +33,17 @@ install: $(VENV)/installed
 $(VENV)/created:
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	touch $@
+	@touch $@
 
 $(VENV)/installed: $(VENV)/created $(SOURCES)
+	@echo "Fetching what satcheck needs and compiling its core: a minute or three, once."
 	$(BIN)/python -m pip install --quiet .
-	touch $@
+	@touch $@
 
 $(VENV)/installed-test: $(VENV)/created $(SOURCES)
+	@echo "Fetching what the tests need and compiling the core: a minute or three, once."
 	$(BIN)/python -m pip install --quiet ".[test]"
-	touch $(VENV)/installed $@
+	@touch $(VENV)/installed $@
 
 clean:
 	rm -rf $(VENV) build
