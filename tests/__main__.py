@@ -94,8 +94,9 @@ def native_tests(folder: Path, *options: str) -> Outcome:
 
 
 def generator(folder: Path) -> list[str]:
-    """Ninja, unless the folder was configured with something else."""
-    return [] if (folder / "CMakeCache.txt").exists() else ["-G", "Ninja"]
+    """Ninja; on Windows CMake's own choice, which finds the compiler by itself."""
+    configured = (folder / "CMakeCache.txt").exists()
+    return [] if configured or os.name == "nt" else ["-G", "Ninja"]
 
 
 def environment(**more: str) -> dict[str, str]:
