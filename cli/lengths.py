@@ -22,6 +22,7 @@ _SYNONYMS = {
     "inch": "in",
     "foot": "ft",
     "feet": "ft",
+    "inches": "in",
 }
 
 
@@ -36,7 +37,7 @@ class Length:
         """This length in the declared units of the scene; click.UsageError if that is unknown."""
         if self.unit is None:
             return self.value
-        known = _unit(declared)
+        known = unit_of(declared)
         if known is None:
             told = f"declare {declared!r}, which is unknown" if declared else "declare no units"
             raise click.UsageError(
@@ -46,7 +47,8 @@ class Length:
         return self.value * MICROMETRES[self.unit] / MICROMETRES[known]
 
 
-def _unit(declared: str | None) -> str | None:
+def unit_of(declared: str | None) -> str | None:
+    """The unit that a scene declares, as it is typed here; None if unknown or not declared."""
     name = (declared or "").strip().lower()
     name = _SYNONYMS.get(name, _SYNONYMS.get(name.removesuffix("s"), name))
     return name if name in MICROMETRES else None

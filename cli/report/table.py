@@ -10,9 +10,10 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.cli.lengths import unit_of
 from satcheck.cli.output import UNBOUNDED_WIDTH
 from satcheck.cli.report.numbers import duration, number, vector
-from satcheck.cli.report.words import depth, issue_line, relation, summary_line
+from satcheck.cli.report.words import counted, depth, issue_line, relation, summary_line
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -52,15 +53,16 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
     )
     shown = _shown(report.findings)
     if shown:
-        table = _pairs(shown, report.units, timings)
+        table = _pairs(shown, unit_of(report.units), timings)
         table.box = box.ROUNDED if page.unicode else box.ASCII
         unfolded = console.measure(table, options=console.options.update(max_width=UNBOUNDED_WIDTH))
         if unfolded.maximum > page.width:
             _narrow(table, page)
         console.print(table)
-    if len(shown) < len(report.findings):
-        rest = len(report.findings) - len(shown)
-        console.print(f"{rest:,} more pairs, all separated (--format json lists them)")
+    listed = sum(finding.relation == "separated" for finding in shown)
+    rest = report.summary.by_relation.get("separated", 0) - listed
+    if shown and rest:
+        console.print(f"{counted(rest, 'more pair')}, all separated")
     if explain:
         _explain(console, report.bodies, shown, timings)
     for line in _remarks(report, shown):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.audit.report import OVERLAPS, RELATIONS
+from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.numbers import bounds, number
 
 if TYPE_CHECKING:
@@ -55,7 +56,8 @@ def _worst(report: Report) -> list[str]:
     deep = [f for f in report.findings if f.depth is not None and f.relation in OVERLAPS]
     if deep:
         worst = max(deep, key=lambda f: f.depth or 0.0)
-        units = f" {report.units}" if report.units else ""
+        known = unit_of(report.units)
+        units = f" {known}" if known else ""
         if len(deep) == 1:
             return [f"Depth {depth(worst)}{units}."]
         return [f"The deepest: {worst.a} and {worst.b}, {depth(worst)}{units}."]

@@ -98,6 +98,21 @@ def test_many_separated_pairs_are_counted() -> None:
     assert f"{ROWS} more pairs, all separated" in text
 
 
+def test_pairs_that_the_report_does_not_list_are_counted() -> None:
+    made = report(PENETRATING)
+    summary = replace(made.summary, by_relation={"penetrating": 1, "separated": 7})
+    text = render(replace(made, summary=summary), PLAIN_PAGE, explain=False, timings=True)
+    assert "7 more pairs, all separated" in text
+
+
+@pytest.mark.parametrize(
+    ("units", "head"), [("mm", "depth (mm)"), ("inches", "depth (in)"), ("mm, or so", "depth")]
+)
+def test_units_are_shown_where_they_are_known(units: str, head: str) -> None:
+    text = render(report(PENETRATING, units=units), PLAIN_PAGE, explain=False, timings=True)
+    assert head in [cell.strip() for cell in text.splitlines()[1].split("│")]
+
+
 def test_explain_shows_each_step() -> None:
     text = shown(PENETRATING, explain=True)
     assert "block against block_pushed: penetrating" in text
