@@ -67,6 +67,8 @@ def _report(choices: Choices) -> Report:
 
     scene = load_scene(choices.paths)
     if len(scene.bodies) + len(scene.unreadable) < 2:
+        for body in scene.unreadable:
+            talk(f"satcheck: error: {body.file}: {body.issue.message} [{body.issue.code}]")
         raise click.UsageError(
             "one body alone cannot collide: give two or more mesh files, or a scene file"
         )

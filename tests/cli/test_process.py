@@ -110,6 +110,7 @@ def test_units_of_a_scene(option: str, code: int) -> None:
     [
         ([], "two or more mesh files"),
         (["box.obj"], "one body alone"),
+        (["gone.obj"], "gone.obj: no such file"),
         (["--format", "yaml", *PUSHED], "yaml"),
         (["--no-such-option", *PUSHED], "no-such-option"),
         (["--clearance", "5mm", *PUSHED], "declare no units"),
