@@ -54,16 +54,30 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   return answer;
 }
 
-// `lower_bound` of the distance may come from another stage than GJK's own axes.
+// `lower_bound` of the distance may come from another stage than GJK's own axes. What GJK calls its
+// distance is measured along a normal; the proof is the distance of two points of the shapes.
 CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, double lower_bound) {
   CoreAnswer answer;
-  answer.lower = answer.value = -std::fmax(g.upper, lower_bound);
+  answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
+  const double reached = std::fmax(lower_bound, norm(answer.witness.a - answer.witness.b));
+  answer.lower = -std::fmax(g.upper, reached);
   answer.upper = -lower_bound;
+  answer.value = -std::clamp(g.upper, lower_bound, reached);
   answer.axis = g.upper > 0 ? g.v * (-1 / g.upper) : -g.axis;
   answer.has_axis = true;
-  answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
   answer.method = Method::gjk;
   answer.feature = m.curved ? Feature::curved : Feature::vertices;
+  return answer;
+}
+
+// GJK came too close to prove a gap, EPA found an axis that does. GJK's closest points hold; its
+// direction may be rounding noise, and only counts when it separates too.
+CoreAnswer from_epa_gap(const MinkowskiDifference& m, const GjkResult& g, const EpaResult& e) {
+  CoreAnswer answer = from_gjk_distance(m, g, -e.upper);
+  if (dot(answer.axis, m.support(answer.axis).w) < 0) return answer;
+  answer.axis = e.axis;
+  const Vec3 middle = (answer.witness.a + answer.witness.b) * 0.5, half = e.axis * (answer.value / 2);
+  answer.witness = {middle + half, middle - half};
   return answer;
 }
 
@@ -83,7 +97,8 @@ Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
 }
 
 CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query query, PairResult& result) {
-  const EpaResult e = epa(m, g.simplex, query == Query::overlap ? EpaGoal::sign : EpaGoal::depth);
+  // Near contact GJK's simplex on curved shapes is a splinter, whose faces prove nothing.
+  const EpaResult e = epa(m, m.curved ? Simplex{} : g.simplex, query == Query::overlap ? EpaGoal::sign : EpaGoal::depth);
   result.epa_iterations += e.iterations;
   CoreAnswer answer;
   answer.method = Method::epa;
@@ -93,12 +108,12 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
   switch (e.status) {
     case EpaResult::Status::depth:
     case EpaResult::Status::bounded:
-      answer.lower = e.lower;
+      answer.lower = std::fmax(e.lower, -g.upper);  // the distance is at most what GJK came down to
       answer.has_axis = true;
       if (query != Query::overlap) answer.witness = overlap_witness(m, e);
       return answer;
-    case EpaResult::Status::separated:  // too close for GJK to prove, but its closest points hold
-      return from_gjk_distance(m, g, -e.upper);
+    case EpaResult::Status::separated:
+      return from_epa_gap(m, g, e);
     case EpaResult::Status::flat:
       answer.lower = answer.value = -g.upper;
       answer.has_axis = true;
@@ -138,8 +153,8 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
   const AxisSupport best = least_support_near(m, core.axis);
   if (!(best.value < core.upper)) return;
   core.upper = best.value;
+  core.value = std::fmin(core.value, best.value);
   if (core.method == Method::gjk) return;
-  core.value = best.value;
   core.axis = best.axis;
   const Vec3 middle = (core.witness.a + core.witness.b) * 0.5, half = core.axis * (core.value / 2);
   core.witness = {middle + half, middle - half};
@@ -200,8 +215,12 @@ PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const 
   result.feature = core.feature;
   result.index_a = core.index_a;
   result.index_b = core.index_b;
-  if (m.curved && core.has_axis && query != Query::overlap) polish(m, core);
   result.outcome = classify(core, m);
+  const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
+  if (m.curved && core.has_axis && (query != Query::overlap || in_balance)) {
+    polish(m, core);
+    result.outcome = classify(core, m);
+  }
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
   const double confirmed_below = core.method == Method::sat ? kShallow * m.scale : noise;
   const bool in_doubt = result.outcome != Outcome::separated && core.lower + margin <= confirmed_below;

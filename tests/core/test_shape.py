@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from satcheck.core import Box, Capsule, Cone, Cylinder, Ellipsoid, Hull, Sphere, check_pair
-from tests.core.pair_checks import CURVED, IDENTITY, assert_valid, distance_of
+from tests.core.pair_checks import CURVED, EXACT, IDENTITY, assert_valid, distance_of
 from tests.oracles import brute_sat
 from tests.oracles.random_shapes import (
     Points,
@@ -38,6 +40,7 @@ STACKED: dict[str, tuple[Any, float]] = {
     "cone": (Cone(0.6, 0.8), 0.8),
     "ellipsoid": (Ellipsoid((0.5, 0.8, 0.6)), 0.6),
 }
+KINDS = sorted(STACKED)
 
 
 @pytest.mark.parametrize("lower", STACKED)
@@ -152,6 +155,34 @@ def test_any_shape_above_a_wide_floor(kind: str) -> None:
             assert_valid(result, 50 * CURVED)
             assert distance_of(result) == pytest.approx(gap, abs=50 * CURVED)
             assert result.outcome == ("separated" if gap > 0 else "penetrating")
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(
+    st.integers(0, 2**32 - 1), st.sampled_from(sorted(STACKED)), st.sampled_from(sorted(STACKED))
+)
+def test_no_axis_overlaps_less_than_the_bounds_allow(seed: int, kind_a: str, kind_b: str) -> None:
+    """The signed penetration is the least support value of A - B: sample it near the answer."""
+    rng = np.random.default_rng(seed)
+    pose_a, pose_b = random_pose(rng, 0.5), random_pose(rng, 0.5)
+    result = check_pair(STACKED[kind_a][0], STACKED[kind_b][0], pose_a, pose_b)
+    assert result.outcome != "undecided"
+    assert result.lower is not None
+    assert result.upper is not None
+    to_a, to_b = (rotation_matrix(np.array(p[3:])).T for p in (pose_a, pose_b))
+    offset = np.array(pose_a[:3]) - np.array(pose_b[:3])
+
+    def overlap(n: Points) -> float:
+        there = support_value(kind_a, to_a @ n) + support_value(kind_b, -(to_b @ n))
+        return there + float(offset @ n)
+
+    normal = np.array(result.normal)
+    assert -overlap(normal) == pytest.approx(distance_of(result), abs=CURVED)
+    for spread in (1e-6, 1e-3, 0.1, 10.0):
+        for _ in range(20):
+            other = normal + spread * rng.normal(size=3)
+            least = overlap(other / np.linalg.norm(other))
+            assert least >= -result.upper - EXACT
 
 
 @pytest.mark.parametrize("gap", [0.3, 1e-7, -1e-7, -0.2])

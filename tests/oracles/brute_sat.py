@@ -98,6 +98,9 @@ def penetration(a: Features, b: Features) -> SignedDistance | None:
     """
     edge_a = a.edges[:, 1] - a.edges[:, 0]
     edge_b = b.edges[:, 1] - b.edges[:, 0]
+    spread = np.linalg.svd(np.concatenate([edge_a, edge_b]), compute_uv=False)
+    if len(spread) < 3 or spread[2] <= FLAT * spread[0]:
+        return None
     crosses = np.cross(edge_a[:, None], edge_b[None]).reshape(-1, 3)
     axes = np.concatenate([a.normals, b.normals, crosses])
     length = np.linalg.norm(axes, axis=1)

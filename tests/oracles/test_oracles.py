@@ -53,3 +53,4 @@ def test_flat_sets_have_no_interior() -> None:
     for a, b in ((square, square), (square, segment), (segment, segment), (square[:1], square)):
         assert exact_pair.exact_outcome(a, b) == "touching"
         assert exact_pair.exact_squared_depth(a, b) == 0
+        assert brute_sat.signed_distance(a, b).distance == 0
