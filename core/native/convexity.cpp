@@ -1,9 +1,15 @@
 // A triangle whose corners are at most h below one plane of the hull lies in the slab of height h
-// below it. So the bound is the greatest, over the triangles, of the least such h over the planes;
-// only planes near the triangle are tried, which can only make the bound larger.
+// below it. Let the depth d be the greatest, over the triangles, of the least such h over the planes;
+// only planes near the triangle are tried, which can only make d larger.
 //
-// A closed surface that lies in the boundary of a convex body wraps it a whole number of times, so
-// with a positive volume and all triangles exactly in planes of the hull, the solid is the hull.
+// d = 0: a closed surface that lies in the boundary of a convex body wraps it a whole number of
+// times, so with a positive volume the solid is the hull.
+//
+// d > 0: no triangle reaches the core, the points deeper than d below all planes. The core is convex,
+// so it is material as a whole if one of its points is. For a point c of depth D > d, the depth along
+// the way from a corner v to c grows at least linearly, so the core begins within |c - v| d / D of v.
+// By convexity the greatest of these over the corners bounds the way from the hull to the core. Flat
+// bodies show why d alone does not do: every triangle of a thin plate is near the plane of its top.
 #include "convexity.hpp"
 
 #include <algorithm>
@@ -11,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "edge_table.hpp"
 #include "mesh_distance.hpp"
 #include "polytope.hpp"
 #include "predicates.hpp"
@@ -23,6 +30,11 @@ namespace {
 // Depth below a plane: 1e-14 from the direction of the rounded normal, twice for its length and the
 // dot product, in units of the hull's extent.
 constexpr double kDepthError = 4e-14;
+
+// Points tried on the way inward from a corner, each at half the distance of the one before, and the
+// ratio of distance to depth that is good enough: a corner of a cube has 1.7.
+constexpr int kInwardSteps = 24;
+constexpr double kGoodRatio = 4;
 
 class Defect {
  public:
@@ -39,14 +51,43 @@ class Defect {
     list_faces_at_vertices();
   }
 
-  double measure(double limit) const {
+  // The depth d, infinite beyond the limit.
+  double depth(double limit) const {
     double largest = 0;
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-      const double depth = triangle_depth(t, std::fmax(largest, 0.0));
-      largest = std::fmax(largest, depth);
+      largest = std::fmax(largest, triangle_depth(t, largest));
       if (largest > limit) return INFINITY;
     }
     return largest;
+  }
+
+  // Depth of a point below the hull's planes, rounded down; 0 or less when it is not inside.
+  double point_depth(Vec3 p) const {
+    const NearestPoint nearest = nearest_point(boundary_, p);
+    const std::uint32_t face = face_of_triangle_[nearest.triangle];
+    const bool below = dot(hull_.face_normal[face], nearest.point - p) > depth_error_;
+    return below ? nearest.distance - depth_error_ : 0;
+  }
+
+  // A bound of the way from any point of the hull to the core of the given depth, infinite beyond
+  // the limit. `centre` is a point of the core.
+  double reach(double depth, Vec3 centre, double limit) const {
+    const double centre_depth = point_depth(centre);
+    double farthest = 0;
+    for (std::uint32_t v = 0; v < hull_.vertices.size(); ++v) {
+      const Vec3 corner = hull_.vertices[v];
+      double ratio = norm(centre - corner) / centre_depth;
+      // Slender bodies: a point near the corner may be nearly as deep and much less far.
+      const Vec3 inward = inward_direction(v);
+      double step = norm(centre - corner) / 2;
+      for (int k = 0; k < kInwardSteps && ratio > kGoodRatio && step > depth; ++k, step /= 2) {
+        const double there = point_depth(corner + inward * step);
+        if (there > depth) ratio = std::fmin(ratio, step / there);
+      }
+      farthest = std::fmax(farthest, ratio * depth);
+      if (farthest > limit) return INFINITY;
+    }
+    return farthest;
   }
 
  private:
@@ -65,6 +106,14 @@ class Defect {
     }
     hull_vertex_.assign(mesh_.vertices.size(), std::nullopt);
     for (std::uint32_t v = 0; v < hull_.source.size(); ++v) hull_vertex_[hull_.source[v]] = v;
+  }
+
+  // Opposite to the mean of the normals at a corner of the hull.
+  Vec3 inward_direction(std::uint32_t vertex) const {
+    Vec3 sum;
+    for (const std::uint32_t f : faces_at_[vertex]) sum = sum - hull_.face_normal[f];
+    const double length = norm(sum);
+    return length > 0 ? sum * (1 / length) : sum;
   }
 
   // Exactly 0 when the triangle lies in the plane of the face.
@@ -115,24 +164,36 @@ Vec3 mean(const std::vector<Vec3>& points) {
   return sum;
 }
 
+// Does an edge of two triangles bend inwards? Then the surface is not its hull's.
+bool has_reflex_edge(const Mesh& welded) {
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.half_edges(e);
+    if (h.size() != 2) continue;
+    const Corners t = corners(welded, h[0] / 3);
+    const Vec3 apex = corners(welded, h[1] / 3)[(h[1] + 2) % 3];
+    if (orientation(t[0], t[1], t[2], apex) > 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 double convexity_defect(const Mesh& mesh, double limit) {
   const Mesh welded = weld(mesh);
+  if (limit == 0 && has_reflex_edge(welded)) return INFINITY;
   const Topology topology = measure_topology(welded);
   if (!topology.solid || topology.volume <= 0) return INFINITY;
   const Polytope hull = convex_hull(welded.vertices);
   const Defect defect(welded, hull);
-  const double depth = defect.measure(limit);
+  const double depth = defect.depth(limit);
   if (depth == 0 || std::isinf(depth)) return depth;
 
-  // A surface close to its hull may still be a thin shell around a cavity.
   const Vec3 centre = mean(hull.vertices);
+  const bool in_core = defect.point_depth(centre) > depth;
   const Surface surface = make_surface(welded, true);
-  if (nearest_point(surface, centre).distance > depth && winding_number(surface, centre) == 0) {
-    return INFINITY;
-  }
-  return depth;
+  if (!in_core || winding_number(surface, centre).value_or(0) == 0) return INFINITY;
+  return defect.reach(depth, centre, limit);
 }
 
 }  // namespace satcheck

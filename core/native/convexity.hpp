@@ -5,9 +5,9 @@
 
 namespace satcheck {
 
-// An upper bound, rounding included, of the largest distance of a point of the surface below its
-// convex hull. 0.0 only if the solid equals its hull, by exact signs. Infinite as soon as the bound
-// exceeds `limit`, and for meshes that are not solids or are hollow.
+// An upper bound, rounding included, of the distance from any point of the convex hull to the solid:
+// to take the hull for the solid is wrong by no more. 0.0 only if the solid equals its hull, by exact
+// signs. Infinite as soon as the bound exceeds `limit`, and for meshes that are not solids.
 double convexity_defect(const Mesh& mesh, double limit);
 
 }  // namespace satcheck

@@ -1,6 +1,7 @@
 #include "flat_cells.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,9 @@
 
 namespace satcheck {
 namespace {
+
+// rounded_ratio() is within 2 ulp, and the margin itself is rounded.
+constexpr double kRatioError = 4 * std::numeric_limits<double>::epsilon();
 
 // numerator / denominator, denominator > 0.
 struct Ratio {
@@ -154,7 +158,12 @@ class Pieces {
     const auto consider = [&](Ratio at) {
       if (at.numerator.sign() > 0 && less(at, nearest)) nearest = std::move(at);
     };
+    const Aabb way = rounded_way(m, v);
     for (const PlaneSegment& o : segments_) {
+      Aabb box;
+      box.include(o.p);
+      box.include(o.q);
+      if (!meet(way, box)) continue;
       const Dyadic m_area = area(o.p, o.q, m);
       const int v_side = orientation_2d(o.p, o.q, v, axis_);
       if (m_area.sign() == 0) {
@@ -169,6 +178,20 @@ class Pieces {
       consider(make_ratio(m_area, m_area - v_area));
     }
     return nearest;
+  }
+
+  // A box around the way from m to v, unbounded along the dropped axis. Spares exact work only.
+  Aabb rounded_way(const PlanePoint& m, Vec3 v) const {
+    double low[3] = {-INFINITY, -INFINITY, -INFINITY}, high[3] = {INFINITY, INFINITY, INFINITY};
+    const auto bound = [&](int axis, const Dyadic& coordinate) {
+      const double c = rounded_ratio(coordinate, m.w);
+      const double error = kRatioError * std::fabs(c);
+      low[axis] = std::fmin(c - error, v[axis]);
+      high[axis] = std::fmax(c + error, v[axis]);
+    };
+    bound(i_, m.x);
+    bound(j_, m.y);
+    return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
   }
 
   // m + fraction * length * (v - m)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact.hpp"
+#include "sheet_contact.hpp"
 #include "topology.hpp"
 #include "triangle_pair.hpp"
 
@@ -171,15 +172,14 @@ MeshRelation mesh_relation(const Surface& a, const Surface& b) {
     result.triangle_a = found.contacts[0].a;
     result.triangle_b = found.contacts[0].b;
     result.point = contact_point(corners(a.mesh, result.triangle_a), corners(b.mesh, result.triangle_b));
-    if (a.solid || b.solid) {
-      const ContactVerdict verdict = judge_contact(a, b, found.contacts);
-      result.proven = verdict.proven;
-      if (verdict.overlap) {
-        result.relation = Relation::kPenetrating;
-        result.triangle_a = verdict.overlap->triangle_a;
-        result.triangle_b = verdict.overlap->triangle_b;
-        result.point = verdict.overlap->point;
-      }
+    const ContactVerdict verdict = a.solid || b.solid ? judge_contact(a, b, found.contacts)
+                                                      : judge_sheet_contact(a, b, found.contacts);
+    result.proven = verdict.proven;
+    if (verdict.overlap) {
+      result.relation = Relation::kPenetrating;
+      result.triangle_a = verdict.overlap->triangle_a;
+      result.triangle_b = verdict.overlap->triangle_b;
+      result.point = verdict.overlap->point;
     }
   }
   result.box_tests = found.box_tests;

@@ -157,10 +157,47 @@ std::vector<Patch> make_patches(const Labels& labels) {
   return patches;
 }
 
+bool is_closed(const Mesh& mesh) {
+  const EdgeTable edges(mesh.vertices.size(), mesh.triangles);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.half_edges(e).size() % 2 != 0) return false;
+  }
+  return edges.size() > 0;
+}
+
+// Each set of three corners once, in the order of first appearance.
+std::vector<Triangle> without_copies(const std::vector<Triangle>& triangles) {
+  std::vector<std::pair<Triangle, std::uint32_t>> keyed;
+  keyed.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    Triangle key = triangles[t];
+    std::sort(key.begin(), key.end());
+    keyed.emplace_back(key, t);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < keyed.size(); ++i) {
+    if (i == 0 || keyed[i].first != keyed[i - 1].first) kept.push_back(keyed[i].second);
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<Triangle> result;
+  for (const std::uint32_t t : kept) result.push_back(triangles[t]);
+  return result;
+}
+
+Mesh weld_without_surplus(const Mesh& mesh) {
+  Mesh welded = weld(mesh);
+  if (is_closed(welded)) return welded;
+  std::vector<Triangle> single = without_copies(welded.triangles);
+  if (single.size() == welded.triangles.size()) return welded;
+  Mesh reduced{welded.vertices, std::move(single)};
+  return is_closed(reduced) ? reduced : welded;
+}
+
 }  // namespace
 
 Mesh orient(const Mesh& mesh) {
-  Mesh result = weld(mesh);
+  Mesh result = weld_without_surplus(mesh);
   const EdgeTable edges(result.vertices.size(), result.triangles);
   const Labels labels = label_manifold_patches(result, edges);
   std::vector<Patch> patches = make_patches(labels);

@@ -36,7 +36,8 @@ Mesh weld(const Mesh& mesh);
 // The parts connected through shared edges of the welded mesh, in order of their first triangle.
 std::vector<Mesh> split_components(const Mesh& mesh);
 
-// The welded mesh with one winding per component, outermost closed shells outward. Components with
+// The welded mesh with one winding per component, outermost closed shells outward. Repeated copies
+// of a triangle are dropped when the surface is closed without them and not with them. Components with
 // mixed winding are repaired when they are orientable edge-manifolds. A component whose winding is
 // consistent keeps it, so cavities stay cavities, unless the whole mesh is inside out or the
 // component is inside out and within no other one.

@@ -80,6 +80,27 @@ void open_surfaces() {
   CHECK(relate(Mesh{}, Mesh{}) == Relation::kSeparated);
 }
 
+// Two grids of four squares that cross, or fold, along edges of both, of one, or at a corner.
+void sheets_that_meet_at_edges() {
+  const auto sheet = [](Vec3 u, Vec3 left, Vec3 right) {
+    // Two strips joined along the line from -u to u.
+    const Vec3 o = -u;
+    return Mesh{{o, u, o + left, u + left, o + right, u + right}, {{0, 1, 3}, {0, 3, 2}, {1, 0, 4}, {1, 4, 5}}};
+  };
+  const Vec3 x{2, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const Mesh flat = sheet(x, y, -y), upright = sheet(x, z, -z), tent = sheet(x, y + z, -y + z);
+  CHECK(relate(flat, upright) == Relation::kPenetrating);
+  CHECK(relate(flat, tent) == Relation::kTouching);
+  CHECK(relate(upright, tent) == Relation::kPenetrating);
+  CHECK(relate(upright, sheet(x, y + z, y - z)) == Relation::kTouching);
+  // The joint of one inside a strip of the other.
+  CHECK(relate(translate(flat, {0, 0.5, 0}), upright) == Relation::kPenetrating);
+  CHECK(relate(translate(flat, {0, 0.5, 0}), tent) == Relation::kTouching);
+  // Only the border of one: no crossing.
+  CHECK(relate(flat, translate(upright, z)) == Relation::kTouching);
+  CHECK(relate(translate(flat, {4, 0, 0}), upright) == Relation::kTouching);
+}
+
 // Every piece of a triangle that lines cut is sampled: count the sign vectors that are seen.
 void pieces_of_a_cut_triangle() {
   const std::array<Vec3, 3> t{Vec3{0, 0, 1}, Vec3{8, 0, 1}, Vec3{0, 8, 1}};
@@ -140,6 +161,7 @@ int main() {
   double_wall();
   spheres();
   open_surfaces();
+  sheets_that_meet_at_edges();
   pieces_of_a_cut_triangle();
   large_flush_contact();
   return exit_status();

@@ -56,6 +56,11 @@ void broken_boxes() {
   t = measure_topology(flat);
   CHECK(t.closed && t.oriented && t.volume == 0 && !t.solid);
 
+  Mesh repeated = unit;
+  repeated.triangles.push_back({unit.triangles[5][1], unit.triangles[5][0], unit.triangles[5][2]});
+  CHECK(!measure_topology(repeated).closed);
+  CHECK(orient(repeated).triangles == unit.triangles);
+
   Mesh degenerate = unit;
   degenerate.triangles.push_back({0, 0, 1});
   t = measure_topology(degenerate);

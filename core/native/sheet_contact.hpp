@@ -1,0 +1,16 @@
+// Do two surfaces without inside cross where no two of their triangles do?
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contact.hpp"
+
+namespace satcheck {
+
+// A crossing through edges: along a shared segment each surface has points strictly on both sides of
+// the other. Proven when true; when there is none, `proven` tells that no coplanar patch hides one.
+ContactVerdict judge_sheet_contact(const Surface& a, const Surface& b,
+                                   const std::vector<ContactPair>& contacts);
+
+}  // namespace satcheck
