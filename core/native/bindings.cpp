@@ -98,8 +98,21 @@ std::int64_t index_or_minus_one(std::uint32_t index) {
   return index == Shape::kNoIndex ? -1 : static_cast<std::int64_t>(index);
 }
 
+constexpr const char* kPairResultDoc = R"(What was found about one convex pair. World frame, units of the shapes.
+
+outcome      "separated", "touching", "penetrating" or "undecided" (then `reason` says why). On hulls and
+             boxes touching is decided exactly on the rounded world vertices; on curved shapes it means
+             that the signed distance lies within the rounding error of 0.
+distance     signed: > 0 the gap, < 0 minus the penetration depth. None for query "overlap".
+lower, upper proven bounds of the signed distance, rounding included.
+normal       unit, from A to B. witness_a, witness_b: points on A and B with
+             witness_b - witness_a = distance * normal. Moving A by distance * normal separates an overlap.
+method       the stage that decided: "sat", "gjk", "epa" or "exact".
+feature      what carries the answer: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face
+             or edge, -1 where none), "vertices" or "curved".)";
+
 void bind_pair_result(nb::module_& m) {
-  nb::class_<PairResult>(m, "PairResult")
+  nb::class_<PairResult>(m, "PairResult", kPairResultDoc)
       .def_prop_ro("outcome", [](const PairResult& r) { return name_of(r.outcome); })
       .def_prop_ro("reason", [](const PairResult& r) { return name_of(r.reason); })
       .def_prop_ro("method", [](const PairResult& r) { return name_of(r.method); })
@@ -143,7 +156,10 @@ nb::object column(nb::handle self) {
 }
 
 void bind_pair_results(nb::module_& m) {
-  nb::class_<PairResults>(m, "PairResults")
+  nb::class_<PairResults>(m, "PairResults",
+                          R"(The results of check_pairs: indexing gives a PairResult, the attributes are read-only
+numpy views of shape (n,) or (n, 3). Outcomes are 0 separated, 1 touching, 2 penetrating, 3 undecided;
+methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact. Distances and vectors are 0 for query "overlap".)")
       .def("__len__", [](const PairResults& r) { return r.records.size(); })
       .def(
           "__getitem__",
@@ -211,47 +227,52 @@ struct ConeShape : Shape {};
 struct EllipsoidShape : Shape {};
 
 void bind_shapes(nb::module_& m) {
-  nb::class_<Shape>(m, "Shape")
+  nb::class_<Shape>(m, "Shape", "A convex shape in its own frame. Immutable.")
       .def_prop_ro("vertex_count", [](const Shape& s) { return s.polytope.vertices.size(); })
       .def_prop_ro("dimension", [](const Shape& s) { return s.is_polytope() ? s.polytope.dimension : 3; });
-  nb::class_<HullShape, Shape>(m, "Hull")
+  nb::class_<HullShape, Shape>(m, "Hull",
+                              R"(Convex hull of points (n, 3) float64, n >= 1, or of a Polytope. Computed exactly; may be flat,
+a segment or a point. ValueError when a coordinate is not finite.)")
       .def(
           "__init__", [](HullShape* self, const Points& points) { new (self) HullShape{make_hull(to_points(points))}; },
-          nb::arg("points"))
+          nb::arg("points").noconvert())
       .def(
           "__init__", [](HullShape* self, const Polytope& polytope) { new (self) HullShape{make_hull(polytope)}; },
           nb::arg("polytope"));
-  nb::class_<BoxShape, Shape>(m, "Box").def(
+  nb::class_<BoxShape, Shape>(m, "Box", "Box around the origin; half_extents (x, y, z) > 0.").def(
       "__init__", [](BoxShape* self, const Triple& half) { new (self) BoxShape{make_box(to_vec(half))}; },
       nb::arg("half_extents"));
-  nb::class_<SphereShape, Shape>(m, "Sphere")
+  nb::class_<SphereShape, Shape>(m, "Sphere", "Sphere around the origin.")
       .def("__init__", [](SphereShape* self, double radius) { new (self) SphereShape{make_sphere(radius)}; },
            nb::arg("radius"));
-  nb::class_<CapsuleShape, Shape>(m, "Capsule")
+  nb::class_<CapsuleShape, Shape>(m, "Capsule", "Segment from -half_height to half_height on z, grown by radius.")
       .def("__init__", [](CapsuleShape* self, double r, double h) { new (self) CapsuleShape{make_capsule(r, h)}; },
            nb::arg("radius"), nb::arg("half_height"));
-  nb::class_<CylinderShape, Shape>(m, "Cylinder")
+  nb::class_<CylinderShape, Shape>(m, "Cylinder", "Cylinder about z, from -half_height to half_height.")
       .def("__init__", [](CylinderShape* self, double r, double h) { new (self) CylinderShape{make_cylinder(r, h)}; },
            nb::arg("radius"), nb::arg("half_height"));
-  nb::class_<ConeShape, Shape>(m, "Cone")
+  nb::class_<ConeShape, Shape>(m, "Cone", "Cone about z: base at -half_height, apex at +half_height.")
       .def("__init__", [](ConeShape* self, double r, double h) { new (self) ConeShape{make_cone(r, h)}; },
            nb::arg("radius"), nb::arg("half_height"));
-  nb::class_<EllipsoidShape, Shape>(m, "Ellipsoid")
+  nb::class_<EllipsoidShape, Shape>(m, "Ellipsoid", "Ellipsoid around the origin; radii along x, y, z.")
       .def("__init__",
            [](EllipsoidShape* self, const Triple& radii) { new (self) EllipsoidShape{make_ellipsoid(to_vec(radii))}; },
            nb::arg("radii"));
 }
 
 void bind_polygons(nb::module_& m) {
-  nb::class_<PolygonResult>(m, "PolygonResult")
+  nb::class_<PolygonResult>(m, "PolygonResult",
+                            R"(outcome: exact. penetration: > 0 the least overlap; < 0 minus the widest gap along an edge normal, a
+lower bound of the distance. normal: unit, A to B; edge_a or edge_b: the edge it belongs to, else -1.)")
       .def_prop_ro("outcome", [](const PolygonResult& r) { return name_of(r.outcome); })
       .def_ro("penetration", &PolygonResult::penetration)
       .def_prop_ro("normal", [](const PolygonResult& r) { return nb::make_tuple(r.normal.x, r.normal.y); })
       .def_ro("edge_a", &PolygonResult::edge_a)
       .def_ro("edge_b", &PolygonResult::edge_b);
   m.def("sat_polygons",
-        [](const Points2& a, const Points2& b) { return sat_polygons(to_points(a), to_points(b)); }, nb::arg("a"),
-        nb::arg("b"));
+        [](const Points2& a, const Points2& b) { return sat_polygons(to_points(a), to_points(b)); }, 
+        nb::arg("a").noconvert(), nb::arg("b").noconvert(),
+        R"(Planar SAT of two convex polygons, (n, 2) and (m, 2) float64, counter-clockwise. ValueError otherwise.)");
 }
 
 }  // namespace
@@ -275,8 +296,25 @@ NB_MODULE(_native, m) {
         return check_pair(a, pa, b, pb, asked, choice);
       },
       nb::arg("a"), nb::arg("b"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(), nb::kw_only(),
-      nb::arg("query") = "depth", nb::arg("method") = "auto");
-  m.def("check_pairs", &check_many, nb::arg("shapes"), nb::arg("index_a"), nb::arg("index_b"), nb::arg("poses_a"),
-        nb::arg("poses_b"), nb::kw_only(), nb::arg("query") = "depth", nb::arg("method") = "auto",
-        nb::arg("threads") = 0);
+      nb::arg("query") = "depth", nb::arg("method") = "auto",
+      R"(Check two placed convex shapes.
+
+pose_a, pose_b  None, (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw): rotate by the quaternion (any length
+                but 0), then translate.
+query           "overlap" gives the outcome only and stops at the first proof; "depth" and "distance" give
+                the signed distance, normal and witness points.
+method          "auto", or "sat" / "gjk" to take that one where it applies.
+Raises ValueError for a pose that is not finite or an unknown query or method.
+
+SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), GJK (Gilbert, Johnson, Keerthi 1988), EPA on signed
+face distances (after van den Bergen 2001), exact signs (Shewchuk 1997) where float64 cannot tell.)");
+  m.def("check_pairs", &check_many, nb::arg("shapes"), nb::arg("index_a").noconvert(),
+        nb::arg("index_b").noconvert(), nb::arg("poses_a").noconvert(),
+        nb::arg("poses_b").noconvert(), nb::kw_only(), nb::arg("query") = "depth", nb::arg("method") = "auto",
+        nb::arg("threads") = 0,
+        R"(check_pair over many pairs at once, on `threads` threads (0: one a core), without the GIL.
+
+Pair i is shapes[index_a[i]] at poses_a[i] against shapes[index_b[i]] at poses_b[i]; indices uint32 (n,),
+poses float64 (n, 7). The results are the same bits at any thread count. ValueError when lengths differ, an
+index is out of range or a pose is not finite.)");
 }

@@ -95,15 +95,16 @@ auto rows_view(const std::vector<Row>& rows, nb::handle owner) {
 }
 
 void bind_mesh_class(nb::module_& m) {
-  nb::class_<Mesh>(m, "Mesh", "Immutable triangle mesh, float64 vertices, counter-clockwise outside.")
+  nb::class_<Mesh>(m, "Mesh", R"(Immutable triangle mesh: vertices (n, 3) float64, triangles (m, 3) int32, int64 or uint32, counter-clockwise
+seen from outside. ValueError when an index is out of range or a coordinate is not finite.)")
       .def("__init__", &construct_mesh<std::uint32_t>, "vertices"_a.noconvert(),
            "triangles"_a.noconvert())
       .def("__init__", &construct_mesh<std::int32_t>, "vertices"_a.noconvert(),
            "triangles"_a.noconvert())
       .def("__init__", &construct_mesh<std::int64_t>, "vertices"_a.noconvert(),
            "triangles"_a.noconvert())
-      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a)
-      .def("to_bytes", &mesh_to_bytes)
+      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
+      .def("to_bytes", &mesh_to_bytes, "The inverse of from_bytes.")
       .def_prop_ro("vertex_count", [](const Mesh& mesh) { return mesh.vertices.size(); })
       .def_prop_ro("triangle_count", [](const Mesh& mesh) { return mesh.triangles.size(); })
       .def_prop_ro("bounds",
@@ -121,20 +122,25 @@ void bind_mesh_class(nb::module_& m) {
                    [](nb::handle self) {
                      return rows_view<std::uint32_t>(nb::cast<const Mesh&>(self).triangles, self);
                    })
-      .def("welded", &weld, ReleaseGil())
-      .def("transformed", &transform, "matrix"_a, ReleaseGil())
+      .def("welded", &weld, ReleaseGil(), "Vertices with equal coordinates become one; unreferenced ones are dropped; triangles keep their order.")
+      .def("transformed", &transform, "matrix"_a, ReleaseGil(), R"(Placed by a 4x4 matrix, 16 numbers by rows, column vectors. Each coordinate is rounded once; a mirror flips
+the winding. ValueError when the matrix is not affine, not finite or singular.)")
       .def("translated",
            [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
            "offset"_a, ReleaseGil())
-      .def("topology", &measure_topology, ReleaseGil())
-      .def("oriented", &orient, ReleaseGil())
-      .def("components", &split_components, ReleaseGil())
+      .def("topology", &measure_topology, ReleaseGil(), "What is known about the mesh as it stands; weld it first.")
+      .def("oriented", &orient, ReleaseGil(), "With one consistent winding a component, outward as a whole, where the mesh is closed and orientable.")
+      .def("components", &split_components, ReleaseGil(), "The parts that share no vertex, in order of their first triangle.")
       .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
-      .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil());
+      .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of how deep the surface lies below its convex hull; 0.0 only when the mesh is exactly
+convex; inf when it is not closed or the bound exceeds `limit`.)");
 }
 
 void bind_topology(nb::module_& m) {
-  nb::class_<Topology>(m, "Topology")
+  nb::class_<Topology>(m, "Topology",
+                       R"(Counts and facts of a mesh. closed: no boundary edge, every edge an even number of triangles. manifold: two
+triangles at every edge. oriented: neighbours agree on the winding. volume: signed, 0.0 when not closed.
+solid: closed, oriented and of non-zero volume, so that it has an inside.)")
       .def_ro("vertices", &Topology::vertices)
       .def_ro("triangles", &Topology::triangles)
       .def_ro("components", &Topology::components)
@@ -227,23 +233,31 @@ void bind_mesh_relation(nb::module_& m) {
                    })
       .def_ro("box_tests", &MeshRelation::box_tests)
       .def_ro("triangle_tests", &MeshRelation::triangle_tests);
-  m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil());
+  m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
+        R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
+"touching", "penetrating" (interiors overlap, or surfaces cross where a side is not solid), "contains" (b strictly
+inside a), "inside" (a strictly inside b), "coincident". The inside of a hollow solid is not material.)");
 }
 
 void bind_mesh_distance(nb::module_& m) {
-  nb::class_<MeshDistance>(m, "MeshDistance")
+  nb::class_<MeshDistance>(m, "MeshDistance",
+                           "distance: inf when beyond the limit; witness points on a and b, triangle indices.")
       .def_ro("distance", &MeshDistance::distance)
       .def_prop_ro("witness_a", [](const MeshDistance& d) { return to_tuple(d.witness_a); })
       .def_prop_ro("witness_b", [](const MeshDistance& d) { return to_tuple(d.witness_b); })
       .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
-  m.def("mesh_distance", &mesh_distance, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil());
+  m.def("mesh_distance", &mesh_distance, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
+        R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
+another is at a distance from its surface all the same: ask mesh_relation first.)");
   m.def("deviation",
         [](const Mesh& surface_of, const Surface& solid, double tolerance) {
           const Deviation d = deviation(surface_of, solid, tolerance);
           return std::make_tuple(d.lower, d.upper);
         },
-        "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil());
+        "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
+        R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
+most `tolerance` apart. Branch and bound over triangles: the distance is 1-Lipschitz.)");
 }
 
 }  // namespace
