@@ -10,8 +10,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import pytest
+from jsonschema import Draft202012Validator
+
+from satcheck.cli.report.schema import text
+
 SAMPLES = Path(__file__).resolve().parent.parent.parent / "sample_meshes"
 SECONDS = 120
+PUSHED = ("box.obj", "box_pushed.stl")
+APART = ("box.obj", "cube.off")
+VALIDATOR = Draft202012Validator(json.loads(text()))
+on_posix = pytest.mark.skipif(os.name != "posix", reason="needs a POSIX shell or terminal")
 # What could change the answer of a test from outside.
 _NEUTRAL = ("NO_COLOR", "FORCE_COLOR", "COLUMNS", "PYTHONIOENCODING", "PYTHONUTF8", "TERM")
 

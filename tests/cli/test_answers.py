@@ -1,0 +1,87 @@
+"""The command as a whole process: what it answers, and the exit code."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.cli.process import (
+    APART,
+    PUSHED,
+    VALIDATOR,
+    satcheck,
+)
+
+
+def test_overlap_is_exit_1_and_a_table() -> None:
+    ran = satcheck(*PUSHED)
+    assert ran.code == 1
+    assert "penetrating" in ran.out
+    assert "(-1, 0, 0)" in ran.out
+    assert ran.out.splitlines()[-1] == "2 bodies, 1 pair: 1 penetrating. Depth 1."
+    assert ran.err == ""
+
+
+def test_no_overlap_is_exit_0() -> None:
+    ran = satcheck(*APART)
+    assert (ran.code, ran.err) == (0, "")
+    assert "No collision." in ran.out
+
+
+def test_exit_zero_forgives_findings_but_not_failures() -> None:
+    assert satcheck("--exit-zero", *PUSHED).code == 0
+    assert satcheck("--exit-zero", "box.obj", "gone.obj").code == 2
+
+
+def test_every_pair_of_many_is_checked() -> None:
+    ran = satcheck("--format", "json", "box.obj", "box_pushed.stl", "cube.off", "far_a.obj")
+    assert ran.code == 1
+    assert ran.document["summary"]["pairs"]["total"] == 6
+
+
+def test_json_is_one_document_that_follows_the_schema() -> None:
+    ran = satcheck("--format", "json", *PUSHED)
+    VALIDATOR.validate(ran.document)
+    assert ran.document["findings"][0]["depth"] == 1.0
+    assert ran.err == ""
+
+
+def test_without_timings_the_bytes_repeat() -> None:
+    once = satcheck("--format", "json", "--no-timings", "--jobs", "1", *PUSHED, "cube.off")
+    again = satcheck("--format", "json", "--no-timings", "--jobs", "4", *PUSHED, "cube.off")
+    assert once.out == again.out
+    assert "microseconds" not in once.out
+
+
+def test_depth_that_was_not_asked_for_is_null() -> None:
+    (finding,) = satcheck("--format", "json", "--no-depth", *PUSHED).document["findings"]
+    assert finding["relation"] == "penetrating"
+    assert finding["depth"] is None
+    assert finding["mtv"] is None
+
+
+def test_clearance_finds_the_near() -> None:
+    ran = satcheck("--clearance", "0.75", *APART)
+    assert ran.code == 1
+    assert "near" in ran.out
+    assert "0.5" in ran.out
+    assert satcheck("--clearance", "0.25", *APART).code == 0
+
+
+def test_tolerance_widens_the_touch_band() -> None:
+    (finding,) = satcheck("--format", "json", "--tolerance", "2", *PUSHED).document["findings"]
+    assert finding["relation"] == "touching"
+    assert finding["exact_relation"] == "penetrating"
+
+
+def test_explain_tells_the_plan() -> None:
+    ran = satcheck("--explain", *PUSHED)
+    assert "box against box_pushed: penetrating" in ran.out
+
+
+@pytest.mark.parametrize(("option", "code"), [("0.4mm", 0), ("0.6mm", 1), ("0.03in", 1)])
+def test_units_of_a_scene(option: str, code: int) -> None:
+    """Between base and arm there is a gap of 0.5 mm; base and bolt are allowed to meet."""
+    ran = satcheck("--format", "json", "--clearance", option, "workcell.json")
+    assert ran.code == code
+    assert ran.document["units"] == "mm"
+    assert ran.document["summary"]["pairs"]["allowed"] == 1

@@ -1,0 +1,112 @@
+"""The command as a whole process: what a pipe and a terminal get to see."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+
+from tests.cli.process import (
+    PUSHED,
+    SAMPLES,
+    command,
+    environment,
+    on_posix,
+    satcheck,
+)
+
+
+def test_a_pipe_gets_wide_plain_text() -> None:
+    for variables in ({}, {"FORCE_COLOR": "1"}, {"NO_COLOR": "1"}, {"COLUMNS": "40"}):
+        ran = satcheck(*PUSHED, env=variables)
+        assert "\x1b" not in ran.out + ran.err
+        assert any("box_pushed" in line and "(-1, 0, 0)" in line for line in ran.out.splitlines())
+
+
+def test_ascii_where_the_encoding_has_no_more() -> None:
+    ran = satcheck(*PUSHED, env={"PYTHONUTF8": "0", "PYTHONIOENCODING": "ascii"})
+    assert ran.code == 1
+    assert ran.out.isascii()
+    assert "+---" in ran.out
+
+
+def test_names_that_the_encoding_lacks(tmp_path: Path) -> None:
+    shutil.copy(SAMPLES / "box.obj", tmp_path / "würfel.obj")
+    arguments = ("würfel.obj", str(SAMPLES / "cube.off"))
+    ascii_only = satcheck(*arguments, cwd=tmp_path, env={"PYTHONIOENCODING": "ascii"})
+    assert ascii_only.code == 0
+    document = satcheck(
+        "--format", "json", *arguments, cwd=tmp_path, env={"PYTHONIOENCODING": "ascii"}
+    )
+    assert document.document["bodies"][0]["file"] == "würfel.obj"
+
+
+def in_terminal(*arguments: str, columns: int, variables: Mapping[str, str] | None = None) -> str:
+    """What a terminal of that width is sent, standard output and stderr together."""
+    import fcntl
+    import pty
+    import struct
+    import termios
+
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
+    process = subprocess.Popen(
+        command(*arguments),
+        cwd=SAMPLES,
+        env=environment({"TERM": "xterm", **(variables or {})}),
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+    )
+    os.close(theirs)
+    sent = b""
+    while True:
+        try:
+            chunk = os.read(ours, 65536)
+        except OSError:  # Linux: the other end was closed
+            break
+        if not chunk:
+            break
+        sent += chunk
+    os.close(ours)
+    process.wait()
+    return sent.decode("utf-8")
+
+
+@on_posix
+def test_a_terminal_gets_colour_and_its_width() -> None:
+    sent = in_terminal(*PUSHED, columns=60)
+    assert "\x1b[1;31m" in sent
+    assert "penetrating" in sent
+
+
+@on_posix
+@pytest.mark.parametrize("variables", [{"NO_COLOR": "1"}, {"TERM": "dumb"}])
+def test_no_colour_on_request(variables: dict[str, str]) -> None:
+    sent = in_terminal(*PUSHED, columns=100, variables=variables)
+    assert "\x1b" not in sent
+
+
+SLOW = (
+    "import time\n"
+    "import satcheck.audit as door\n"
+    "real = door.check\n"
+    "def slow(*arguments, **options):\n"
+    "    time.sleep(1.5)\n"
+    "    return real(*arguments, **options)\n"
+    "door.check = slow\n"
+)
+
+
+@on_posix
+def test_long_work_shows_a_bar_to_a_person_only(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text(SLOW, encoding="utf-8")
+    slow = {"PYTHONPATH": str(tmp_path)}
+    assert "checking" in in_terminal(*PUSHED, columns=100, variables=slow)
+    assert "checking" not in in_terminal(*PUSHED, columns=100)
+    ran = satcheck(*PUSHED, env={**slow, "FORCE_COLOR": "1"})
+    assert ran.err == ""

@@ -1,0 +1,81 @@
+"""The command as a whole process: help, version, schema, cache, completion."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from satcheck.cli.report.schema import text
+from tests.cli.process import (
+    SAMPLES,
+    private_cache,
+    satcheck,
+)
+
+
+def test_help_advertises_what_exists() -> None:
+    ran = satcheck("--help")
+    assert ran.code == 0
+    assert ran.out.startswith("Usage: satcheck [OPTIONS] A B [C ...]\n")
+    for word in ("--clearance", "--accuracy", "Exit codes", "satcheck cache", "_SATCHECK_COMPLETE"):
+        assert word in ran.out
+    for later in ("batch", "tradeoff", "resolve", "verify", "stability", "view"):
+        assert f"satcheck {later}" not in ran.out
+
+
+def test_usage_errors_name_the_command_as_typed() -> None:
+    assert "Try 'satcheck --help' for help" in satcheck("--nonsense").err
+
+
+def test_version() -> None:
+    ran = satcheck("--version")
+    assert ran.code == 0
+    assert ran.out.startswith("satcheck 0.")
+
+
+def test_schema_command_prints_the_schema() -> None:
+    assert satcheck("schema").document == json.loads(text())
+
+
+def test_cache_commands(tmp_path: Path) -> None:
+    places = private_cache(tmp_path)
+    info = satcheck("cache", "info", env=places)
+    assert info.code == 0
+    assert "0 entries" in info.out
+    assert satcheck("cache", "clear", env=places).out == "deleted 0 entries\n"
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion_script(shell: str) -> None:
+    ran = satcheck(env={"_SATCHECK_COMPLETE": f"{shell}_source"})
+    assert ran.code == 0
+    assert "_SATCHECK_COMPLETE" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("satcheck --acc", "plain,--accuracy"),
+        ("satcheck --accuracy o", "plain,obb"),
+        ("satcheck b", "file,b"),
+        ("satcheck box.obj --exp", "plain,--explain"),
+        ("satcheck ca", "plain,cache"),
+        ("satcheck cache i", "plain,info"),
+    ],
+)
+def test_completion(words: str, expected: str) -> None:
+    shell = {"_SATCHECK_COMPLETE": "bash_complete", "COMP_WORDS": words}
+    ran = satcheck(env={**shell, "COMP_CWORD": str(len(words.split()) - 1)})
+    assert expected in ran.out.splitlines()
+
+
+def test_a_file_named_like_a_command_can_be_checked(tmp_path: Path) -> None:
+    shutil.copy(SAMPLES / "box.obj", tmp_path / "cache")
+    ran = satcheck("./cache", str(SAMPLES / "box.obj"), cwd=tmp_path)
+    assert ran.code == 2  # no ending: an unknown format, but a path
+    assert "cache" in ran.err
+    assert sys.executable not in ran.err

@@ -1,0 +1,132 @@
+"""The command as a whole process: what it refuses is exit 2 and one clear line, no traceback."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.cli.process import (
+    PUSHED,
+    SAMPLES,
+    VALIDATOR,
+    command,
+    environment,
+    on_posix,
+    satcheck,
+)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ([], "two or more mesh files"),
+        (["box.obj"], "one body alone"),
+        (["gone.obj"], "gone.obj: no such file"),
+        (["--format", "yaml", *PUSHED], "yaml"),
+        (["--no-such-option", *PUSHED], "no-such-option"),
+        (["--clearance", "5mm", *PUSHED], "declare no units"),
+        (["--clearance=-1", *PUSHED], "not a length"),
+        (["--jobs", "-1", *PUSHED], "jobs"),
+        (["box.obj", "gone.obj"], "gone.obj"),
+        (["box.obj", "."], "."),
+        (["gone.json"], "gone.json"),
+        (["-o", "no/such/folder/report.json", *PUSHED], "folder does not exist"),
+    ],
+)
+def test_refusals(arguments: list[str], told: str) -> None:
+    ran = satcheck(*arguments)
+    assert ran.code == 2
+    assert told in ran.err
+    assert "Traceback" not in ran.err
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("empty.obj", b""),
+        ("garbage.stl", b"\x00\xff" * 50),
+        ("text.ply", b"this is no mesh\n"),
+        ("index.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
+        ("nan.obj", b"v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n"),
+        ("broken.glb", b"glTF\x02\x00\x00\x00\xff\xff\xff\x7f"),
+        ("scene.json", b'{"schema": "satcheck-scene-1", "bodies": 5}'),
+        ("other.json", b"[1, 2"),
+        ("unknown.xyz", b"1 2 3\n"),
+    ],
+)
+def test_broken_inputs(tmp_path: Path, name: str, content: bytes) -> None:
+    (tmp_path / name).write_bytes(content)
+    ran = satcheck(str(tmp_path / name), "box.obj")
+    assert ran.code == 2
+    assert name in ran.err
+    assert "Traceback" not in ran.err + ran.out
+    assert "internal" not in ran.err
+
+
+def test_the_readable_rest_is_still_checked() -> None:
+    ran = satcheck("--format", "json", *PUSHED, "gone.obj")
+    assert ran.code == 2
+    VALIDATOR.validate(ran.document)
+    assert "penetrating" in {finding["relation"] for finding in ran.document["findings"]}
+    assert [i["severity"] for i in ran.document["issues"] if i["file"] == "gone.obj"] == ["error"]
+
+
+def test_debug_adds_the_traceback() -> None:
+    assert "Traceback" in satcheck("--debug", "-o", "no/such/folder/x.json", *PUSHED).err
+
+
+def test_a_crash_is_exit_2_and_one_line(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text(
+        "import satcheck.audit as door\n"
+        "def broken(*arguments, **options):\n"
+        "    raise RuntimeError('the roof\\nfell in')\n"
+        "door.check = broken\n",
+        encoding="utf-8",
+    )
+    ran = satcheck(*PUSHED, env={"PYTHONPATH": str(tmp_path)})
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err.splitlines() == [
+        "satcheck: internal error: RuntimeError: the roof [internal-error] (--debug shows where)"
+    ]
+
+
+def test_a_library_that_exits_is_exit_2(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text(
+        "import sys\n"
+        "import satcheck.audit as door\n"
+        "door.check = lambda *arguments, **options: sys.exit(0)\n",
+        encoding="utf-8",
+    )
+    assert satcheck(*PUSHED, env={"PYTHONPATH": str(tmp_path)}).code == 2
+
+
+@on_posix
+def test_ctrl_c_is_130(tmp_path: Path) -> None:
+    (tmp_path / "sitecustomize.py").write_text(
+        "import sys, time\n"
+        "import satcheck.audit as door\n"
+        "def slow(*arguments, **options):\n"
+        "    sys.stderr.write('started\\n')\n"
+        "    sys.stderr.flush()\n"
+        "    time.sleep(60)\n"
+        "door.check = slow\n",
+        encoding="utf-8",
+    )
+    process = subprocess.Popen(
+        command(*PUSHED),
+        cwd=SAMPLES,
+        env=environment({"PYTHONPATH": str(tmp_path)}),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stderr
+    assert process.stderr.readline() == "started\n"
+    time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert (process.returncode, out, err.strip()) == (130, "", "satcheck: interrupted")

@@ -1,0 +1,101 @@
+"""The command as a whole process: where the document goes."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.cli.process import (
+    APART,
+    PUSHED,
+    SAMPLES,
+    VALIDATOR,
+    command,
+    environment,
+    on_posix,
+    satcheck,
+)
+
+
+@pytest.mark.parametrize(("name", "start"), [("report.json", "{"), ("report.txt", "╭")])
+def test_output_file(tmp_path: Path, name: str, start: str) -> None:
+    """The ending chooses the format, unless --format does."""
+    ran = satcheck("-o", str(tmp_path / name), *PUSHED)
+    assert (ran.code, ran.out) == (1, "")
+    assert (tmp_path / name).read_text(encoding="utf-8").startswith(start)
+    assert "1 penetrating" in ran.err
+    assert name in ran.err
+
+
+def test_output_file_that_cannot_be_written(tmp_path: Path) -> None:
+    ran = satcheck("-o", str(tmp_path), *PUSHED)
+    assert ran.code == 2
+    assert "Traceback" not in ran.err
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_a_full_disk_is_an_error() -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            command(*APART),
+            cwd=SAMPLES,
+            env=environment(),
+            stdout=full,
+            stderr=subprocess.PIPE,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert b"cannot write" in done.stderr
+    assert b"Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"), [(PUSHED, 1), (APART, 0), (("--help",), 0), (("schema",), 0)]
+)
+def test_a_reader_that_leaves_early_changes_nothing(arguments: tuple[str, ...], code: int) -> None:
+    process = subprocess.Popen(
+        command(*arguments),
+        cwd=SAMPLES,
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    assert process.stdout
+    assert process.stderr
+    process.stdout.close()
+    error = process.stderr.read()
+    process.stderr.close()
+    assert process.wait() == code
+    assert error == b""
+
+
+@on_posix
+def test_a_closed_standard_output_is_no_crash() -> None:
+    line = " ".join(f"'{word}'" for word in command(*PUSHED)) + " >&-"
+    done = subprocess.run(
+        ["/bin/sh", "-c", line], cwd=SAMPLES, env=environment(), capture_output=True, check=False
+    )
+    assert done.returncode == 1
+    assert b"Traceback" not in done.stderr
+
+
+def test_what_others_print_stays_out_of_the_document(tmp_path: Path) -> None:
+    """A chatty library: Python prints and writes to descriptor 1 during the check and at exit."""
+    (tmp_path / "sitecustomize.py").write_text(
+        "import atexit, os\n"
+        "import satcheck.audit.check as room\n"
+        "import satcheck.audit as door\n"
+        "quiet = door.check\n"
+        "def chatty(*arguments, **options):\n"
+        "    print('chatter from Python')\n"
+        "    os.write(1, b'chatter from native code\\n')\n"
+        "    atexit.register(os.write, 1, b'chatter at exit\\n')\n"
+        "    return quiet(*arguments, **options)\n"
+        "door.check = chatty\n",
+        encoding="utf-8",
+    )
+    ran = satcheck("--format", "json", *PUSHED, env={"PYTHONPATH": str(tmp_path)})
+    VALIDATOR.validate(ran.document)
+    assert ran.err.count("chatter") == 3
