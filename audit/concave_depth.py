@@ -13,12 +13,12 @@ from dataclasses import dataclass
 from satcheck import core
 from satcheck.audit.boxes import box_escape
 from satcheck.audit.depth import Depth
+from satcheck.audit.escape_search import escape_on_meshes, escape_on_parts
 from satcheck.audit.inner_bodies import depth_of_hulls, depth_of_parts
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
-from satcheck.audit.short_escape import escape_on_meshes, escape_on_parts
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
 from satcheck.audit.triangles import crossing_depth
 from satcheck.audit.verify import Escape, verified_escape

@@ -13,6 +13,7 @@ from satcheck import core
 from satcheck.audit.boxes import Box
 from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import ORTHOGONALITY, rounding_pad
+from satcheck.audit.vectors import dot
 
 if TYPE_CHECKING:
     from satcheck.scene import Body
@@ -41,10 +42,6 @@ def _column(transform: Transform, axis: int) -> Vector:
     return transform[axis], transform[4 + axis], transform[8 + axis]
 
 
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
 def _keeps_axes(transform: Transform) -> bool:
     """Whether every column runs along one world axis."""
     return all(sum(c != 0 for c in _column(transform, axis)) == 1 for axis in range(3))
@@ -53,7 +50,7 @@ def _keeps_axes(transform: Transform) -> bool:
 def _is_orthogonal(transform: Transform) -> bool:
     columns = [_column(transform, axis) for axis in range(3)]
     return all(
-        abs(_dot(columns[i], columns[j]))
+        abs(dot(columns[i], columns[j]))
         <= ORTHOGONALITY * math.hypot(*columns[i]) * math.hypot(*columns[j])
         for i, j in ((0, 1), (0, 2), (1, 2))
     )

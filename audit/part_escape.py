@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.report import Vector
+from satcheck.audit.vectors import dot
 
 if TYPE_CHECKING:
     import numpy as np
@@ -124,7 +125,7 @@ def _last_wall(pairs: PartPairs, way: Vector, reach: float) -> Wall | None:
         wall = pairs.wall_at((length * way[0], length * way[1], length * way[2]))
         if wall is None:
             return last
-        cosine = _dot(wall.out, way)
+        cosine = dot(wall.out, way)
         length += (wall.offset - length * cosine) / max(cosine, LEAST_COSINE)
         last = wall
         if length > reach / LEAST_COSINE:
@@ -154,10 +155,6 @@ def nearest_point(walls: list[Wall]) -> Vector | None:
             if beyond and (best is None or point @ point < best @ best):
                 best = point
     return None if best is None else _vector(best)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def _vector(values: Array) -> Vector:

@@ -36,11 +36,11 @@ def decomposition(body: PlacedBody, plan: Plan) -> Decomposition | None:
     """The convex parts of the body's file, in file coordinates; None, and a warning, on failure."""
     from satcheck.decompose import DecompositionError
 
-    try:
-        return body.shared.decomposition()
-    except DecompositionError as error:
-        plan.complain(error.code, body.id, f"no convex parts: {error.message}")
+    found = body.shared.decomposition()
+    if isinstance(found, DecompositionError):
+        plan.complain(found.code, body.id, f"no convex parts: {found.message}")
         return None
+    return found
 
 
 def inner_parts(body: PlacedBody, plan: Plan) -> list[Part]:

@@ -14,7 +14,7 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, NEARLY_CONVEX, UNIT_ROUNDOFF
 
 if TYPE_CHECKING:
-    from satcheck.decompose import Decomposition
+    from satcheck.decompose import Decomposition, DecompositionError
     from satcheck.scene import Body, MeshFile
 
 T = TypeVar("T")
@@ -54,18 +54,23 @@ class SharedMesh:
     def _convex(self) -> bool:
         return self.file.health.solid and self.file.mesh.convexity_defect(0.0) == 0.0
 
-    def _decomposition(self, settings: Settings) -> Decomposition:
-        from satcheck.decompose import Cache, decompose
+    def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
+        """A failure is an answer too: it is not tried again for the next pair."""
+        from satcheck.decompose import Cache, DecompositionError, decompose
 
         directory = settings.cache_directory
-        return decompose(
-            self.file.mesh,
-            threshold=settings.part_threshold,
-            seed=settings.part_seed,
-            seconds=settings.part_seconds,
-            megabytes=settings.part_megabytes,
-            cache=Cache(None if directory is None else Path(directory)) if settings.cache else None,
-        )
+        cache = Cache(None if directory is None else Path(directory)) if settings.cache else None
+        try:
+            return decompose(
+                self.file.mesh,
+                threshold=settings.part_threshold,
+                seed=settings.part_seed,
+                seconds=settings.part_seconds,
+                megabytes=settings.part_megabytes,
+                cache=cache,
+            )
+        except DecompositionError as error:
+            return error
 
 
 class PlacedBody:

@@ -22,6 +22,7 @@ from satcheck.audit.report import (
     Verdict,
 )
 from satcheck.audit.roster import Roster
+from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -83,7 +84,8 @@ def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
 
 def _body_report(body: PlacedBody) -> BodyReport:
     file = body.body.file
-    parts = body.shared.decomposition.known
+    known = body.shared.decomposition.known
+    parts = None if isinstance(known, SatcheckError) else known
     return BodyReport(
         id=body.id,
         name=body.body.name,

@@ -17,6 +17,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
 from satcheck.audit.triangles import Crossing, crossing_depth, triangle_normal
+from satcheck.audit.vectors import added, scaled
 from satcheck.audit.verify import FREE
 
 WALLS = 3
@@ -45,7 +46,7 @@ def _search(pair: Pair, crossing: Crossing, at: Vector, walls: int) -> Vector | 
     """Depth first: step off the crossing triangles, then off those that are then crossed."""
     step = pair.tolerance / WALLS
     for away in _ways_off(pair, crossing):
-        there = (at[0] + step * away[0], at[1] + step * away[1], at[2] + step * away[2])
+        there = added(at, scaled(away, step))
         moved = core.Surface(pair.a.mesh.translated(there), pair.a.solid)
         found = core.mesh_relation(moved, pair.b.surface())
         if found.proven and found.relation in FREE:
@@ -65,5 +66,5 @@ def _ways_off(pair: Pair, crossing: Crossing) -> list[Vector]:
         if normal is None:
             continue
         for side in (sign,) if body.solid else (sign, -sign):
-            ways.append((side * normal[0], side * normal[1], side * normal[2]))
+            ways.append(scaled(normal, side))
     return ways

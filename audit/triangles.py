@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from satcheck import core
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.audit.vectors import crossed, unit
 
 Crossing = tuple[int, int]
 
@@ -20,14 +19,20 @@ def crossing_depth(pair: Pair, crossing: Crossing | None) -> float:
     """
     if crossing is None:
         return 0.0
-    triangles = [
-        core.Hull(body.mesh.vertices[body.mesh.triangles[index]])
-        for body, index in zip((pair.a, pair.b), crossing, strict=True)
-    ]
-    result = core.check_pair(triangles[0], triangles[1], query="depth")
+    triangle_a, triangle_b = crossing_hulls(pair, crossing)
+    result = core.check_pair(triangle_a, triangle_b, query="depth")
     if result.outcome != "penetrating" or result.upper is None:
         return 0.0
     return max(-result.upper * (1 - 2 * UNIT_ROUNDOFF), 0.0)
+
+
+def crossing_hulls(pair: Pair, crossing: Crossing) -> tuple[core.Hull, core.Hull]:
+    """The two triangles as convex shapes, where the bodies are now."""
+    a, b = (
+        core.Hull(body.mesh.vertices[body.mesh.triangles[index]])
+        for body, index in zip((pair.a, pair.b), crossing, strict=True)
+    )
+    return a, b
 
 
 def triangle_corners(body: PlacedBody, index: int) -> tuple[Vector, Vector, Vector]:
@@ -41,6 +46,5 @@ def triangle_normal(body: PlacedBody, index: int) -> Vector | None:
     p, q, r = triangle_corners(body, index)
     u = (q[0] - p[0], q[1] - p[1], q[2] - p[2])
     v = (r[0] - p[0], r[1] - p[1], r[2] - p[2])
-    normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-    length = math.hypot(*normal)
-    return None if length == 0 else (normal[0] / length, normal[1] / length, normal[2] / length)
+    normal = crossed(u, v)
+    return unit(normal) if any(normal) else None

@@ -70,3 +70,14 @@ def test_a_failed_decomposition_is_a_warning(tmp_path):
     assert low <= 0.5 <= high
     assert finding.mtv_verified
     assert any(issue.severity == "warning" and issue.body == "a" for issue in report.issues)
+
+
+def test_swapping_the_bodies_turns_the_way_out_round(tmp_path):
+    meshes = {"a": bracket(), "b": unit_box(1.5, 3, 1, edge=2.0)}
+    there = only(check(scene_of(tmp_path, **meshes), Settings(depth_width=0.9)))
+    back = only(
+        check(scene_of(tmp_path, **dict(reversed(meshes.items()))), Settings(depth_width=0.9))
+    )
+    assert there.id == back.id
+    assert there.depth == pytest.approx(back.depth)
+    assert there.mtv == pytest.approx(tuple(-c for c in back.mtv))
