@@ -128,12 +128,13 @@ the winding. ValueError when the matrix is not affine, not finite or singular.)"
       .def("translated",
            [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
            "offset"_a, ReleaseGil())
-      .def("topology", &measure_topology, ReleaseGil(), "What is known about the mesh as it stands; weld it first.")
-      .def("oriented", &orient, ReleaseGil(), "With one consistent winding a component, outward as a whole, where the mesh is closed and orientable.")
-      .def("components", &split_components, ReleaseGil(), "The parts that share no vertex, in order of their first triangle.")
+      .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
+      .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding a component, outermost closed shells outward. Copies of a triangle are dropped
+where that closes the surface.)")
+      .def("components", &split_components, ReleaseGil(), "The parts that share no edge, in order of their first triangle.")
       .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
-      .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of how deep the surface lies below its convex hull; 0.0 only when the mesh is exactly
-convex; inf when it is not closed or the bound exceeds `limit`.)");
+      .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
+equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");
 }
 
 void bind_topology(nb::module_& m) {
@@ -257,7 +258,7 @@ another is at a distance from its surface all the same: ask mesh_relation first.
         },
         "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
         R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
-most `tolerance` apart. Branch and bound over triangles: the distance is 1-Lipschitz.)");
+most `tolerance` apart, unless the work limit was reached. Branch and bound over triangles: the distance is 1-Lipschitz.)");
 }
 
 }  // namespace

@@ -98,11 +98,13 @@ NearestPoint nearest_point(const Surface& surface, Vec3 p) {
     if (!(bound < best)) continue;
     const BvhNode& node = surface.bvh.nodes[index];
     if (!node.is_leaf()) {
-      std::pair<double, std::uint32_t> far{box_distance_squared(at, surface.bvh.nodes[node.first].box), node.first};
-      std::pair<double, std::uint32_t> near{box_distance_squared(at, surface.bvh.nodes[node.first + 1].box), node.first + 1};
-      if (far.first < near.first) std::swap(far, near);
-      stack.push_back(far);
-      stack.push_back(near);
+      const auto bounded = [&](std::uint32_t child) {
+        return std::pair{box_distance_squared(at, surface.bvh.nodes[child].box), child};
+      };
+      auto farther = bounded(node.first), nearer = bounded(node.first + 1);
+      if (farther.first < nearer.first) std::swap(farther, nearer);
+      stack.push_back(farther);
+      stack.push_back(nearer);
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {

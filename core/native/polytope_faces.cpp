@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "edge_table.hpp"
+#include "patches.hpp"
 #include "predicates.hpp"
 
 namespace satcheck {
@@ -14,58 +16,40 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // Half-edge h = 3 t + i runs from corner i to corner i + 1 of triangle t.
 std::uint32_t next_half_edge(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
-struct HalfEdge {
-  std::uint64_t key;
-  std::uint32_t index;
-};
-
 std::uint64_t directed_key(std::uint32_t tail, std::uint32_t head) {
   return (static_cast<std::uint64_t>(tail) << 32) | head;
 }
 
-// For each half-edge of a closed oriented surface the one that runs the other way.
-std::vector<std::uint32_t> find_twins(const std::vector<Triangle>& triangles) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(triangles.size() * 3);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-      edges.push_back({directed_key(std::min(a, b), std::max(a, b)), 3 * t + i});
-    }
-  }
-  std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return a.key != b.key ? a.key < b.key : a.index < b.index;
-  });
-  std::vector<std::uint32_t> twin(edges.size());
-  for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
-    twin[edges[i].index] = edges[i + 1].index;
-    twin[edges[i + 1].index] = edges[i].index;
+// For each half-edge of a closed manifold the one that runs the other way.
+std::vector<std::uint32_t> find_twins(std::size_t vertex_count,
+                                      const std::vector<Triangle>& triangles) {
+  const EdgeTable edges(vertex_count, triangles);
+  std::vector<std::uint32_t> twin(triangles.size() * 3);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.half_edges(e);
+    twin[h[0]] = h[1];
+    twin[h[1]] = h[0];
   }
   return twin;
-}
-
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
 }
 
 // A label per triangle, equal on exactly coplanar neighbours.
 std::vector<std::uint32_t> label_flat_parts(const std::vector<Vec3>& points,
                                             const std::vector<Triangle>& triangles,
                                             const std::vector<std::uint32_t>& twin) {
-  std::vector<std::uint32_t> parent(triangles.size());
-  std::iota(parent.begin(), parent.end(), 0u);
+  DisjointSets sets(triangles.size());
   for (std::uint32_t h = 0; h < twin.size(); ++h) {
     if (twin[h] < h) continue;
     const Triangle& t = triangles[h / 3];
     const std::uint32_t opposite = next_half_edge(next_half_edge(twin[h]));
     const Vec3 apex = points[triangles[opposite / 3][opposite % 3]];
     if (orientation(points[t[0]], points[t[1]], points[t[2]], apex) == 0) {
-      parent[find_root(parent, twin[h] / 3)] = find_root(parent, h / 3);
+      sets.unite(twin[h] / 3, h / 3);
     }
   }
-  for (std::uint32_t t = 0; t < parent.size(); ++t) parent[t] = find_root(parent, t);
-  return parent;
+  std::vector<std::uint32_t> label(triangles.size());
+  for (std::uint32_t t = 0; t < label.size(); ++t) label[t] = sets.find(t);
+  return label;
 }
 
 // A half-edge whose two sides belong to different flat parts.
@@ -151,7 +135,7 @@ std::vector<std::vector<std::uint32_t>> find_polygons(const std::vector<Triangle
 void add_solid_faces(Polytope& polytope, const std::vector<Vec3>& points,
                      const std::vector<Triangle>& boundary,
                      const std::vector<std::uint32_t>& source) {
-  const std::vector<std::uint32_t> twin = find_twins(boundary);
+  const std::vector<std::uint32_t> twin = find_twins(points.size(), boundary);
   const std::vector<std::uint32_t> label = label_flat_parts(points, boundary, twin);
   std::vector<std::uint32_t> faces_at(points.size(), 0);
   auto polygons = find_polygons(boundary, Border{twin, label}, faces_at);
