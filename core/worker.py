@@ -21,10 +21,27 @@ import time
 import zlib
 from typing import IO, TYPE_CHECKING
 
-from satcheck.core.errors import SatcheckError
+from satcheck.core.worker_errors import (
+    WorkerCrashed,
+    WorkerError,
+    WorkerFailed,
+    WorkerNotStarted,
+    WorkerOutOfMemory,
+    WorkerTimeout,
+)
 
 if TYPE_CHECKING:
     from subprocess import Popen
+
+__all__ = [
+    "WorkerCrashed",
+    "WorkerError",
+    "WorkerFailed",
+    "WorkerNotStarted",
+    "WorkerOutOfMemory",
+    "WorkerTimeout",
+    "run_isolated",
+]
 
 _HEADER = struct.Struct("<8scQI")  # magic, status, payload length in bytes, CRC-32 of the payload
 _MAGIC = b"SATWRK01"
@@ -48,74 +65,6 @@ _MEMORY_SIGNS = (
     "failed to map segment",  # a shared library that did not fit
 )
 _WINDOWS_NO_MEMORY_EXIT_CODE = 0xC0000017  # STATUS_NO_MEMORY
-
-
-class WorkerError(SatcheckError):
-    """A child process gave no answer."""
-
-    def __reduce__(self) -> tuple[object, ...]:
-        return type(self), self.args  # each subclass keeps what it was made from in args
-
-
-class WorkerNotStarted(WorkerError):
-    """The system refused to start a child process."""
-
-    def __init__(self, module: str, reason: str) -> None:
-        super().__init__(
-            "worker-not-started", f"no process could be started for {module}: {reason}"
-        )
-        self.args = (module, reason)
-        self.reason = reason
-
-
-class WorkerTimeout(WorkerError):
-    """The child was killed at its time limit."""
-
-    def __init__(self, module: str, seconds: float) -> None:
-        super().__init__("worker-timeout", f"{module} was stopped after {seconds:g} s")
-        self.args = (module, seconds)
-        self.seconds = seconds
-
-
-class WorkerOutOfMemory(WorkerError):
-    """The child needed more memory than it was allowed."""
-
-    def __init__(self, module: str, megabytes: int) -> None:
-        super().__init__("worker-out-of-memory", f"{module} needed more than {megabytes} MiB")
-        self.args = (module, megabytes)
-        self.megabytes = megabytes
-
-
-class WorkerCrashed(WorkerError):
-    """The child died without an answer.
-
-    exit_code: as subprocess reports it (negative: minus the signal number).
-    signal_name: "SIGSEGV" and the like, or None.
-    stderr_tail: its last lines of output, possibly empty.
-    """
-
-    def __init__(self, module: str, exit_code: int, stderr_tail: str) -> None:
-        signal_name = _signal_name(exit_code)
-        how = signal_name or f"exit code {exit_code}"
-        said = f": {stderr_tail.splitlines()[-1]}" if stderr_tail else ""
-        super().__init__("worker-crashed", f"{module} died ({how}){said}")
-        self.args = (module, exit_code, stderr_tail)
-        self.exit_code = exit_code
-        self.signal_name = signal_name
-        self.stderr_tail = stderr_tail
-
-
-class WorkerFailed(WorkerError):
-    """serve() raised.
-
-    exception_type: the qualified name of the exception's class; exception_message: str() of it.
-    """
-
-    def __init__(self, module: str, exception_type: str, exception_message: str) -> None:
-        super().__init__("worker-failed", f"{module}: {exception_type}: {exception_message}")
-        self.args = (module, exception_type, exception_message)
-        self.exception_type = exception_type
-        self.exception_message = exception_message
 
 
 def run_isolated(module: str, request: bytes, *, seconds: float, megabytes: int) -> bytes:
@@ -252,17 +201,6 @@ def _judge(
     if exit_code == _WINDOWS_NO_MEMORY_EXIT_CODE or any(sign in tail for sign in _MEMORY_SIGNS):
         raise WorkerOutOfMemory(module, megabytes)
     raise WorkerCrashed(module, exit_code, tail)
-
-
-def _signal_name(exit_code: int) -> str | None:
-    if exit_code >= 0:
-        return None
-    import signal
-
-    try:
-        return signal.Signals(-exit_code).name
-    except ValueError:
-        return f"signal {-exit_code}"
 
 
 def _frame_header(status: bytes, payload: bytes) -> bytes:
