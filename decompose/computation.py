@@ -25,8 +25,9 @@ from satcheck.decompose.result import FLAT_PARTS_DROPPED, NOT_SOLID, REMESHED, D
 from satcheck.decompose.settings import DecompositionSettings
 
 _SERVER: Final = "satcheck.decompose.coacd_server"
-# A piece this close to its hull, in diagonals of its bounding box, is one part: CoACD's own cuts
-# are no better (it moves them by up to 1e-4 to keep off vertices).
+# A piece this close to its hull, in diagonals of its bounding box, is one part. CoACD at the same
+# threshold leaves about 0.3 * threshold, and moves its cuts by up to 1e-4 to keep off vertices.
+_CONVEX_ENOUGH_PER_THRESHOLD: Final = 0.05
 _CONVEX_ENOUGH: Final = 1e-4
 
 
@@ -36,7 +37,7 @@ def compute(
     """mesh: welded. Raises DecompositionError."""
     started = time.monotonic()
     solid = mesh.topology().solid
-    convex, concave = _sorted_pieces(mesh) if solid else ([], [mesh])
+    convex, concave = _sorted_pieces(mesh, settings.threshold) if solid else ([], [mesh])
     found = _run_coacd(concave, settings, seconds, megabytes) if concave else []
     parts = convex + [hull for hull in found if hull.dimension == 3]
     if not parts:
@@ -71,11 +72,12 @@ def _notes(solid: bool, concave: list[Mesh], *, dropped: int) -> Iterator[Note]:
         yield Note(FLAT_PARTS_DROPPED, f"{dropped} flat parts of CoACD's were dropped")
 
 
-def _sorted_pieces(mesh: Mesh) -> tuple[list[Polytope], list[Mesh]]:
-    """(the pieces that are convex, as hulls; the others)."""
+def _sorted_pieces(mesh: Mesh, threshold: float) -> tuple[list[Polytope], list[Mesh]]:
+    """(the pieces that are convex enough, as hulls; the others)."""
+    enough = max(_CONVEX_ENOUGH, _CONVEX_ENOUGH_PER_THRESHOLD * threshold)
     convex, concave = [], []
     for piece in independent_pieces(mesh):
-        limit = _CONVEX_ENOUGH * diagonal(piece)
+        limit = enough * diagonal(piece)
         if piece.convexity_defect(limit) <= limit:
             convex.append(piece.convex_hull())
         else:

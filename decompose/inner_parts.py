@@ -1,7 +1,7 @@
 """Convex bodies that are proven to lie inside a solid mesh, one for each of its convex parts.
 
-A part sticks out of the mesh a little. A region of it that the mesh's surface does not enter, but
-for rounding, is scaled about its centre until it is strictly inside; where a factor fits, every
+A part sticks out of the mesh a little. It, or a region of it that the mesh's surface does not enter
+but for rounding, is scaled about its centre until it is strictly inside; where a factor fits, every
 smaller one does. Only the exact mesh relation of the scaled copy, vertices rounded, decides.
 """
 
@@ -14,8 +14,8 @@ from typing import Final
 from satcheck.core import Mesh, Polytope, Surface, mesh_relation
 from satcheck.decompose.free_region import free_region
 
-# Tried in this order: contact from inside, rounding far from the origin, too large a region.
-_FACTORS: Final = (1.0 - 1e-6, 1.0 - 1e-4, 0.99, 0.95, 0.9, 0.8, 0.6, 0.4, 0.2)
+# Tried in this order: contact from inside, rounding far from the origin, shallow dents, deep ones.
+_FACTORS: Final = (1.0 - 1e-6, 1.0 - 1e-4, 0.999, 0.99, 0.97, 0.9, 0.8, 0.6, 0.4, 0.2)
 _NEGLIGIBLE_VOLUME: Final = 1e-6  # of the largest part: too small to matter for any depth
 
 
@@ -24,9 +24,20 @@ def inner_parts(parts: Sequence[Polytope], solid: Surface) -> tuple[Polytope | N
     volumes = [part.to_mesh().topology().volume for part in parts]
     negligible = _NEGLIGIBLE_VOLUME * max(volumes)
     return tuple(
-        _largest_inside(free_region(part, solid).to_mesh(), solid) if volume > negligible else None
+        _inner_part(part, solid) if volume > negligible else None
         for part, volume in zip(parts, volumes, strict=True)
     )
+
+
+def _inner_part(part: Polytope, solid: Surface) -> Polytope | None:
+    """Shrinking the part itself is better where it has many shallow dents, and cutting it to the
+    free region where it has few deep ones."""
+    bodies = [_largest_inside(part.to_mesh(), solid)]
+    region = free_region(part, solid)
+    if region is not part:
+        bodies.append(_largest_inside(region.to_mesh(), solid))
+    found = [body for body in bodies if body is not None]
+    return max(found, key=lambda body: body.to_mesh().topology().volume, default=None)
 
 
 def _largest_inside(region: Mesh, solid: Surface) -> Polytope | None:

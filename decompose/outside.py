@@ -11,7 +11,7 @@ from satcheck.decompose.components import diagonal
 # Slack of the bound, in diagonals of the mesh's bounding box for a threshold of 1. Parts stick out
 # by about 0.3 * threshold, so the first slack keeps the bound meaningful; the second is for parts
 # that stick out by next to nothing.
-_SLACKS: Final = (0.02, 0.0025)
+_SLACKS: Final = (0.02, 0.005)
 _WIDE: Final = 1.25  # upper over lower bound that is not worth the finer slack
 
 

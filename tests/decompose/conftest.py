@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from satcheck.decompose import Cache
 Triangles = list[tuple[int, int, int]]
 
 
-def prism(outline: list[tuple[float, float]], cap: Triangles, height: float = 1.0) -> Mesh:
+def prism(outline: Sequence[tuple[float, float]], cap: Triangles, height: float = 1.0) -> Mesh:
     """A polygon in the xy plane (counter-clockwise, `cap` its triangles) swept along z."""
     count = len(outline)
     vertices = [(x, y, z) for z in (0.0, height) for x, y in outline]

@@ -88,6 +88,22 @@ def test_convex_components_need_no_child(box: Mesh, calls: Calls) -> None:
     assert result.outside < 0.01
 
 
+def test_a_shallow_dent_is_no_reason_to_split(box: Mesh, calls: Calls) -> None:
+    corners = np.asarray(box.vertices)
+    centre = np.array([[0.5, 0.5, 0.999]])  # in the place of the top's diagonal
+    sides = [triangle for triangle in np.asarray(box.triangles).tolist() if min(triangle) < 4]
+    top = [[4, 5, 8], [5, 6, 8], [6, 7, 8], [7, 4, 8]]
+    dented = Mesh(np.concatenate([corners, centre]), np.array(sides + top, dtype=np.uint32))
+    result = decompose(dented)
+    assert len(result.parts) == 1
+    assert calls.count == 0
+    assert 0.00099 <= result.outside <= 0.002
+    assert result.missing == 0.0
+    (inner,) = result.inner
+    assert inner is not None
+    assert inner.to_mesh().topology().volume > 0.99
+
+
 def test_components_are_split_one_by_one(l_shape: Mesh, box: Mesh, calls: Calls) -> None:
     beside, overlapping = box.translated((5.0, 0.0, 0.0)), box.translated((1.5, 0.25, 0.25))
     result = decompose(merged([l_shape, beside, overlapping]))
