@@ -19,7 +19,7 @@ from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
-from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.audit.tolerances import UNIT_ROUNDOFF, rounding_pad
 from satcheck.audit.triangles import crossing_depth
 from satcheck.audit.verify import Escape, verified_escape
 
@@ -32,7 +32,8 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     hulls = _way_out_of_hulls(pair, plan)
     lower, upper, shorter = 0.0, hulls.upper, None
     if contact.proven:
-        lower = max(crossing_depth(pair, contact.crossing), depth_of_hulls(pair, plan))
+        known = crossing_depth(pair, contact.crossing), _depth_of_nesting(pair, contact)
+        lower = max(*known, depth_of_hulls(pair, plan))
     if pair.may("exact") and _is_wide(pair, lower, upper):
         shorter = escape_on_meshes(pair, contact, upper, hulls.normal, lower, plan)
         upper = math.hypot(*shorter) if shorter else upper
@@ -51,6 +52,14 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     escape = verified_escape(pair, hulls.length, hulls.normal, plan)
     upper = min(hulls.upper, escape.bound)
     return Depth(min(lower, upper), upper, hulls.normal, escape)
+
+
+def _depth_of_nesting(pair: Pair, contact: Contact) -> float:
+    """A body inside another stays inside at least until their surfaces meet."""
+    if contact.relation not in ("contains", "inside"):
+        return 0.0
+    gap = core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
+    return max(gap - rounding_pad(pair.largest_coordinate), 0.0)
 
 
 def _is_wide(pair: Pair, lower: float, upper: float) -> bool:

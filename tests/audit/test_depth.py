@@ -81,3 +81,9 @@ def test_swapping_the_bodies_turns_the_way_out_round(tmp_path):
     assert there.id == back.id
     assert there.depth == pytest.approx(back.depth)
     assert there.mtv == pytest.approx(tuple(-c for c in back.mtv))
+
+
+def test_a_nested_body_is_as_deep_as_its_gap_at_least(tmp_path):
+    scene = scene_of(tmp_path, a=bracket(), b=unit_box(0.75, 4, 1))
+    finding = only(check(scene, Settings(cache=False, part_seconds=1e-3)))
+    assert 0.25 - 1e-9 <= finding.depth_bounds[0] <= 1.25
