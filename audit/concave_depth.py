@@ -32,7 +32,7 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     hulls = _way_out_of_hulls(pair, plan)
     lower, upper, shorter = 0.0, hulls.upper, None
     if contact.proven:
-        known = crossing_depth(pair, contact.crossing), _depth_of_nesting(pair, contact)
+        known = crossing_depth(pair, contact.crossing), _depth_of_nesting(pair, contact, plan)
         lower = max(*known, depth_of_hulls(pair, plan))
     if pair.may("exact") and _is_wide(pair, lower, upper):
         shorter = escape_on_meshes(pair, contact, upper, hulls.normal, lower, plan)
@@ -54,12 +54,14 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     return Depth(min(lower, upper), upper, hulls.normal, escape)
 
 
-def _depth_of_nesting(pair: Pair, contact: Contact) -> float:
+def _depth_of_nesting(pair: Pair, contact: Contact, plan: Plan) -> float:
     """A body inside another stays inside at least until their surfaces meet."""
     if contact.relation not in ("contains", "inside"):
         return 0.0
     gap = core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
-    return max(gap - rounding_pad(pair.largest_coordinate), 0.0)
+    lower = max(gap - rounding_pad(pair.largest_coordinate), 0.0)
+    plan.record("depth", "lower bound", f"at least {lower:.6g} by the gap around the inner body")
+    return lower
 
 
 def _is_wide(pair: Pair, lower: float, upper: float) -> bool:
