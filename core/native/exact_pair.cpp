@@ -7,6 +7,7 @@
 #include "exact_pair.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "predicates.hpp"
 #include "tolerances.hpp"
@@ -21,7 +22,7 @@ struct Hull {
   std::vector<Vec3> relative;  // vertices minus the common centre, for the float64 filter only
   double extent = 0;
 
-  Hull(const std::vector<Vec3>& points, Vec3 centre) : polytope(convex_hull(points)) {
+  Hull(Polytope hull, Vec3 centre) : polytope(std::move(hull)) {
     for (Vec3 p : polytope.vertices) {
       relative.push_back(p - centre);
       extent = std::fmax(extent, max_abs(relative.back()));
@@ -118,9 +119,10 @@ Aabb bounds_of(const Points& points) {
 
 class ExactPair {
  public:
-  ExactPair(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double slack)
-      : a_(a, a.front()),
-        b_(b, a.front()),
+  ExactPair(Polytope a, Polytope b, double slack)
+      : origin_(a.vertices.front()),
+        a_(std::move(a), origin_),
+        b_(std::move(b), origin_),
         bounds_a_(bounds_of(a_.polytope.vertices)),
         bounds_b_(bounds_of(b_.polytope.vertices)),
         slack_(slack) {}
@@ -224,6 +226,7 @@ class ExactPair {
     return false;
   }
 
+  Vec3 origin_;
   Hull a_, b_;
   Aabb bounds_a_, bounds_b_;
   double slack_;
@@ -232,8 +235,8 @@ class ExactPair {
 
 }  // namespace
 
-Outcome decide_exactly(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double slack) {
-  return ExactPair(a, b, slack).decide();
+Outcome decide_exactly(Polytope a, Polytope b, double slack) {
+  return ExactPair(std::move(a), std::move(b), slack).decide();
 }
 
 }  // namespace satcheck

@@ -5,12 +5,12 @@
 
 namespace satcheck {
 
-// Points are world coordinates; the bodies are their convex hulls. `slack` bounds the rounding error
+// Both are exact hulls in world coordinates. `slack` bounds the rounding error
 // of a float64 support value: only axes within it of separating are tested exactly, all others
 // are known to overlap. Never undecided.
 //
 // touching: a common point, and a plane that holds the hulls apart weakly. penetrating: a common point
 // and no such plane, or one hull inside the other. separated: neither.
-Outcome decide_exactly(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double slack);
+Outcome decide_exactly(Polytope a, Polytope b, double slack);
 
 }  // namespace satcheck

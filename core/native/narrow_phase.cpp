@@ -160,11 +160,13 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
   core.witness = {middle + half, middle - half};
 }
 
-std::vector<Vec3> world_vertices(const Shape& shape, const Pose& pose) {
-  std::vector<Vec3> points;
-  points.reserve(shape.polytope.vertices.size());
-  for (Vec3 p : shape.polytope.vertices) points.push_back(pose * (p + shape.origin));
-  return points;
+// The hull of the world vertices, each rounded once by the pose. A hull that stays where it was made is
+// its own answer; any other is computed anew, because rounding bends its faces.
+Polytope world_hull(const Shape& shape, const Pose& pose) {
+  Polytope hull = shape.polytope;
+  for (Vec3& p : hull.vertices) p = pose * (p + shape.origin);
+  const bool in_place = pose.rotation == Mat3{} && pose.translation == Vec3{};
+  return in_place ? hull : convex_hull(hull.vertices);
 }
 
 void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const Pose& pose_a, double noise,
@@ -182,7 +184,7 @@ void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const 
 
 void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
                     PairResult& result) {
-  result.outcome = decide_exactly(world_vertices(a, pose_a), world_vertices(b, pose_b), noise);
+  result.outcome = decide_exactly(world_hull(a, pose_a), world_hull(b, pose_b), noise);
   result.method = Method::exact;
   result.reason = Reason::none;
   if (!result.has_distance) return;

@@ -33,6 +33,7 @@ using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from o
 // Rows of a 3x3 matrix.
 struct Mat3 {
   Vec3 row[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  bool operator==(const Mat3&) const = default;
 };
 
 inline Vec3 operator*(const Mat3& m, Vec3 v) { return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)}; }
