@@ -208,12 +208,12 @@ void bind_surface(nb::module_& m) {
 
 const char* relation_name(Relation relation) {
   switch (relation) {
-    case Relation::kSeparated: return "separated";
-    case Relation::kTouching: return "touching";
-    case Relation::kPenetrating: return "penetrating";
-    case Relation::kContains: return "contains";
-    case Relation::kInside: return "inside";
-    case Relation::kCoincident: return "coincident";
+    case Relation::separated: return "separated";
+    case Relation::touching: return "touching";
+    case Relation::penetrating: return "penetrating";
+    case Relation::contains: return "contains";
+    case Relation::inside: return "inside";
+    case Relation::coincident: return "coincident";
   }
   return "";
 }

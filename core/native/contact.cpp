@@ -33,7 +33,7 @@ constexpr int kSampleAttempts = 8;
 // verdict is not called proven.
 constexpr std::size_t kMaxSegmentPairs = 4'000'000;
 
-enum class Sample { kOverlap, kClear, kUnclear };
+enum class Sample { overlap, clear, unclear };
 
 struct ContactTriangle {
   std::uint32_t triangle;
@@ -135,15 +135,15 @@ class Side {
       const Corners t = corners(self_.mesh, c.triangle);
       if (collinear(t[0], t[1], t[2])) continue;
       visit_pieces(t, every_piece ? c.cuts : std::vector<PlaneSegment>{}, [&](const PieceSampler& at) {
-        Sample result = Sample::kUnclear;
-        for (int k = 0; k < kSampleAttempts && result == Sample::kUnclear; ++k) {
+        Sample result = Sample::unclear;
+        for (int k = 0; k < kSampleAttempts && result == Sample::unclear; ++k) {
           const ExactPoint point = at(k);
           result = judge(t, point, every_piece);
-          if (result == Sample::kOverlap) {
+          if (result == Sample::overlap) {
             verdict.overlap = Overlap{c.triangle, c.partners[0], point.rounded};
           }
         }
-        if (result == Sample::kUnclear) verdict.proven = false;
+        if (result == Sample::unclear) verdict.proven = false;
         return !verdict.overlap.has_value();
       });
       if (verdict.overlap) return {verdict.overlap, true};
@@ -157,17 +157,17 @@ class Side {
       return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2], side);
     };
     const std::optional<int> inside = winding_number(other_.mesh, other_.bvh, p);
-    if (inside == 0) return Sample::kClear;
-    if (!self_.solid) return inside ? Sample::kOverlap : Sample::kClear;
+    if (inside == 0) return Sample::clear;
+    if (!self_.solid) return inside ? Sample::overlap : Sample::clear;
     bool unclear = !inside && must_be_generic && meets_another_plane(t, p);
     for (const int side : {1, -1}) {
       const std::optional<int> mine = beside(self_, side);
       if (mine == 0) continue;
       const std::optional<int> theirs = inside ? inside : beside(other_, side);
       if (!mine || !theirs) unclear = true;
-      if (mine && theirs && *theirs != 0) return Sample::kOverlap;
+      if (mine && theirs && *theirs != 0) return Sample::overlap;
     }
-    return unclear ? Sample::kUnclear : Sample::kClear;
+    return unclear ? Sample::unclear : Sample::clear;
   }
 
   // Does the point lie on a triangle of the other mesh that is not in the plane of t?

@@ -146,7 +146,7 @@ class ExactPair {
     for (const Corners& s : near_a) {
       const Aabb box = bounds_of(s);
       for (const Corners& t : near_b) {
-        if (meet(box, bounds_of(t)) && classify(s, t) != TriangleContact::kDisjoint) return true;
+        if (meet(box, bounds_of(t)) && classify(s, t) != TriangleContact::disjoint) return true;
       }
     }
     return false;

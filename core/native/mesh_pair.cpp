@@ -62,8 +62,8 @@ class Traversal {
         if (!meet(box, triangle_box(b_.mesh, tb))) continue;
         ++found_.triangle_tests;
         const TriangleContact contact = classify(ca, corners(b_.mesh, tb));
-        if (contact == TriangleContact::kDisjoint) continue;
-        if (contact == TriangleContact::kCrossing) {
+        if (contact == TriangleContact::disjoint) continue;
+        if (contact == TriangleContact::crossing) {
           found_.crossing = ContactPair{ta, tb};
           return;
         }
@@ -114,8 +114,8 @@ MeshRelation relation_without_contact(const Surface& a, const Surface& b) {
     result.point = a_in_b.point;
   }
   const bool nested = b_in_a.any != a_in_b.any && (b_in_a.all || a_in_b.all);
-  result.relation = !nested ? Relation::kPenetrating
-                            : (b_in_a.any ? Relation::kContains : Relation::kInside);
+  result.relation = !nested ? Relation::penetrating
+                            : (b_in_a.any ? Relation::contains : Relation::inside);
   return result;
 }
 
@@ -153,7 +153,7 @@ bool same_geometry(const Surface& a, const Surface& b) {
 MeshRelation mesh_relation(const Surface& a, const Surface& b) {
   if (same_geometry(a, b)) {
     MeshRelation result;
-    result.relation = Relation::kCoincident;
+    result.relation = Relation::coincident;
     result.triangle_a = 0;
     result.point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return result;
@@ -161,14 +161,14 @@ MeshRelation mesh_relation(const Surface& a, const Surface& b) {
   const Findings found = Traversal(a, b).run();
   MeshRelation result;
   if (found.crossing) {
-    result.relation = Relation::kPenetrating;
+    result.relation = Relation::penetrating;
     result.triangle_a = found.crossing->a;
     result.triangle_b = found.crossing->b;
     result.point = crossing_point(corners(a.mesh, result.triangle_a), corners(b.mesh, result.triangle_b));
   } else if (found.contacts.empty()) {
     result = relation_without_contact(a, b);
   } else {
-    result.relation = Relation::kTouching;
+    result.relation = Relation::touching;
     result.triangle_a = found.contacts[0].a;
     result.triangle_b = found.contacts[0].b;
     result.point = contact_point(corners(a.mesh, result.triangle_a), corners(b.mesh, result.triangle_b));
@@ -176,7 +176,7 @@ MeshRelation mesh_relation(const Surface& a, const Surface& b) {
                                                       : judge_sheet_contact(a, b, found.contacts);
     result.proven = verdict.proven;
     if (verdict.overlap) {
-      result.relation = Relation::kPenetrating;
+      result.relation = Relation::penetrating;
       result.triangle_a = verdict.overlap->triangle_a;
       result.triangle_b = verdict.overlap->triangle_b;
       result.point = verdict.overlap->point;

@@ -14,12 +14,12 @@
 
 namespace satcheck {
 
-enum class Relation { kSeparated, kTouching, kPenetrating, kContains, kInside, kCoincident };
+enum class Relation { separated, touching, penetrating, contains, inside, coincident };
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
 
 struct MeshRelation {
-  Relation relation = Relation::kSeparated;
+  Relation relation = Relation::separated;
   bool proven = true;  // false: a degenerate contact was decided by samples
   std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // evidence
   std::optional<Vec3> point;  // a common point, rounded

@@ -27,10 +27,10 @@ void flip(Mesh& mesh, Patch& patch) {
   patch.volume = -patch.volume;
 }
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 struct Neighbour {
-  std::uint32_t triangle = kNone;
+  std::uint32_t triangle = none;
   bool same_direction = false;  // the shared edge is run the same way: one of the two must flip
 };
 
@@ -60,7 +60,7 @@ void repair_patches(Mesh& mesh, const EdgeTable& edges, std::vector<Patch>& patc
     state[queue[0]] = kKeep;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       for (const Neighbour& n : neighbours[queue[i]]) {
-        if (n.triangle == kNone) continue;
+        if (n.triangle == none) continue;
         const bool flips = (state[queue[i]] == kFlip) != n.same_direction;
         const signed char wanted = flips ? kFlip : kKeep;
         if (state[n.triangle] == kUnseen) {
@@ -223,7 +223,7 @@ std::vector<Mesh> split_components(const Mesh& mesh) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   std::vector<Mesh> result;
   std::vector<std::uint32_t> place(welded.vertices.size());
-  std::vector<std::uint32_t> part_of(welded.vertices.size(), kNone);
+  std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   for (const auto& members : label_components(welded, edges).members()) {
     const auto part_number = static_cast<std::uint32_t>(result.size());
     Mesh& part = result.emplace_back();

@@ -11,7 +11,7 @@
 namespace satcheck {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // Half-edge h = 3 t + i runs from corner i to corner i + 1 of triangle t.
 std::uint32_t next_half_edge(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -140,7 +140,7 @@ void add_solid_faces(Polytope& polytope, const std::vector<Vec3>& points,
   std::vector<std::uint32_t> faces_at(points.size(), 0);
   auto polygons = find_polygons(boundary, Border{twin, label}, faces_at);
 
-  std::vector<std::uint32_t> renumbered(points.size(), kNone);
+  std::vector<std::uint32_t> renumbered(points.size(), none);
   for (std::uint32_t p = 0; p < points.size(); ++p) {
     if (faces_at[p] < 3) continue;
     renumbered[p] = static_cast<std::uint32_t>(polytope.vertices.size());

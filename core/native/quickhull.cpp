@@ -12,7 +12,7 @@
 namespace satcheck {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 // The error bound of the 3x3 determinant, derived in predicates.cpp, with one more u because the
 // permanent is replaced by a bound that holds for all points of the bounding box.
@@ -23,8 +23,8 @@ struct Facet {
   std::array<std::uint32_t, 3> neighbour;  // across corner[i] -> corner[i + 1]
   Vec3 anchor, normal;                     // rounded plane, for the filter
   double bound = 0;                        // |rounded height - exact| for any point of the box
-  std::uint32_t first_above = kNone;       // conflict list: points strictly above
-  std::uint32_t highest = kNone;
+  std::uint32_t first_above = none;       // conflict list: points strictly above
+  std::uint32_t highest = none;
   double highest_height = 0;
   bool alive = true;
   bool visible = false;
@@ -38,7 +38,7 @@ struct HorizonEdge {
 class Builder {
  public:
   explicit Builder(const std::vector<Vec3>& points)
-      : points_(points), next_above_(points.size(), kNone), facet_from_(points.size(), kNone) {
+      : points_(points), next_above_(points.size(), none), facet_from_(points.size(), none) {
     Aabb box;
     for (const Vec3& p : points) box.include(p);
     extent_ = box.max - box.min;
@@ -48,7 +48,7 @@ class Builder {
     start(simplex);
     for (std::uint32_t f = 0; f < facets_.size(); ++f) {
       // Facets are only appended, so one pass sees every conflict list.
-      if (facets_[f].alive && facets_[f].first_above != kNone) add_point(f);
+      if (facets_[f].alive && facets_[f].first_above != none) add_point(f);
     }
     std::vector<Triangle> triangles;
     for (const Facet& facet : facets_) {
@@ -87,7 +87,7 @@ class Builder {
     Facet& facet = facets_[f];
     const double height = rounded_height(facet, point);
     if (!is_above(facet, point, height)) return false;
-    if (facet.highest == kNone || height > facet.highest_height) {
+    if (facet.highest == none || height > facet.highest_height) {
       facet.highest = point;
       facet.highest_height = height;
     }
@@ -169,8 +169,8 @@ class Builder {
     add_cone(eye);
     for (const std::uint32_t f : visible_) {
       facets_[f].alive = false;
-      std::uint32_t next = kNone;
-      for (std::uint32_t p = facets_[f].first_above; p != kNone; p = next) {
+      std::uint32_t next = none;
+      for (std::uint32_t p = facets_[f].first_above; p != none; p = next) {
         next = next_above_[p];
         if (p == eye) continue;
         for (std::uint32_t g = first_new; g < facets_.size(); ++g) {

@@ -130,7 +130,7 @@ ContactVerdict judge_sheet_contact(const Surface& a, const Surface& b,
   ContactVerdict verdict;
   for (const ContactPair& c : contacts) {
     const Corners ta = corners(a.mesh, c.a), tb = corners(b.mesh, c.b);
-    if (coplanar_overlap(ta, tb) != CoplanarOverlap::kNone) verdict.proven = false;
+    if (coplanar_overlap(ta, tb) != CoplanarOverlap::none) verdict.proven = false;
     for (const Hinge& h : hinges_a.of(c.a)) {
       if (crosses_triangle(h, tb)) return {Overlap{c.a, c.b, contact_point(ta, tb)}, true};
       for (const Hinge& k : hinges_b.of(c.b)) {

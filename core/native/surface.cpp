@@ -23,17 +23,17 @@ bool has_inside(const Mesh& welded) {
 }
 
 std::vector<SurfacePart> find_parts(const Mesh& welded) {
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   DisjointSets sets(welded.vertices.size());
   for (const Triangle& t : welded.triangles) {
     sets.unite(t[0], t[1]);
     sets.unite(t[0], t[2]);
   }
-  std::vector<std::uint32_t> part_of(welded.vertices.size(), kNone);
+  std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
   std::vector<SurfacePart> parts;
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
     std::uint32_t& part = part_of[sets.find(welded.triangles[t][0])];
-    if (part == kNone) {
+    if (part == none) {
       part = static_cast<std::uint32_t>(parts.size());
       parts.push_back({t, {}});
     }

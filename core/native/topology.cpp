@@ -11,7 +11,7 @@
 namespace satcheck {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t hash_coordinates(Vec3 p) {
   // Multiply and fold; the constant is 2^64 divided by the golden ratio.
@@ -27,11 +27,11 @@ std::uint64_t hash_coordinates(Vec3 p) {
 // For each vertex the first one of equal coordinates. -0.0 must have been made +0.0.
 std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& points) {
   const std::size_t capacity = std::bit_ceil(points.size() * 2 + 1);
-  std::vector<std::uint32_t> slot(capacity, kNone), first(points.size());
+  std::vector<std::uint32_t> slot(capacity, none), first(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     std::size_t at = hash_coordinates(points[i]) & (capacity - 1);
-    while (slot[at] != kNone && !(points[slot[at]] == points[i])) at = (at + 1) & (capacity - 1);
-    if (slot[at] == kNone) slot[at] = i;
+    while (slot[at] != none && !(points[slot[at]] == points[i])) at = (at + 1) & (capacity - 1);
+    if (slot[at] == none) slot[at] = i;
     first[i] = slot[at];
   }
   return first;
@@ -54,7 +54,7 @@ Welding weld_and_count(const Mesh& mesh) {
       kept[first[v]] = true;
     }
   }
-  std::vector<std::uint32_t> renumbered(points.size(), kNone);
+  std::vector<std::uint32_t> renumbered(points.size(), none);
   for (std::uint32_t v = 0; v < points.size(); ++v) {
     if (!referenced[v]) ++result.unreferenced_vertices;
     if (first[v] != v) ++result.duplicate_vertices;

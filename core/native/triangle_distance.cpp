@@ -54,8 +54,8 @@ Witnesses triangle_distance(const Corners& a, const Corners& b) {
   };
   if (meet(box(a), box(b))) {
     const TriangleContact contact = classify(a, b);
-    if (contact != TriangleContact::kDisjoint) {
-      const Vec3 p = contact == TriangleContact::kCrossing ? crossing_point(a, b) : contact_point(a, b);
+    if (contact != TriangleContact::disjoint) {
+      const Vec3 p = contact == TriangleContact::crossing ? crossing_point(a, b) : contact_point(a, b);
       return {p, p, 0};
     }
   }

@@ -166,28 +166,28 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t) {
 
 TriangleContact classify(const Corners& a, const Corners& b) {
   const std::array<int, 3> sb = sides(a, b);
-  if (all_strictly_on_one_side(sb)) return TriangleContact::kDisjoint;
+  if (all_strictly_on_one_side(sb)) return TriangleContact::disjoint;
   const std::array<int, 3> sa = sides(b, a);
-  if (all_strictly_on_one_side(sa)) return TriangleContact::kDisjoint;
+  if (all_strictly_on_one_side(sa)) return TriangleContact::disjoint;
   if (all_zero(sa) || all_zero(sb)) {
     // Coplanar, or one of them is collinear.
     const bool meet = any_edge_meets(a, b) || any_edge_meets(b, a);
-    return meet ? TriangleContact::kTouching : TriangleContact::kDisjoint;
+    return meet ? TriangleContact::touching : TriangleContact::disjoint;
   }
   const Lone la = from_lone_corner(a, sa), lb = from_lone_corner(b, sb);
   const Interval ia = interval_of_first(la), ib = interval_of_second(lb);
   const int low_a_before_high_b = compare_along_line(la, ia.low, lb, ib.high);
-  if (low_a_before_high_b < 0) return TriangleContact::kDisjoint;
+  if (low_a_before_high_b < 0) return TriangleContact::disjoint;
   const int low_b_before_high_a = -compare_along_line(la, ia.high, lb, ib.low);
-  if (low_b_before_high_a < 0) return TriangleContact::kDisjoint;
+  if (low_b_before_high_a < 0) return TriangleContact::disjoint;
   const bool common_segment = low_a_before_high_b > 0 && low_b_before_high_a > 0;
-  return common_segment && straddles(sa) && straddles(sb) ? TriangleContact::kCrossing
-                                                          : TriangleContact::kTouching;
+  return common_segment && straddles(sa) && straddles(sb) ? TriangleContact::crossing
+                                                          : TriangleContact::touching;
 }
 
 CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
-  if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2])) return CoplanarOverlap::kNone;
-  if (!all_zero(sides(a, b))) return CoplanarOverlap::kNone;
+  if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2])) return CoplanarOverlap::none;
+  if (!all_zero(sides(a, b))) return CoplanarOverlap::none;
   const int axis = projection_axis(rounded_normal(a[0], a[1], a[2]));
   const int turn_a = orientation_2d(a[0], a[1], a[2], axis);
   const int turn_b = orientation_2d(b[0], b[1], b[2], axis);
@@ -202,8 +202,8 @@ CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
     }
     return false;
   };
-  if (edge_parts(a, turn_a, b) || edge_parts(b, turn_b, a)) return CoplanarOverlap::kNone;
-  return turn_a == turn_b ? CoplanarOverlap::kAgreeing : CoplanarOverlap::kOpposing;
+  if (edge_parts(a, turn_a, b) || edge_parts(b, turn_b, a)) return CoplanarOverlap::none;
+  return turn_a == turn_b ? CoplanarOverlap::agreeing : CoplanarOverlap::opposing;
 }
 
 Vec3 crossing_point(const Corners& a, const Corners& b) {

@@ -10,9 +10,9 @@ namespace satcheck {
 using Corners = std::array<Vec3, 3>;
 
 enum class TriangleContact {
-  kDisjoint,  // no common point
-  kTouching,  // a common point, but the open triangles do not cross
-  kCrossing,  // the open triangles cross along a segment: each has points strictly on both sides of
+  disjoint,  // no common point
+  touching,  // a common point, but the open triangles do not cross
+  crossing,  // the open triangles cross along a segment: each has points strictly on both sides of
               // the other one's plane there
 };
 
@@ -20,9 +20,9 @@ enum class TriangleContact {
 TriangleContact classify(const Corners& a, const Corners& b);
 
 enum class CoplanarOverlap {
-  kNone,      // not coplanar, or no common area
-  kAgreeing,  // common area, normals in the same direction
-  kOpposing,  // common area, normals in opposite directions
+  none,      // not coplanar, or no common area
+  agreeing,  // common area, normals in the same direction
+  opposing,  // common area, normals in opposite directions
 };
 
 // Do two triangles lie in one plane and share a patch of positive area?

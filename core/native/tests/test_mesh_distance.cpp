@@ -48,7 +48,7 @@ void triangle_distances() {
     CHECK(std::fabs(norm(w.b - w.a) - distance) < 1e-15);
     CHECK(norm(nearest_on_triangle(w.a, a) - w.a) < 1e-14);
     CHECK(norm(nearest_on_triangle(w.b, b) - w.b) < 1e-14);
-    CHECK((distance == 0) == (classify(a, b) != TriangleContact::kDisjoint));
+    CHECK((distance == 0) == (classify(a, b) != TriangleContact::disjoint));
   }
   const Corners point{Vec3{1, 2, 3}, Vec3{1, 2, 3}, Vec3{1, 2, 3}};
   CHECK(triangle_distance(point, {Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}}).distance_squared == 9);

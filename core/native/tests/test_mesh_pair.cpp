@@ -27,57 +27,57 @@ Relation relate(const Mesh& a, const Mesh& b) {
 }
 
 void boxes() {
-  CHECK(relate(cube, box({5, 0, 0}, {6, 1, 1})) == Relation::kSeparated);
-  CHECK(relate(cube, box({4, 0, 0}, {6, 4, 4})) == Relation::kTouching);
-  CHECK(relate(cube, box({4, 4, 4}, {6, 6, 6})) == Relation::kTouching);
-  CHECK(relate(cube, box({4, 1, 1}, {6, 2, 2})) == Relation::kTouching);
-  CHECK(relate(cube, box({3, 1, 1}, {6, 2, 2})) == Relation::kPenetrating);
-  CHECK(relate(cube, box({3, 0, 0}, {6, 4, 4})) == Relation::kPenetrating);
-  CHECK(relate(cube, box({1, 1, 1}, {2, 2, 2})) == Relation::kContains);
-  CHECK(relate(box({1, 1, 1}, {2, 2, 2}), cube) == Relation::kInside);
-  CHECK(relate(cube, box({1, 1, 1}, {2, 2, 4})) == Relation::kPenetrating);
-  CHECK(relate(cube, cube) == Relation::kCoincident);
+  CHECK(relate(cube, box({5, 0, 0}, {6, 1, 1})) == Relation::separated);
+  CHECK(relate(cube, box({4, 0, 0}, {6, 4, 4})) == Relation::touching);
+  CHECK(relate(cube, box({4, 4, 4}, {6, 6, 6})) == Relation::touching);
+  CHECK(relate(cube, box({4, 1, 1}, {6, 2, 2})) == Relation::touching);
+  CHECK(relate(cube, box({3, 1, 1}, {6, 2, 2})) == Relation::penetrating);
+  CHECK(relate(cube, box({3, 0, 0}, {6, 4, 4})) == Relation::penetrating);
+  CHECK(relate(cube, box({1, 1, 1}, {2, 2, 2})) == Relation::contains);
+  CHECK(relate(box({1, 1, 1}, {2, 2, 2}), cube) == Relation::inside);
+  CHECK(relate(cube, box({1, 1, 1}, {2, 2, 4})) == Relation::penetrating);
+  CHECK(relate(cube, cube) == Relation::coincident);
 }
 
 void several_parts() {
   Mesh two = box({1, 1, 1}, {2, 2, 2});
   append(two, box({9, 9, 9}, {10, 10, 10}));
-  CHECK(relate(cube, two) == Relation::kPenetrating);
-  CHECK(relate(two, cube) == Relation::kPenetrating);
+  CHECK(relate(cube, two) == Relation::penetrating);
+  CHECK(relate(two, cube) == Relation::penetrating);
   // A ball around the cavity of a block: no contact, the block does not contain it.
   Mesh block = box({0, 0, 0}, {9, 9, 9});
   append(block, reversed(box({4, 4, 4}, {5, 5, 5})));
-  CHECK(relate(block, box({3, 3, 3}, {6, 6, 6})) == Relation::kPenetrating);
-  CHECK(relate(block, box({4.25, 4.25, 4.25}, {4.75, 4.75, 4.75})) == Relation::kSeparated);
+  CHECK(relate(block, box({3, 3, 3}, {6, 6, 6})) == Relation::penetrating);
+  CHECK(relate(block, box({4.25, 4.25, 4.25}, {4.75, 4.75, 4.75})) == Relation::separated);
 }
 
 // Flush boxes in one mesh leave a double wall inside its material.
 void double_wall() {
   Mesh pair = box({0, 0, 0}, {2, 2, 2});
   append(pair, box({2, 0, 0}, {4, 2, 2}));
-  CHECK(relate(pair, box({2, 0, 0}, {3, 1, 1})) == Relation::kPenetrating);
-  CHECK(relate(pair, box({1, 0.5, 0.5}, {3, 1, 1})) == Relation::kPenetrating);
-  CHECK(relate(pair, box({1, 2, 0.5}, {3, 3, 1})) == Relation::kTouching);
+  CHECK(relate(pair, box({2, 0, 0}, {3, 1, 1})) == Relation::penetrating);
+  CHECK(relate(pair, box({1, 0.5, 0.5}, {3, 1, 1})) == Relation::penetrating);
+  CHECK(relate(pair, box({1, 2, 0.5}, {3, 3, 1})) == Relation::touching);
 }
 
 void spheres() {
   const Mesh ball = uv_sphere(30);
-  CHECK(relate(ball, translate(ball, {1.9, 0.1, 0.1})) == Relation::kPenetrating);
-  CHECK(relate(ball, translate(ball, {2.1, 0, 0})) == Relation::kSeparated);
-  CHECK(relate(ball, translate(ball, {0, 0, 2})) == Relation::kTouching);  // poles meet
-  CHECK(relate(ball, translate(ball, {0, 0, std::nextafter(2.0, 0.0)})) == Relation::kPenetrating);
-  CHECK(relate(ball, transform(ball, {0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1})) == Relation::kContains);
+  CHECK(relate(ball, translate(ball, {1.9, 0.1, 0.1})) == Relation::penetrating);
+  CHECK(relate(ball, translate(ball, {2.1, 0, 0})) == Relation::separated);
+  CHECK(relate(ball, translate(ball, {0, 0, 2})) == Relation::touching);  // poles meet
+  CHECK(relate(ball, translate(ball, {0, 0, std::nextafter(2.0, 0.0)})) == Relation::penetrating);
+  CHECK(relate(ball, transform(ball, {0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1})) == Relation::contains);
 }
 
 void open_surfaces() {
   const Mesh sheet{{{-9, -9, 2}, {9, -9, 2}, {9, 9, 2}, {-9, 9, 2}}, {{0, 1, 2}, {0, 2, 3}}};
-  CHECK(relate(cube, sheet) == Relation::kPenetrating);
-  CHECK(relate(cube, translate(sheet, {0, 0, 2})) == Relation::kTouching);
-  CHECK(relate(cube, translate(sheet, {0, 0, 3})) == Relation::kSeparated);
-  CHECK(relate(sheet, translate(sheet, {0, 0, 1})) == Relation::kSeparated);
-  CHECK(relate(sheet, sheet) == Relation::kCoincident);
-  CHECK(relate(sheet, Mesh{}) == Relation::kSeparated);
-  CHECK(relate(Mesh{}, Mesh{}) == Relation::kSeparated);
+  CHECK(relate(cube, sheet) == Relation::penetrating);
+  CHECK(relate(cube, translate(sheet, {0, 0, 2})) == Relation::touching);
+  CHECK(relate(cube, translate(sheet, {0, 0, 3})) == Relation::separated);
+  CHECK(relate(sheet, translate(sheet, {0, 0, 1})) == Relation::separated);
+  CHECK(relate(sheet, sheet) == Relation::coincident);
+  CHECK(relate(sheet, Mesh{}) == Relation::separated);
+  CHECK(relate(Mesh{}, Mesh{}) == Relation::separated);
 }
 
 // Two grids of four squares that cross, or fold, along edges of both, of one, or at a corner.
@@ -89,16 +89,16 @@ void sheets_that_meet_at_edges() {
   };
   const Vec3 x{2, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
   const Mesh flat = sheet(x, y, -y), upright = sheet(x, z, -z), tent = sheet(x, y + z, -y + z);
-  CHECK(relate(flat, upright) == Relation::kPenetrating);
-  CHECK(relate(flat, tent) == Relation::kTouching);
-  CHECK(relate(upright, tent) == Relation::kPenetrating);
-  CHECK(relate(upright, sheet(x, y + z, y - z)) == Relation::kTouching);
+  CHECK(relate(flat, upright) == Relation::penetrating);
+  CHECK(relate(flat, tent) == Relation::touching);
+  CHECK(relate(upright, tent) == Relation::penetrating);
+  CHECK(relate(upright, sheet(x, y + z, y - z)) == Relation::touching);
   // The joint of one inside a strip of the other.
-  CHECK(relate(translate(flat, {0, 0.5, 0}), upright) == Relation::kPenetrating);
-  CHECK(relate(translate(flat, {0, 0.5, 0}), tent) == Relation::kTouching);
+  CHECK(relate(translate(flat, {0, 0.5, 0}), upright) == Relation::penetrating);
+  CHECK(relate(translate(flat, {0, 0.5, 0}), tent) == Relation::touching);
   // Only the border of one: no crossing.
-  CHECK(relate(flat, translate(upright, z)) == Relation::kTouching);
-  CHECK(relate(translate(flat, {4, 0, 0}), upright) == Relation::kTouching);
+  CHECK(relate(flat, translate(upright, z)) == Relation::touching);
+  CHECK(relate(translate(flat, {4, 0, 0}), upright) == Relation::touching);
 }
 
 // Every piece of a triangle that lines cut is sampled: count the sign vectors that are seen.
@@ -146,9 +146,9 @@ void large_flush_contact() {
   }
   CHECK(measure_topology(grid).solid);
   const auto start = std::chrono::steady_clock::now();
-  CHECK(relate(grid, translate(grid, {0, 0, 1})) == Relation::kTouching);
-  CHECK(relate(grid, translate(grid, {0.25, 0.5, 1})) == Relation::kTouching);
-  CHECK(relate(grid, translate(grid, {0.25, 0, 0})) == Relation::kPenetrating);
+  CHECK(relate(grid, translate(grid, {0, 0, 1})) == Relation::touching);
+  CHECK(relate(grid, translate(grid, {0.25, 0.5, 1})) == Relation::touching);
+  CHECK(relate(grid, translate(grid, {0.25, 0, 0})) == Relation::penetrating);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   std::printf("flush plates of %zu triangles: %.3f s\n", grid.triangles.size(), elapsed.count());
 }

@@ -74,14 +74,14 @@ void lattice_triangles() {
     const bool meets = truth_meets(a, b);
     const TriangleContact contact = classify(to_corners(a, 0.1), to_corners(b, 0.1));
     // 0.1 * {0, 1, 2} is a lattice in float64 too: 0.2 == 2 * 0.1.
-    if (!CHECK((contact != TriangleContact::kDisjoint) == meets)) {
+    if (!CHECK((contact != TriangleContact::disjoint) == meets)) {
       for (const Sheet* t : {&a, &b})
         for (const Lattice& p : *t) std::fprintf(stderr, "%lld %lld %lld  ", p.x, p.y, p.z);
       std::fprintf(stderr, "contact %d truth %d\n", static_cast<int>(contact), meets);
     }
     CHECK(classify(to_corners(b, 0.1), to_corners(a, 0.1)) == contact);
     meeting += meets;
-    if (contact != TriangleContact::kCrossing) continue;
+    if (contact != TriangleContact::crossing) continue;
     ++crossing;
     // A crossing survives every small push of one triangle.
     for (int push = 0; push < 6; ++push) {
@@ -89,7 +89,7 @@ void lattice_triangles() {
       Vec3 step;
       (push % 3 == 0 ? step.x : push % 3 == 1 ? step.y : step.z) = push < 3 ? 1e-9 : -1e-9;
       for (Vec3& p : moved) p = p + step;
-      CHECK(classify(to_corners(a, 0.1), moved) == TriangleContact::kCrossing);
+      CHECK(classify(to_corners(a, 0.1), moved) == TriangleContact::crossing);
     }
     const Vec3 p = crossing_point(to_corners(a, 1), to_corners(b, 1));
     for (const Sheet* t : {&a, &b}) {
@@ -105,21 +105,21 @@ void lattice_triangles() {
 void named_cases() {
   const Corners floor{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}};
   const auto with = [&](Vec3 p, Vec3 q, Vec3 r) { return classify(floor, {p, q, r}); };
-  CHECK(with({1, 1, -1}, {1, 1, 1}, {2, 1, 1}) == TriangleContact::kCrossing);
-  CHECK(with({1, 1, 0}, {1, 1, 1}, {2, 1, 1}) == TriangleContact::kTouching);
-  CHECK(with({4, 0, 0}, {5, 0, 1}, {5, 1, 0}) == TriangleContact::kTouching);
-  CHECK(with({0, 0, 0}, {4, 0, 0}, {0, 0, 4}) == TriangleContact::kTouching);
-  CHECK(with({1, 1, 1}, {2, 1, 1}, {1, 2, 1}) == TriangleContact::kDisjoint);
-  CHECK(with({1, 1, 0}, {1, 1, 0}, {1, 1, 0}) == TriangleContact::kTouching);
-  CHECK(with({1, 1, -1}, {1, 1, 0}, {1, 1, 1}) == TriangleContact::kTouching);
-  CHECK(with({3, 3, -1}, {3, 3, 0}, {3, 3, 1}) == TriangleContact::kDisjoint);
+  CHECK(with({1, 1, -1}, {1, 1, 1}, {2, 1, 1}) == TriangleContact::crossing);
+  CHECK(with({1, 1, 0}, {1, 1, 1}, {2, 1, 1}) == TriangleContact::touching);
+  CHECK(with({4, 0, 0}, {5, 0, 1}, {5, 1, 0}) == TriangleContact::touching);
+  CHECK(with({0, 0, 0}, {4, 0, 0}, {0, 0, 4}) == TriangleContact::touching);
+  CHECK(with({1, 1, 1}, {2, 1, 1}, {1, 2, 1}) == TriangleContact::disjoint);
+  CHECK(with({1, 1, 0}, {1, 1, 0}, {1, 1, 0}) == TriangleContact::touching);
+  CHECK(with({1, 1, -1}, {1, 1, 0}, {1, 1, 1}) == TriangleContact::touching);
+  CHECK(with({3, 3, -1}, {3, 3, 0}, {3, 3, 1}) == TriangleContact::disjoint);
   // Both straddle, and the common segment ends on edges of both.
-  CHECK(with({0, 1, -1}, {0, 1, 1}, {6, 1, 0}) == TriangleContact::kCrossing);
+  CHECK(with({0, 1, -1}, {0, 1, 1}, {6, 1, 0}) == TriangleContact::crossing);
 
-  CHECK(coplanar_overlap(floor, floor) == CoplanarOverlap::kAgreeing);
-  CHECK(coplanar_overlap(floor, {floor[0], floor[2], floor[1]}) == CoplanarOverlap::kOpposing);
-  CHECK(coplanar_overlap(floor, {Vec3{4, 0, 0}, Vec3{4, 4, 0}, Vec3{0, 4, 0}}) == CoplanarOverlap::kNone);
-  CHECK(coplanar_overlap(floor, {Vec3{1, 1, 0}, Vec3{9, 1, 0}, Vec3{1, 9, 0}}) == CoplanarOverlap::kAgreeing);
+  CHECK(coplanar_overlap(floor, floor) == CoplanarOverlap::agreeing);
+  CHECK(coplanar_overlap(floor, {floor[0], floor[2], floor[1]}) == CoplanarOverlap::opposing);
+  CHECK(coplanar_overlap(floor, {Vec3{4, 0, 0}, Vec3{4, 4, 0}, Vec3{0, 4, 0}}) == CoplanarOverlap::none);
+  CHECK(coplanar_overlap(floor, {Vec3{1, 1, 0}, Vec3{9, 1, 0}, Vec3{1, 9, 0}}) == CoplanarOverlap::agreeing);
 }
 
 }  // namespace
