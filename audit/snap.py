@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from satcheck.audit.pair import Pair
 from satcheck.audit.report import Vector
 from satcheck.audit.trials import Trials
-from satcheck.audit.triangles import Crossing, triangle_corners, triangle_normal
+from satcheck.audit.triangles import Crossing, triangle_normal
 from satcheck.audit.vectors import dot, scaled
 
 # Where to look for the face that blocks the way: a little before its end. Only a face that the way
@@ -48,7 +48,7 @@ def planes_left(pair: Pair, crossing: Crossing) -> Iterator[tuple[Vector, list[f
         normal = triangle_normal(body, index)
         if normal is None:
             continue
-        heights = (other.mesh.vertices - triangle_corners(body, index)[0]) @ np.array(normal)
+        heights = (other.mesh.vertices - body.mesh.corners(index)[0]) @ np.array(normal)
         yield scaled(normal, side), np.unique(-heights[heights < 0]).tolist()
 
 

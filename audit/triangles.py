@@ -29,21 +29,15 @@ def crossing_depth(pair: Pair, crossing: Crossing | None) -> float:
 def crossing_hulls(pair: Pair, crossing: Crossing) -> tuple[core.Hull, core.Hull]:
     """The two triangles as convex shapes, where the bodies are now."""
     a, b = (
-        core.Hull(body.mesh.vertices[body.mesh.triangles[index]])
+        core.Hull(body.mesh.corners(index))
         for body, index in zip((pair.a, pair.b), crossing, strict=True)
     )
     return a, b
 
 
-def triangle_corners(body: PlacedBody, index: int) -> tuple[Vector, Vector, Vector]:
-    mesh = body.mesh
-    p, q, r = mesh.vertices[mesh.triangles[index]].tolist()
-    return tuple(p), tuple(q), tuple(r)
-
-
 def triangle_normal(body: PlacedBody, index: int) -> Vector | None:
     """Unit, outward where the body is solid; None for a triangle without an area."""
-    p, q, r = triangle_corners(body, index)
+    p, q, r = body.mesh.corners(index)
     u = (q[0] - p[0], q[1] - p[1], q[2] - p[2])
     v = (r[0] - p[0], r[1] - p[1], r[2] - p[2])
     normal = crossed(u, v)

@@ -231,11 +231,19 @@ void bind_shapes(nb::module_& m) {
       .def_prop_ro("vertex_count", [](const Shape& s) { return s.polytope.vertices.size(); })
       .def_prop_ro("dimension", [](const Shape& s) { return s.is_polytope() ? s.polytope.dimension : 3; });
   nb::class_<HullShape, Shape>(m, "Hull",
-                              R"(Convex hull of points (n, 3) float64, n >= 1, or of a Polytope. Computed exactly; may be flat,
-a segment or a point. ValueError when a coordinate is not finite.)")
+                              R"(Convex hull of points, an (n, 3) float64 array or a sequence of (x, y, z), n >= 1, or of a
+Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite.)")
       .def(
           "__init__", [](HullShape* self, const Points& points) { new (self) HullShape{make_hull(to_points(points))}; },
           nb::arg("points").noconvert())
+      .def(
+          "__init__",
+          [](HullShape* self, const std::vector<Triple>& points) {
+            std::vector<Vec3> vectors;
+            for (const Triple& p : points) vectors.push_back(to_vec(p));
+            new (self) HullShape{make_hull(vectors)};
+          },
+          nb::arg("points"))
       .def(
           "__init__", [](HullShape* self, const Polytope& polytope) { new (self) HullShape{make_hull(polytope)}; },
           nb::arg("polytope"));

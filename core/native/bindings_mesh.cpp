@@ -122,6 +122,15 @@ seen from outside. ValueError when an index is out of range or a coordinate is n
                    [](nb::handle self) {
                      return rows_view<std::uint32_t>(nb::cast<const Mesh&>(self).triangles, self);
                    })
+      .def(
+          "corners",
+          [](const Mesh& mesh, std::size_t triangle) {
+            if (triangle >= mesh.triangles.size()) throw nb::index_error("no such triangle");
+            const auto [i, j, k] = mesh.triangles[triangle];
+            const std::vector<Vec3>& p = mesh.vertices;
+            return std::make_tuple(to_tuple(p[i]), to_tuple(p[j]), to_tuple(p[k]));
+          },
+          "triangle"_a, "The three corners of one triangle; needs no numpy.")
       .def("welded", &weld, ReleaseGil(), "Vertices with equal coordinates become one; unreferenced ones are dropped; triangles keep their order.")
       .def("transformed", &transform, "matrix"_a, ReleaseGil(), R"(Placed by a 4x4 matrix, 16 numbers by rows, column vectors. Each coordinate is rounded once; a mirror flips
 the winding. ValueError when the matrix is not affine, not finite or singular.)")
