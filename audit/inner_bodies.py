@@ -17,7 +17,7 @@ from __future__ import annotations
 from satcheck import core
 from satcheck.audit.boxes import box_escape, diagonal, largest_coordinate
 from satcheck.audit.pair import Pair
-from satcheck.audit.parts import Part, inner_parts
+from satcheck.audit.parts import Part, inner_parts, split_together
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
@@ -38,6 +38,7 @@ def depth_of_hulls(pair: Pair, plan: Plan) -> float:
 
 def depth_of_parts(pair: Pair, plan: Plan) -> float:
     """The same by the inner parts of the decomposed bodies."""
+    split_together(pair)
     bodies = [inner_parts(body, plan) for body in (pair.a, pair.b)]
     counts = f"{len(bodies[0])} and {len(bodies[1])} inner parts"
     if not (bodies[0] and bodies[1]):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.boxes import Box
+from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
 
@@ -41,6 +42,20 @@ def decomposition(body: PlacedBody, plan: Plan) -> Decomposition | None:
         plan.complain(found.code, body.id, f"no convex parts: {found.message}")
         return None
     return found
+
+
+def split_together(pair: Pair) -> None:
+    """Decomposes both bodies side by side: each is a process of its own that takes seconds.
+
+    What is found, or that nothing was, is remembered by the bodies' files.
+    """
+    waiting = [body.shared for body in (pair.a, pair.b) if not body.convex]
+    if len(waiting) < 2 or waiting[0] is waiting[1] or pair.settings.jobs == 1:
+        return
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(len(waiting)) as pool:
+        list(pool.map(lambda shared: shared.decomposition(), waiting))
 
 
 def inner_parts(body: PlacedBody, plan: Plan) -> list[Part]:
