@@ -46,10 +46,8 @@ struct Plane2 {
 };
 
 Plane2 plane_across(Vec3 axis) {
-  const double x = std::fabs(axis.x), y = std::fabs(axis.y), z = std::fabs(axis.z);
-  const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 u = cross(axis, other), unit = u * (1 / norm(u));
-  return {unit, cross(axis, unit)};
+  const Vec3 u = any_perpendicular(axis);
+  return {u, cross(axis, u)};
 }
 
 Polygon support_feature(const Shape& shape, const Pose& pose, Vec3 axis, const Plane2& plane, double tolerance) {

@@ -20,10 +20,8 @@ struct Tangent {
 };
 
 Tangent tangent_plane(Vec3 axis) {
-  const double x = std::fabs(axis.x), y = std::fabs(axis.y), z = std::fabs(axis.z);
-  const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 u = cross(axis, other), unit = u * (1 / norm(u));
-  return {unit, cross(axis, unit)};
+  const Vec3 u = any_perpendicular(axis);
+  return {u, cross(axis, u)};
 }
 
 AxisSupport support_along(const MinkowskiDifference& m, Vec3 direction) {

@@ -144,14 +144,6 @@ class ExpandingPolytope {
   std::vector<std::uint32_t>& fan_;
 };
 
-// Unit vector across `along`, by the coordinate axis least aligned with it.
-Vec3 any_perpendicular(Vec3 along) {
-  const double x = std::fabs(along.x), y = std::fabs(along.y), z = std::fabs(along.z);
-  const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-  const Vec3 p = cross(along, other);
-  return p * (1 / norm(p));
-}
-
 bool ExpandingPolytope::complete_tetrahedron(Vec3& flat_normal) {
   const double thin = kFlat * m_.scale;
   const auto offer_farthest = [&](auto&& height, std::initializer_list<Vec3> directions) {

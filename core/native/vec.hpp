@@ -28,6 +28,14 @@ inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline double max_abs(Vec3 a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
 inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
+// A unit vector across `along`, by the coordinate axis least aligned with it.
+inline Vec3 any_perpendicular(Vec3 along) {
+  const double x = std::fabs(along.x), y = std::fabs(along.y), z = std::fabs(along.z);
+  const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  const Vec3 p = cross(along, other);
+  return p * (1 / norm(p));
+}
+
 using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
 
 // Rows of a 3x3 matrix.
