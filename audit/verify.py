@@ -66,10 +66,24 @@ def _along(normal: Vector, length: float) -> Vector:
 
 
 def adds_exactly(pair: Pair, length: float, normal: Vector) -> bool:
-    """Whether the translation runs along one axis and the outermost coordinates take it exactly."""
+    """Whether any program that moves A by this lands on the same coordinates.
+
+    So when both poses round each coordinate once, whatever the order of their sums, the translation
+    runs along one axis, and A's outermost coordinates take it exactly.
+    """
+    if not (rounds_once(pair.a.body.transform) and rounds_once(pair.b.body.transform)):
+        return False
     if sorted(abs(c) for c in normal) != [0.0, 0.0, 1.0]:
         return False
     axis = [abs(c) for c in normal].index(1.0)
     shift = -length * normal[axis]
     ends = (pair.a.bounds[0][axis], pair.a.bounds[1][axis])
     return all((end + shift) - end == shift and (end + shift) - shift == end for end in ends)
+
+
+def rounds_once(transform: tuple[float, ...] | None) -> bool:
+    """Whether each row has one factor, a power of two: then only adding its translation rounds."""
+    if transform is None:
+        return True
+    rows = [[c for c in transform[4 * row : 4 * row + 3] if c != 0] for row in range(3)]
+    return all(len(row) == 1 and abs(math.frexp(row[0])[0]) == 0.5 for row in rows)

@@ -8,6 +8,7 @@ import pytest
 
 from satcheck import core
 from satcheck.audit import Settings, check
+from satcheck.audit.verify import rounds_once
 from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
 
 
@@ -51,3 +52,26 @@ def test_a_capped_ladder_verifies_what_it_may(tmp_path):
     scene = scene_of(tmp_path, a=bracket(), b=unit_box(1.5, 3, 1, edge=2.0))
     assert only(check(scene, Settings(accuracy="hull"))).mtv_verified
     assert only(check(scene, Settings(accuracy="aabb"))).mtv_verified is False
+
+
+@pytest.mark.parametrize(
+    ("transform", "once"),
+    [
+        (None, True),
+        ((0, -1, 0, 0.1, 2, 0, 0, 0.2, 0, 0, 0.5, 0.3, 0, 0, 0, 1), True),
+        ((3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), False),
+        ((1, 0.5, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1), False),
+    ],
+)
+def test_only_poses_that_round_once_get_the_nominal_length(transform, once):
+    assert rounds_once(transform) is once
+
+
+def test_a_turned_neighbour_gets_a_few_ulps_more(tmp_path):
+    # The move is along an axis, but the neighbour's corners depend on the order of its pose's sums.
+    write(tmp_path, box=unit_box())
+    bodies = [("a", "box.obj", pose()), ("b", "box.obj", pose(0.0, 0.0, 0.75, 30))]
+    finding = only(check(placed_scene(tmp_path, bodies)))
+    assert finding.relation == "penetrating"
+    assert 0.25 < math.hypot(*finding.mtv) < 0.25 * (1 + 1e-13)
+    assert [stage.result for stage in finding.plan if stage.stage == "verify"] == ["separated"]
