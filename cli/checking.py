@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.scene import Scene
 
+# With -o at most this many warnings are repeated on stderr.
+WARNINGS = 5
+
 
 @dataclass(frozen=True, slots=True)
 class Choices:
@@ -41,14 +44,17 @@ def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
     _refuse_early(choices)
     document = Document()
-    report = _report(choices)
+    scene = _scene(choices)
+    if len(scene.bodies) < 2 and choices.form == "table":  # every pair would be an empty row
+        return exit_codes.ERROR
+    report = _report(scene, choices)
     page = PLAIN_PAGE if choices.output else document.page
     text = _render(report, choices, page)
     if choices.output:
         write_file(choices.output, text)
     else:
         document.write(text, utf8=choices.form == "json")
-    _tell(report, choices)
+    _tell(report, scene, choices)
     return exit_codes.of_report(report, exit_zero=choices.exit_zero)
 
 
@@ -60,18 +66,36 @@ def _refuse_early(choices: Choices) -> None:
         raise CannotWrite(str(choices.output), "its folder does not exist")
 
 
-def _report(choices: Choices) -> Report:
-    from satcheck.audit import check
-    from satcheck.cli.progress import Bar
+def _scene(choices: Choices) -> Scene:
+    """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone."""
+    from satcheck.cli.report.words import issue_line
     from satcheck.scene import load_scene
 
     scene = load_scene(choices.paths)
+    for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
+        talk(f"satcheck: {issue_line(issue)}")
+    _hint(choices.paths[0])
     if len(scene.bodies) + len(scene.unreadable) < 2:
-        for body in scene.unreadable:
-            talk(f"satcheck: error: {body.file}: {body.issue.message} [{body.issue.code}]")
         raise click.UsageError(
             "one body alone cannot collide: give two or more mesh files, or a scene file"
         )
+    return scene
+
+
+def _hint(first: str) -> None:
+    """The first word is a path unless it names a command; a misspelt command is a missing path."""
+    if "." in first or Path(first).exists():
+        return
+    from satcheck.cli.command import meant
+
+    if name := meant(first):
+        talk(f"satcheck: did you mean the command `satcheck {name}`?")
+
+
+def _report(scene: Scene, choices: Choices) -> Report:
+    from satcheck.audit import check
+    from satcheck.cli.progress import Bar
+
     settings = _settings(choices, scene)
     try:
         with Bar() as bar:
@@ -107,14 +131,22 @@ def _render(report: Report, choices: Choices, page: Page) -> str:
     return render_table(report, page, explain=choices.explain, timings=choices.timings)
 
 
-def _tell(report: Report, choices: Choices) -> None:
-    """Errors on stderr, whatever the format; with -o also the summary and where the report is."""
-    from satcheck.cli.report.words import issue_line, summary_line
+def _tell(report: Report, scene: Scene, choices: Choices) -> None:
+    """Errors of the run on stderr; with -o also the warnings, the summary, where the report is."""
+    from satcheck.cli.report.summary import summary_line
+    from satcheck.cli.report.words import counted, issue_line
 
     for trace in report.tracebacks if choices.debug else ():
         talk(trace.rstrip())
+    told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
     for issue in report.issues:
-        if issue.severity == "error":
+        if issue.severity == "error" and (issue.code, issue.body, issue.message) not in told:
             talk(f"satcheck: {issue_line(issue)}")
-    if choices.output:
-        talk(f"{summary_line(report)} Report: {choices.output}")
+    if not choices.output:
+        return
+    warnings = [issue for issue in report.issues if issue.severity == "warning"]
+    for issue in warnings[:WARNINGS]:
+        talk(f"satcheck: {issue_line(issue)}")
+    if len(warnings) > WARNINGS:
+        talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
+    talk(f"{summary_line(report)} Report: {choices.output}")

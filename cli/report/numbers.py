@@ -21,6 +21,11 @@ def bounds(low: float, high: float) -> str:
     return shown[0] if shown[0] == shown[1] else " .. ".join(shown)
 
 
+def at_most(value: float) -> str:
+    """A proven upper bound, rounded up (to ROUNDOFF)."""
+    return _rounded(value, down=False)
+
+
 def vector(values: tuple[float, float, float]) -> str:
     """Rounded relative to the longest component: no 1e-17 beside a 1."""
     longest = max(abs(value) for value in values)

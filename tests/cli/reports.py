@@ -91,6 +91,24 @@ UNDECIDED = replace(
     quality=None,
     reason="the time limit was reached",
 )
+SURFACES = replace(
+    SEPARATED,
+    id="far|soup",
+    a="far",
+    b="soup",
+    severity="warning",
+    reason="surfaces only: soup is no solid, so containment is not defined",
+)
+ESTIMATE = replace(
+    PENETRATING,
+    id="block|perhaps",
+    b="perhaps",
+    exact_relation=None,
+    quality="estimate",
+    depth=2.0,
+    depth_bounds=(0.0, 2.0),
+    reason="not proven at --accuracy aabb",
+)
 BLOCK = BodyReport(
     id="block",
     name="block",
@@ -98,7 +116,7 @@ BLOCK = BodyReport(
     sha256="0" * 64,
     path=None,
     triangles=12,
-    health={"closed": True},
+    health={"closed": True, "solid": True},
     resolution=2.5e-7,
     convex=True,
     parts=None,
@@ -110,7 +128,7 @@ SOUP = replace(
     name="soup",
     file="soup.stl",
     triangles=1234,
-    health={"closed": False},
+    health={"closed": False, "solid": False},
     convex=False,
     parts=3,
     part_error=PartError(0.25, 0.0),
@@ -127,6 +145,7 @@ def report(
 ) -> Report:
     """A consistent report over these findings."""
     undecided = sum(finding.relation == "indeterminate" for finding in findings)
+    warned = any(finding.severity == "warning" for finding in findings)
     found = any(finding.severity == "error" for finding in findings)
     return Report(
         tool=Tool("satcheck", "0.1.0"),
@@ -138,7 +157,7 @@ def report(
             "accuracy": "exact",
         },
         summary=Summary(
-            verdict="fail" if found else "incomplete" if undecided else "pass",
+            verdict="fail" if found else "incomplete" if warned else "pass",
             pairs=PairCounts(len(findings), 0, len(findings) - undecided, 0, undecided),
             by_relation={
                 relation: sum(finding.relation == relation for finding in findings)

@@ -8,9 +8,19 @@ from dataclasses import replace
 import pytest
 
 from satcheck.cli.output import PLAIN_PAGE, Page
+from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import ROWS, render
 from tests.cli import reports
-from tests.cli.reports import BOUNDED, PENETRATING, SEPARATED, TOUCHING, UNDECIDED, report
+from tests.cli.reports import (
+    BOUNDED,
+    ESTIMATE,
+    PENETRATING,
+    SEPARATED,
+    SURFACES,
+    TOUCHING,
+    UNDECIDED,
+    report,
+)
 
 ALL = (PENETRATING, BOUNDED, TOUCHING, SEPARATED, UNDECIDED)
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
@@ -46,11 +56,13 @@ def test_an_unverified_way_out_says_so() -> None:
 
 
 def test_the_touch_band_hides_nothing() -> None:
-    assert "block and flush: exactly penetrating, by no more than 2.5e-07" in shown(TOUCHING)
+    line = "block and flush {}, but by no more than the tolerance 2.5e-07"
+    assert line.format("overlap") in shown(TOUCHING)
+    assert line.format("are apart") in shown(replace(TOUCHING, exact_relation="separated"))
 
 
 def test_what_is_near_is_separated_without_further_words() -> None:
-    assert "exactly" not in shown(replace(SEPARATED, relation="near", distance=0.5))
+    assert "tolerance" not in shown(replace(SEPARATED, relation="near", distance=0.5))
 
 
 def test_what_was_not_decided_comes_with_its_reason() -> None:
@@ -65,14 +77,33 @@ def test_without_a_terminal_nothing_is_folded_or_coloured() -> None:
     assert "\x1b" not in text
 
 
-@pytest.mark.parametrize("width", [60, 80, 120])
-def test_a_narrow_terminal_folds_between_numbers(width: int) -> None:
-    page = Page(width=width, colour=False, unicode=True)
-    text = shown(BOUNDED, page=page)
-    assert "1.25001" in text
-    assert "-1.23457" in text
-    if width >= 80:
+@pytest.mark.parametrize("width", [20, 60, 80, 100, 120])
+def test_a_narrow_terminal_cuts_nothing(width: int) -> None:
+    text = shown(BOUNDED, page=Page(width=width, colour=False, unicode=True))
+    for word in ("contains", "1.24123", "1.25001", "0.12346", "-1.23457", "0.45679", "depth"):
+        assert word in text
+    assert "…" not in text
+    if width >= 60:
         assert all(len(line) <= width for line in text.splitlines())
+
+
+def test_a_narrow_terminal_drops_time_then_quality_then_breaks_names() -> None:
+    heads = {}
+    for width in (130, 105, 80, 60):
+        table = shown(BOUNDED, page=Page(width=width, colour=False, unicode=True))
+        heads[width] = ("time" in table, "quality" in table, "a_rather_long_name " in table)
+    assert heads[130] == (True, True, True)
+    assert heads[105] == (False, True, True)
+    assert heads[80] == (False, False, True)
+    assert heads[60] == (False, False, False)
+
+
+@pytest.mark.parametrize(
+    ("name", "width", "lines"),
+    [("l_bracket", 6, "l_\nbracke\nt"), ("peg_in_arm", 8, "peg_in_\narm"), ("rod", 8, "rod")],
+)
+def test_names_are_broken_after_a_separator(name: str, width: int, lines: str) -> None:
+    assert broken(name, width) == lines
 
 
 def test_ascii_where_the_encoding_has_no_more() -> None:
@@ -117,7 +148,8 @@ def test_explain_shows_each_step() -> None:
     text = shown(PENETRATING, explain=True)
     assert "block against block_pushed: penetrating" in text
     assert re.search(r"hull +penetrating +11.5 us +both are convex: nothing finer is needed", text)
-    assert re.search(r"soup +1,234 +open, concave, 3 parts", text)
+    assert re.search(r"soup +soup.stl: 1,234 triangles, not closed, concave", text)
+    assert "3 convex parts: they stick out of the mesh by at most 0.25, and the mesh" in text
 
 
 def test_warnings_are_in_the_text_and_errors_are_not() -> None:
@@ -139,10 +171,65 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
         ((PENETRATING,), "2 bodies, 1 pair: 1 penetrating. Depth 1."),
         (
             (PENETRATING, BOUNDED, UNDECIDED),
-            "2 bodies, 3 pairs: 1 penetrating, 1 containing, 1 not decided. "
+            "2 bodies, 3 pairs: 1 penetrating, 1 containing, 1 indeterminate. "
             "The deepest: a_rather_long_name and another_rather_long_name, 1.24123 .. 1.25001.",
+        ),
+        (
+            (PENETRATING, replace(BOUNDED, depth_bounds=(0.9, 1.2500004))),
+            "2 bodies, 2 pairs: 1 penetrating, 1 containing. Possibly the deepest: "
+            "a_rather_long_name and another_rather_long_name, 0.9 .. 1.25001.",
+        ),
+        (
+            (replace(BOUNDED, depth_bounds=(1e-9, 1.25)),),
+            "2 bodies, 1 pair: 1 containing. Depth at most 1.25.",
+        ),
+        (
+            (UNDECIDED,),
+            "2 bodies, 1 pair: 1 indeterminate. No collision found, but 1 pair is indeterminate.",
+        ),
+        (
+            (SEPARATED, SURFACES),
+            "2 bodies, 2 pairs: 2 separated. "
+            "No collision found, but 1 pair was checked by surfaces only.",
+        ),
+        (
+            (PENETRATING, SURFACES),
+            "2 bodies, 2 pairs: 1 separated, 1 penetrating. Depth 1. "
+            "1 pair was checked by surfaces only.",
         ),
     ],
 )
 def test_the_last_line_is_a_sentence(findings: tuple[object, ...], sentence: str) -> None:
     assert shown(*findings).splitlines()[-1] == sentence
+
+
+def test_no_pair_checked_is_no_verdict() -> None:
+    made = report()
+    pairs = replace(made.summary.pairs, total=3, allowed=3)
+    made = replace(made, summary=replace(made.summary, verdict="pass", pairs=pairs))
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert text == "2 bodies, 3 pairs. No pair was checked: all are allowed by the scene.\n"
+
+
+def test_one_line_a_body_that_is_no_solid() -> None:
+    text = shown(*(replace(SURFACES, a=f"far{i}") for i in range(3)))
+    assert text.count("surfaces only") == 2
+    assert "soup is not closed: 3 pairs were checked by surfaces only\n" in text
+
+
+def test_what_is_not_proven_is_called_possible() -> None:
+    made = report(PENETRATING, ESTIMATE)
+    made = replace(made, settings={**made.settings, "accuracy": "aabb"})
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert "1 penetrating, 1 possibly penetrating (not proven at --accuracy aabb)." in text
+    assert "<= 2" in text
+    assert text.count("not proven") == 1
+
+
+def test_pairs_of_an_unreadable_body_are_no_rows() -> None:
+    lost = replace(reports.BLOCK, id="gone", triangles=None, health=None)
+    undecided = replace(UNDECIDED, b="gone", reason="unreadable gone.obj: file-not-found")
+    made = report(SEPARATED, undecided, bodies=(reports.BLOCK, lost), issues=(reports.MISSING,))
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert "file-not-found" not in text
+    assert "gone: could not be used, its 1 pair not checked" in text

@@ -1,0 +1,76 @@
+"""`--explain`: what is known about each body, and the plan of each pair."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from satcheck.cli.report.numbers import at_most, duration, number
+from satcheck.cli.report.words import counted
+
+if TYPE_CHECKING:
+    from satcheck.audit.report import BodyReport, Finding
+
+
+def explain(
+    console: Console, bodies: Sequence[BodyReport], findings: Sequence[Finding], *, timings: bool
+) -> None:
+    """Prints to the console of the renderer."""
+    console.print(_bodies(bodies))
+    for finding in findings:
+        console.print(Text(f"\n{finding.a} against {finding.b}: {finding.relation}", style="bold"))
+        console.print(_plan(finding, timings=timings))
+    console.print()
+
+
+def _bodies(bodies: Sequence[BodyReport]) -> Table:
+    table = _grid(columns=2)
+    for body in bodies:
+        first, *more = _about(body)
+        table.add_row("", Text(body.id, style="bold"), first)
+        for line in more:
+            table.add_row("", "", line)
+    return table
+
+
+def _about(body: BodyReport) -> Iterator[str]:
+    if body.triangles is None:
+        yield f"{body.file}: unreadable"
+        return
+    words = [f"{body.file}: {counted(body.triangles, 'triangle')}"]
+    if body.health is not None and not body.health.get("closed", True):
+        words.append("not closed")
+    if body.convex is not None:
+        words.append("convex" if body.convex else "concave")
+    if body.resolution is not None:
+        words.append(f"precision {number(body.resolution)}")
+    yield ", ".join(words)
+    if body.parts is not None and body.part_error is not None:
+        error = body.part_error
+        yield (
+            f"{counted(body.parts, 'convex part')}: they stick out of the mesh by at most "
+            f"{at_most(error.outside)}, and the mesh out of them by at most "
+            f"{at_most(error.missing)}"
+        )
+
+
+def _plan(finding: Finding, *, timings: bool) -> Table:
+    table = _grid(columns=4 if timings else 3)
+    for stage in finding.plan:
+        cost = [duration(stage.microseconds)] if timings else []
+        table.add_row("", stage.stage, stage.result, *cost, stage.detail)
+    return table
+
+
+def _grid(columns: int) -> Table:
+    """Indented; only the last column is folded, between words."""
+    table = Table.grid(padding=(0, 2, 0, 0))
+    table.add_column(width=0)
+    for _ in range(columns - 1):
+        table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    return table

@@ -1,0 +1,64 @@
+"""What a row has no room for, then the warnings and notes about the inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+
+from satcheck.cli.report.numbers import number
+from satcheck.cli.report.words import by_surfaces, counted, issue_line
+
+if TYPE_CHECKING:
+    from satcheck.audit.report import BodyReport, Finding, Report
+
+_ISSUE_COLOURS = {"warning": "yellow", "note": ""}
+
+
+def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
+    """One line a pair for the touch band and for what was not decided, one a body otherwise."""
+    lines = [
+        Text(line) for finding in shown for line in (*_band(finding), *_undecided(finding, report))
+    ]
+    lines += [Text(line) for body in report.bodies for line in _body(body, report)]
+    for issue in report.issues:
+        if issue.severity != "error":
+            lines.append(Text(issue_line(issue), style=_ISSUE_COLOURS[issue.severity]))
+    return lines
+
+
+def is_lost(body: BodyReport) -> bool:
+    """Could not be read or placed; why is an error issue."""
+    return body.triangles is None
+
+
+def _band(finding: Finding) -> list[str]:
+    """What touching is without its tolerance."""
+    if finding.relation != "touching" or finding.exact_relation in (None, "touching"):
+        return []
+    verb = "are apart" if finding.exact_relation == "separated" else "overlap"
+    band = number(finding.tolerance or 0.0)
+    return [f"{finding.a} and {finding.b} {verb}, but by no more than the tolerance {band}"]
+
+
+def _undecided(finding: Finding, report: Report) -> list[str]:
+    """The reason, unless it is one for all pairs of a body or for the whole run (see summary)."""
+    capped = finding.quality == "estimate" and report.settings["accuracy"] != "exact"
+    if finding.reason is None or capped or by_surfaces(finding):
+        return []
+    return [f"{finding.a} and {finding.b}: {finding.reason}"]
+
+
+def _body(body: BodyReport, report: Report) -> list[str]:
+    asked = [finding for finding in report.findings if body.id in (finding.a, finding.b)]
+    if is_lost(body):
+        return [f"{body.id}: could not be used, its {counted(len(asked), 'pair')} not checked"]
+    if body.health is None or body.health.get("solid", True):
+        return []
+    what = "no solid" if body.health.get("closed") else "not closed"
+    surfaces = sum(by_surfaces(finding) for finding in asked)
+    if not surfaces:
+        return []
+    verb = "was" if surfaces == 1 else "were"
+    return [f"{body.id} is {what}: {counted(surfaces, 'pair')} {verb} checked by surfaces only"]

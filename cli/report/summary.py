@@ -1,0 +1,82 @@
+"""The last line: what was checked, what was found, and the worst of it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from satcheck.audit.report import OVERLAPS, RELATIONS
+from satcheck.cli.lengths import unit_of
+from satcheck.cli.report.words import by_surfaces, counted, depth
+
+if TYPE_CHECKING:
+    from satcheck.audit.report import Report
+
+_WORDS = {"contains": "containing"}
+
+
+def summary_line(report: Report) -> str:
+    """`3 bodies, 3 pairs: 2 separated, 1 penetrating. Depth 1 mm.`"""
+    pairs = report.summary.pairs
+    bodies = counted(len(report.bodies), "body", "bodies")
+    if pairs.total == pairs.allowed:
+        why = "all are allowed by the scene" if pairs.total else "all are within ignored groups"
+        line = f"{bodies}, {counted(pairs.total, 'pair')}. No pair was checked: {why}."
+        return " ".join([line, *_errors(report)])
+    found = _found(report)
+    if pairs.allowed:
+        found.append(f"{pairs.allowed:,} allowed by the scene")
+    line = f"{bodies}, {counted(pairs.total, 'pair')}: {', '.join(found)}."
+    return " ".join([line, *_worst(report), *_left_open(report), *_errors(report)])
+
+
+def _found(report: Report) -> list[str]:
+    """`2 separated`, `1 possibly penetrating (not proven at --accuracy aabb)`."""
+    estimates = Counter(f.relation for f in report.findings if f.quality == "estimate")
+    accuracy = report.settings["accuracy"]
+    why = "" if accuracy == "exact" else f" (not proven at --accuracy {accuracy})"
+    found = []
+    for name in RELATIONS:
+        word, unproven = _WORDS.get(name, name), estimates[name]
+        proven = report.summary.by_relation.get(name, 0) - unproven
+        if proven:
+            found.append(f"{proven:,} {word}")
+        if unproven:
+            found.append(f"{unproven:,} possibly {word}{why}")
+    return found
+
+
+def _worst(report: Report) -> list[str]:
+    deep = [f for f in report.findings if f.depth is not None and f.relation in OVERLAPS]
+    if not deep:
+        return []
+    worst = max(deep, key=lambda f: f.depth or 0.0)
+    known = unit_of(report.units)
+    figure = depth(worst, bounded="at most ") + (f" {known}" if known else "")
+    if len(deep) == 1:
+        return [f"Depth {figure}."]
+    sure = worst.depth_bounds is not None and all(
+        f is worst or (f.depth or 0.0) <= worst.depth_bounds[0] for f in deep
+    )
+    return [f"{'The' if sure else 'Possibly the'} deepest: {worst.a} and {worst.b}, {figure}."]
+
+
+def _left_open(report: Report) -> list[str]:
+    """`No collision.` only where everything that was asked was checked."""
+    surfaces = sum(by_surfaces(finding) for finding in report.findings)
+    limits = []
+    if surfaces:
+        verb = "was" if surfaces == 1 else "were"
+        limits.append(f"{counted(surfaces, 'pair')} {verb} checked by surfaces only")
+    if report.summary.verdict == "fail":
+        return [f"{limit}." for limit in limits]
+    if undecided := report.summary.pairs.indeterminate:
+        limits.append(
+            f"{counted(undecided, 'pair')} {'is' if undecided == 1 else 'are'} indeterminate"
+        )
+    return [f"No collision found, but {' and '.join(limits)}." if limits else "No collision."]
+
+
+def _errors(report: Report) -> list[str]:
+    count = sum(issue.severity == "error" for issue in report.issues)
+    return [f"{counted(count, 'input')} could not be used."] if count else []
