@@ -16,6 +16,15 @@ from satcheck.cli.lengths import Length, length
 DEFAULT_COMMAND = "check"
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
 FORMATS = ("table", "json")
+STANDARD_OUTPUT = Path("-")
+
+
+def meant(word: str) -> str | None:
+    """The command that `word`, which is no path, is a slip of; None if it resembles none."""
+    from difflib import get_close_matches
+
+    names = [name for name, command in satcheck.commands.items() if not command.hidden]
+    return next(iter(get_close_matches(word, names, n=1)), None)
 
 
 class _DefaultContext(click.Context):
@@ -39,7 +48,7 @@ class _DefaultCommand(click.Command):
                     ("0", "everything asked was checked, nothing was found"),
                     ("1", "bodies overlap, or are closer than --clearance"),
                     ("2", "wrong usage, an unreadable input, or an internal error"),
-                    ("3", "nothing was found, but a pair could not be decided"),
+                    ("3", "nothing was found, but not everything asked could be checked"),
                 ]
             )
         with formatter.section("Other commands"):
@@ -99,9 +108,9 @@ def satcheck() -> None:
 @click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
     metavar="FILE",
-    help="Write the report to FILE instead of standard output.",
+    help="Write the report to FILE; - is standard output.",
 )
 @click.option(
     "--explain",
@@ -178,6 +187,8 @@ def check(
     """
     from satcheck.cli.checking import Choices, run
 
+    if output == STANDARD_OUTPUT:
+        output = None
     return run(
         Choices(
             paths=paths,

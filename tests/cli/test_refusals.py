@@ -67,6 +67,20 @@ def test_broken_inputs(tmp_path: Path, name: str, content: bytes) -> None:
     assert "internal" not in ran.err
 
 
+def test_a_failed_input_is_told_once() -> None:
+    ran = satcheck("box.obj", "gone.obj")
+    line = "satcheck: error: gone.obj: no such file [file-not-found]\n"
+    assert (ran.code, ran.out, ran.err) == (2, "", line)
+    three = satcheck("box.obj", "cube.off", "gone.obj")
+    assert (three.code, three.err) == (2, line)
+    assert "gone.obj" not in three.out
+
+
+def test_a_misspelt_command_gets_a_hint() -> None:
+    assert "did you mean the command `satcheck cache`?" in satcheck("cash", "info").err
+    assert "did you mean" not in satcheck("cash.obj", "box.obj").err
+
+
 def test_the_readable_rest_is_still_checked() -> None:
     ran = satcheck("--format", "json", *PUSHED, "gone.obj")
     assert ran.code == 2

@@ -29,6 +29,17 @@ def test_output_file(tmp_path: Path, name: str, start: str) -> None:
     assert name in ran.err
 
 
+def test_warnings_do_not_vanish_with_the_output(tmp_path: Path) -> None:
+    ran = satcheck("-o", str(tmp_path / "report.json"), "box.obj", "inside_out.stl")
+    assert "satcheck: warning: inside_out: " in ran.err
+
+
+def test_a_dash_is_standard_output() -> None:
+    ran = satcheck("--format", "json", "-o", "-", *PUSHED)
+    assert ran.document["summary"]["pairs"]["total"] == 1
+    assert ran.err == ""
+
+
 def test_output_file_that_cannot_be_written(tmp_path: Path) -> None:
     ran = satcheck("-o", str(tmp_path), *PUSHED)
     assert ran.code == 2
