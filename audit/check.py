@@ -85,15 +85,17 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
 def _close_pairs(roster: Roster, settings: Settings) -> list[tuple[int, int]]:
     """Asked pairs whose boxes are no further apart than what is asked about."""
     half_clearance = 0.5 * (settings.clearance or 0.0)
-    boxes = [body.bounds for body in roster.placed]
+    boxes = [body.bounds for body in roster.placed.values()]
     reach = [
         max(
             half_clearance,
             body.resolution if settings.tolerance is None else 0.5 * settings.tolerance,
         )
-        for body in roster.placed
+        for body in roster.placed.values()
     ]
-    return [pair for pair in close_pairs(boxes, reach) if roster.is_asked(*pair)]
+    index = tuple(roster.placed)
+    close = ((index[i], index[j]) for i, j in close_pairs(boxes, reach))
+    return [pair for pair in close if roster.is_asked(*pair)]
 
 
 def _examine_all(

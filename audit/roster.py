@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.report import Issue
 from satcheck.audit.settings import Settings
+from satcheck.scene import Body
 
 if TYPE_CHECKING:
-    from satcheck.scene import Body, Scene
+    from satcheck.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,10 +27,10 @@ class Lost:
 
 @dataclass(frozen=True, slots=True)
 class Roster:
-    """Bodies by index: first the placed ones, then the lost ones. ids and groups follow it."""
+    """Bodies by index, in the order given: each is either placed or lost. ids and groups follow."""
 
-    placed: tuple[PlacedBody, ...]
-    lost: tuple[Lost, ...]
+    placed: dict[int, PlacedBody]
+    lost: dict[int, Lost]
     ids: tuple[str, ...]
     groups: tuple[str | None, ...]
     ignored_groups: frozenset[str]
@@ -56,10 +57,12 @@ class Roster:
 
     def unreadable_pairs(self) -> Iterator[tuple[int, int, str]]:
         """Asked pairs of which one body is lost, with the reason."""
-        for j in range(len(self.placed), len(self.ids)):
-            for i in range(j):
-                if self.is_asked(i, j):
-                    yield i, j, self.lost[j - len(self.placed)].reason
+        for k, body in self.lost.items():
+            for other in range(len(self.ids)):
+                if other in self.lost and other >= k:
+                    continue
+                if self.is_asked(k, other):
+                    yield min(k, other), max(k, other), body.reason
 
     def total(self) -> int:
         """Pairs that are not ignored."""
@@ -83,29 +86,26 @@ def _pairs(n: int) -> int:
 def place(scene: Scene, settings: Settings) -> Roster:
     """Put every body into the world; one whose pose leaves the number range is lost."""
     shared: dict[str, SharedMesh] = {}
-    placed: list[PlacedBody] = []
-    groups: list[str | None] = []
-    lost: list[Lost] = []
-    lost_groups: list[str | None] = []
+    placed: dict[int, PlacedBody] = {}
+    lost: dict[int, Lost] = {}
     issues: list[Issue] = []
-    for body in scene.bodies:
+    members = scene.in_order()
+    for index, body in enumerate(members):
+        if not isinstance(body, Body):
+            reason = f"unreadable {body.file}: {body.issue.code}"
+            lost[index] = Lost(body.id, body.file, reason)
+            continue
         mesh = shared.setdefault(body.file.sha256, SharedMesh(body.file, settings))
         try:
-            placed.append(PlacedBody(body, mesh))
-            groups.append(body.group)
+            placed[index] = PlacedBody(body, mesh)
         except ValueError as error:
-            lost.append(Lost(body.id, body.file.path, f"cannot be placed: {error}"))
-            lost_groups.append(body.group)
+            lost[index] = Lost(body.id, body.file.path, f"cannot be placed: {error}")
             issues.append(_unplaceable(body, error))
-    for unreadable in scene.unreadable:
-        reason = f"unreadable {unreadable.file}: {unreadable.issue.code}"
-        lost.append(Lost(unreadable.id, unreadable.file, reason))
-        lost_groups.append(None)
     return Roster(
-        placed=tuple(placed),
-        lost=tuple(lost),
-        ids=(*(body.id for body in placed), *(body.id for body in lost)),
-        groups=(*groups, *lost_groups),
+        placed=placed,
+        lost=lost,
+        ids=tuple(body.id for body in members),
+        groups=tuple(body.group if isinstance(body, Body) else None for body in members),
         ignored_groups=frozenset(scene.ignore_within_groups),
         allowed_ids=frozenset(scene.allowed_pairs),
         issues=tuple(issues),

@@ -21,7 +21,7 @@ from satcheck.audit.report import (
     Tool,
     Verdict,
 )
-from satcheck.audit.roster import Roster
+from satcheck.audit.roster import Lost, Roster
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
@@ -63,23 +63,26 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding]) -> Verdict:
 
 
 def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
-    lost = (
-        BodyReport(
-            id=body.id,
-            name=body.id,
-            file=body.file,
-            sha256=None,
-            path=None,
-            triangles=None,
-            health=None,
-            resolution=None,
-            convex=None,
-            parts=None,
-            part_error=None,
-        )
-        for body in roster.lost
+    return tuple(
+        _lost_report(roster.lost[k]) if k in roster.lost else _body_report(roster.placed[k])
+        for k in range(len(roster.ids))
     )
-    return (*(_body_report(body) for body in roster.placed), *lost)
+
+
+def _lost_report(body: Lost) -> BodyReport:
+    return BodyReport(
+        id=body.id,
+        name=body.id,
+        file=body.file,
+        sha256=None,
+        path=None,
+        triangles=None,
+        health=None,
+        resolution=None,
+        convex=None,
+        parts=None,
+        part_error=None,
+    )
 
 
 def _body_report(body: PlacedBody) -> BodyReport:

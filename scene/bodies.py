@@ -80,6 +80,7 @@ class Unreadable:
 class Scene:
     """Everything that was asked to be checked, in the order given.
 
+    order: the ids of bodies and unreadable ones together, in the order given.
     units: as declared by the scene files, None where they disagree or say nothing.
     ignore_within_groups: groups whose bodies are not checked against each other.
     allowed_pairs: two body ids -> why they may overlap.
@@ -93,6 +94,13 @@ class Scene:
     ignore_within_groups: frozenset[str] = frozenset()
     allowed_pairs: dict[frozenset[str], str] = field(default_factory=dict)
     issues: tuple[Issue, ...] = ()
+    order: tuple[str, ...] = ()
+
+    def in_order(self) -> list[Body | Unreadable]:
+        """All that was asked for; what `order` does not name comes last."""
+        rank = {id_: number for number, id_ in enumerate(self.order)}
+        everything: list[Body | Unreadable] = [*self.bodies, *self.unreadable]
+        return sorted(everything, key=lambda one: rank.get(one.id, len(rank)))
 
 
 def largest_stretch(transform: Transform) -> float:

@@ -9,6 +9,7 @@ from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading import load_mesh_file
+from satcheck.scene.plain_ids import plain_ids
 
 SCENE_SUFFIX = ".json"
 DEFAULT_SECONDS_PER_FILE = 60.0
@@ -25,20 +26,25 @@ def load_scene(
 
     A mesh file is one body: the whole file, flattened (nodes, instances and build items applied),
     without unit or up-axis conversion. A `.json` file is a scene of the form satcheck-scene-1.
-    Ids are file stems or those of the scene, with -2, -3, ... where they occur again.
+    Ids are those of the scene file, or of `plain_ids`, with -2, -3, ... where they occur again.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file that cannot be used becomes an Unreadable with an error issue and the rest still
     loads. Raises SceneFileError for a scene file that is wrong in itself.
     """
     loader = _Loader(seconds_per_file, megabytes_per_file)
-    for path in paths:
-        given = path.as_posix() if isinstance(path, Path) else path
-        if Path(path).suffix.lower() == SCENE_SUFFIX:
-            loader.add_scene(given, Path(path))
+    given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
+    ids = iter(plain_ids([path for path in given if not _is_scene(path)]))
+    for path in given:
+        if _is_scene(path):
+            loader.add_scene(path, Path(path))
         else:
-            loader.add_mesh(given, Path(path))
+            loader.add_mesh(next(ids), path, Path(path))
     return loader.scene()
+
+
+def _is_scene(path: str) -> bool:
+    return Path(path).suffix.lower() == SCENE_SUFFIX
 
 
 class _Loader:
@@ -46,7 +52,7 @@ class _Loader:
         self._seconds = seconds
         self._megabytes = megabytes
         self._files: dict[Path, MeshFile | MeshFileError] = {}
-        self._ids: set[str] = set()
+        self._ids: dict[str, None] = {}  # in the order given
         self._names: list[str] = []
         self._units: list[str] = []
         self._bodies: list[Body] = []
@@ -55,10 +61,10 @@ class _Loader:
         self._allowed: dict[frozenset[str], str] = {}
         self._issues: list[Issue] = []
 
-    def add_mesh(self, path: str, location: Path) -> None:
+    def add_mesh(self, id_: str, path: str, location: Path) -> None:
         name = location.stem or path
         self._names.append(name)
-        self._add_body(name, path, location, None, None, False)
+        self._add_body(id_, name, path, location, None, None, False)
 
     def add_scene(self, path: str, location: Path) -> None:
         from satcheck.scene.scene_file import read_scene_file
@@ -69,7 +75,13 @@ class _Loader:
             self._units.append(scene.units)
         ids = {
             entry.id: self._add_body(
-                entry.id, entry.mesh, entry.location, entry.transform, entry.group, entry.static
+                entry.id,
+                entry.id,
+                entry.mesh,
+                entry.location,
+                entry.transform,
+                entry.group,
+                entry.static,
             )
             for entry in scene.bodies
         }
@@ -80,6 +92,7 @@ class _Loader:
 
     def _add_body(
         self,
+        wanted: str,
         name: str,
         path: str,
         location: Path,
@@ -87,7 +100,7 @@ class _Loader:
         group: str | None,
         static: bool,
     ) -> str:
-        id_ = self._unique(name)
+        id_ = self._unique(wanted)
         file = self._file(path, location)
         if isinstance(file, MeshFile):
             self._bodies.append(Body(id_, name, file, transform, group, static))
@@ -100,7 +113,7 @@ class _Loader:
         id_, number = name, 2
         while id_ in self._ids:
             id_, number = f"{name}-{number}", number + 1
-        self._ids.add(id_)
+        self._ids[id_] = None
         return id_
 
     def _file(self, path: str, location: Path) -> MeshFile | MeshFileError:
@@ -122,6 +135,7 @@ class _Loader:
             units=units.pop() if len(units) == 1 else None,
             bodies=tuple(self._bodies),
             unreadable=tuple(self._unreadable),
+            order=tuple(self._ids),
             ignore_within_groups=frozenset(self._ignored_groups),
             allowed_pairs=self._allowed,
             issues=(

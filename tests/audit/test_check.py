@@ -88,7 +88,7 @@ def test_an_unreadable_file_leaves_its_pairs_indeterminate(tmp_path):
     reasons = [f.reason for f in report.findings if f.relation == "indeterminate"]
     assert all(reason.startswith("unreadable") for reason in reasons)
     assert any(issue.severity == "error" for issue in report.issues)
-    assert [body.triangles for body in report.bodies] == [12, 12, None]
+    assert [body.triangles for body in report.bodies] == [12, None, 12]
 
 
 def test_one_body_is_refused(tmp_path):

@@ -30,15 +30,24 @@ EXPENSIVE = {
 }
 
 
-def test_ids_are_stems_made_unique(tmp_path):
+def test_only_the_very_same_file_gets_a_number(tmp_path):
     (tmp_path / "other").mkdir()
     paths = [tmp_path / "a.obj", tmp_path / "other" / "a.obj", tmp_path / "a.obj"]
     for path in paths:
         path.write_bytes(files.obj())
     scene = load_scene(paths)
-    assert [body.id for body in scene.bodies] == ["a", "a-2", "a-3"]
+    first = f"{tmp_path.name}/a"
+    assert [body.id for body in scene.bodies] == [first, "other/a", f"{first}-2"]
     assert [body.name for body in scene.bodies] == ["a", "a", "a"]
     assert scene.bodies[0].file is scene.bodies[2].file
+
+
+def test_the_order_given_holds_for_unreadable_files_too(tmp_path):
+    (tmp_path / "b.obj").write_bytes(files.obj())
+    scene = load_scene([tmp_path / name for name in ("c.obj", "b.obj", "a.txt")])
+    assert scene.order == ("c", "b", "a")
+    assert [one.id for one in scene.in_order()] == ["c", "b", "a"]
+    assert [body.id for body in scene.bodies] == ["b"]
 
 
 def test_ids_of_two_scenes_keep_their_allowed_pairs(tmp_path):

@@ -1,0 +1,38 @@
+"""Ids for the bodies of plain files: what a reader would call them, and as short as that goes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path, PurePath
+
+
+def plain_ids(paths: Sequence[str]) -> list[str]:
+    """One id for each path, in that order: the stem, or where distinct paths share their stem the
+    shortest ends of the paths that differ ("left/part", "right/part"), with the suffixes where
+    nothing else differs. Paths to the same place get the same id.
+    """
+    same_stem: dict[str, dict[str, PurePath]] = {}
+    places = [os.path.normpath(Path(path).absolute()) for path in paths]
+    for path, place in zip(paths, places, strict=True):
+        tidy = PurePath(os.path.normpath(path))
+        same_stem.setdefault(_stem(path), {}).setdefault(place, tidy)
+    ids: dict[str, str] = {}
+    for stem, distinct in same_stem.items():
+        names = [stem] if len(distinct) == 1 else _shortest_ends(list(distinct.values()))
+        ids.update(zip(distinct, names, strict=True))
+    return [ids[place] for place in places]
+
+
+def _stem(path: str) -> str:
+    return PurePath(path).stem or path
+
+
+def _shortest_ends(paths: list[PurePath]) -> list[str]:
+    longest = max(len(path.parts) for path in paths)
+    for named in ([path.parent / path.stem for path in paths], paths):
+        for length in range(1, longest + 1):
+            ends = [PurePath(*path.parts[-length:]).as_posix() for path in named]
+            if len(set(ends)) == len(ends):
+                return ends
+    return [path.as_posix() for path in paths]
