@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-import stat
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.regular_file import size_of
 
 FORMATS = {
     ".obj": "obj",
@@ -38,6 +39,16 @@ _SIGNATURES = (
     (b"ply\r\n", "a PLY file", "ply"),
 )
 
+# With what the lines of a text format begin, comments left out.
+_FIRST_WORDS = (
+    ((b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl"), "an OBJ file"),
+    ((b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF"), "an OFF file"),
+    ((b"ply",), "a PLY file"),
+    ((b"<?xml", b"<COLLADA"), "an XML file"),
+    ((b"{",), "a JSON file"),
+)
+_TEXT_HEAD_BYTES = 4096
+
 
 @dataclass(frozen=True, slots=True)
 class Source:
@@ -56,8 +67,9 @@ class Source:
 def read_source(path: str, location: Path, *, max_bytes: int) -> Source:
     """Reads a mesh file, or raises MeshFileError.
 
-    A path whose suffix belongs to no mesh format is refused without being opened.
+    Only a regular file whose suffix belongs to a mesh format is opened.
     """
+    size = _size(path, location)
     file_format = FORMATS.get(location.suffix.lower())
     if file_format is None:
         known = ", ".join(sorted(FORMATS))
@@ -66,32 +78,32 @@ def read_source(path: str, location: Path, *, max_bytes: int) -> Source:
             f"unsupported format {location.suffix!r}: known are {known}",
             file=path,
         )
-    data = _read(path, location, max_bytes)
+    if size > max_bytes:
+        raise MeshFileError(
+            "too-large",
+            f"{size} bytes exceed the limit of {max_bytes} bytes for one file",
+            file=path,
+        )
+    try:
+        data = location.read_bytes()
+    except OSError as error:
+        reason = f"cannot be read: {error.strerror}"
+        raise MeshFileError("unreadable-file", reason, file=path) from None
     _refuse_other_content(path, file_format, data)
     return Source(path, location, file_format, hashlib.sha256(data).hexdigest(), data)
 
 
-def _read(path: str, location: Path, max_bytes: int) -> bytes:
+def _size(path: str, location: Path) -> int:
     try:
-        status = location.stat()
-        if not stat.S_ISREG(status.st_mode):
-            raise MeshFileError("not-a-file", "not a regular file", file=path)
-        if status.st_size > max_bytes:
-            raise MeshFileError(
-                "too-large",
-                f"{status.st_size} bytes exceed the limit of {max_bytes} bytes for one file",
-                file=path,
-            )
-        return location.read_bytes()
-    except FileNotFoundError:
-        raise MeshFileError("file-not-found", "no such file", file=path) from None
-    except (OSError, ValueError) as error:  # ValueError: a path with a NUL character
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise MeshFileError("unreadable-file", f"cannot be read: {reason}", file=path) from None
+        return size_of(location)
+    except SatcheckError as error:
+        raise MeshFileError(error.code, error.message, file=path) from None
 
 
 def _refuse_other_content(path: str, file_format: str, data: bytes) -> None:
     content, content_format = _sniff(data)
+    if content is None and file_format == "stl":
+        content = _other_text(data)
     if content is not None and content_format != file_format:
         raise MeshFileError(
             "format-mismatch",
@@ -109,3 +121,19 @@ def _sniff(data: bytes) -> tuple[str | None, str | None]:
     if count > 0 and len(data) == _STL_HEADER_BYTES + _STL_FACET_BYTES * count:
         return "a binary STL file", "stl"
     return None, None
+
+
+def _other_text(data: bytes) -> str | None:
+    """What text that is no ASCII STL looks like; None for STL and for what is not text.
+
+    Only the head is looked at. A binary STL has a 0 there: its facet count, short of 2^24 facets.
+    """
+    head = data[:_TEXT_HEAD_BYTES]
+    lines = [words for line in head.splitlines() if (words := line.split())]
+    first = next((words[0] for words in lines if not words[0].startswith(b"#")), b"")
+    if b"\0" in head or len(data) < _STL_HEADER_BYTES or first.lower() == b"solid":
+        return None
+    for known, name in _FIRST_WORDS:
+        if first in known:
+            return f"text that looks like {name}"
+    return "text that does not start with solid"

@@ -1,7 +1,5 @@
 // Stereolithography files: "StereoLithography Interface Specification", 3D Systems, 1989. Facet normals and
 // attribute bytes are ignored: the corners carry the orientation.
-#include <cstdio>
-
 #include "builder.hpp"
 #include "bytes.hpp"
 #include "readers.hpp"
@@ -135,9 +133,8 @@ bool looks_like_ascii(std::string_view bytes) {
 }
 
 std::string promise(std::size_t count, std::size_t body) {
-  char held[32];
-  std::snprintf(held, sizeof held, "%.2f", static_cast<double>(body) / facet_size);
-  return "the header promises " + std::to_string(count) + " facets, the file holds " + held;
+  return "the header promises " + std::to_string(count) + " facets, the file has room for " +
+         std::to_string(body / facet_size);
 }
 
 MeshData read(std::string_view bytes) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import struct
 
 import pytest
@@ -64,9 +65,13 @@ REFUSED = {
     "png.stl": (b"\x89PNG\r\n\x1a\n" + b"\0" * 90, "format-mismatch", "PNG"),
     "short.stl": (b"hello", "not-this-format", "5 bytes"),
     "empty.stl": (b"", "not-this-format", "0 bytes"),
+    "obj.stl": (CUBE, "format-mismatch", "looks like an OBJ file"),
+    "off.stl": (OFF, "format-mismatch", "looks like an OFF file"),
+    "ply.stl": (ASCII_PLY, "format-mismatch", "is a PLY file"),
+    "prose.stl": (b"words about a cube\n" * 9, "format-mismatch", "not start with solid"),
     "no_facets.stl": (b"solid a\nendsolid a\n", "empty-mesh", "no triangles"),
     "no_facets_binary.stl": (files.binary_stl(faces=[]), "empty-mesh", "no triangles"),
-    "cut.stl": (STL[:447], "truncated", "promises 12 facets, the file holds 7.26"),
+    "cut.stl": (STL[:447], "truncated", "promises 12 facets, the file has room for 7"),
     "more.stl": (STL + b"12345678", "trailing-data", "byte 684"),
     "lying.stl": (files.binary_stl(count=2**32 - 1), "truncated", "4294967295"),
     "nan.stl": (files.binary_stl(points_with(NAN)), "non-finite", "facet 1"),
@@ -292,13 +297,39 @@ def test_loaded_with_a_warning(tmp_path, name):
     assert set(warnings(loaded(tmp_path, name, content))) == codes
 
 
-def test_a_missing_file_and_a_folder(tmp_path):
+def test_a_path_to_no_file_says_what_is_there(tmp_path):
     from satcheck.scene import load_scene
 
     (tmp_path / "folder.obj").mkdir()
-    scene = load_scene([tmp_path / "gone.stl", tmp_path / "folder.obj"])
-    assert [issue.code for issue in scene.issues] == ["file-not-found", "not-a-file"]
-    assert [lost.id for lost in scene.unreadable] == ["gone", "folder"]
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "notes.txt").write_text("x")
+    names = ["gone.stl", "gone.txt", "folder.obj", "folder", "notes.txt"]
+    scene = load_scene([*(tmp_path / name for name in names), "-"])
+    told = [(lost.id, lost.issue.code) for lost in scene.unreadable]
+    assert told == [
+        ("gone.stl", "file-not-found"),
+        ("gone.txt", "file-not-found"),
+        ("folder.obj", "not-a-file"),
+        ("folder", "not-a-file"),
+        ("notes", "unsupported-format"),
+        ("-", "not-a-file"),
+    ]
+    assert scene.issues[0].message.endswith("no such file")
+    assert scene.issues[2].message.endswith("is a directory, not a file")
+    assert "standard input is not read" in scene.issues[-1].message
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in this file system")
+def test_a_pipe_is_refused_without_waiting_for_a_writer(tmp_path):
+    from satcheck.scene import SceneFileError, load_scene
+
+    for name in ("pipe.stl", "pipe.json"):
+        os.mkfifo(tmp_path / name)
+    (issue,) = load_scene([tmp_path / "pipe.stl"]).issues
+    assert issue.code == "not-a-file"
+    assert "is a pipe" in issue.message
+    with pytest.raises(SceneFileError, match="is a pipe"):
+        load_scene([tmp_path / "pipe.json"])
 
 
 def test_a_file_beyond_the_memory_limit_is_not_read(tmp_path):

@@ -1,0 +1,38 @@
+"""Whether a path names a file that can be read from start to end, asked without opening it."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+from satcheck.core.errors import SatcheckError
+
+STANDARD_INPUT = "-"
+
+# Opening one of these may block for ever, or read without an end.
+_SPECIAL = (
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+)
+
+
+def size_of(location: Path) -> int:
+    """Bytes of a regular file; SatcheckError, without a file name, for whatever else it is."""
+    if str(location) == STANDARD_INPUT:
+        raise SatcheckError("not-a-file", "standard input is not read: give the path of a file")
+    try:
+        status = location.stat()
+    except (FileNotFoundError, NotADirectoryError):
+        raise SatcheckError("file-not-found", "no such file") from None
+    except OSError as error:
+        raise SatcheckError("unreadable-file", f"cannot be read: {error.strerror}") from None
+    except ValueError as error:  # a path with a NUL character
+        raise SatcheckError("unreadable-file", f"cannot be read: {error}") from None
+    if stat.S_ISDIR(status.st_mode):
+        raise SatcheckError("not-a-file", "is a directory, not a file")
+    if not stat.S_ISREG(status.st_mode):
+        kind = next((name for test, name in _SPECIAL if test(status.st_mode)), "a special file")
+        raise SatcheckError("not-a-file", f"is {kind}, not a file: not read")
+    return status.st_size
