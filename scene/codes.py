@@ -23,7 +23,7 @@ class Code:
 _ALL = (
     # The file as a file.
     Code("file-not-found", "error", "There is no file at this path."),
-    Code("not-a-file", "error", "The path names a directory or a device, not a file."),
+    Code("not-a-file", "error", "The path names a directory, a pipe or a device."),
     Code("unreadable-file", "error", "The operating system refused to read the file."),
     Code("unsupported-format", "error", "The name's suffix belongs to no format that is read."),
     Code("format-mismatch", "error", "The content is of another format than the suffix says."),
@@ -65,6 +65,9 @@ _ALL = (
     # The scene file.
     Code("bad-scene", "error", "The scene file is not of the form satcheck-scene-1."),
     Code("duplicate-id", "error", "Two bodies of a scene have the same id."),
+    Code("unknown-key", "warning", "A key at the top of the scene file is not known: ignored."),
+    Code("unknown-units", "warning", "The declared units are no known unit of length."),
+    Code("unknown-group", "warning", "An ignored group has no body in the scene."),
     Code("unknown-body", "warning", "An allowed pair names a body that the scene lacks."),
 )
 

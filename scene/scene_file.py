@@ -5,8 +5,10 @@
                  "group", "static"}],
      "ignore_within_groups": [group], "allowed_pairs": [[id, id, reason]]}
 
-A scene file that is wrong is refused as a whole: half a scene has no meaning. What a mesh path
-names is opened only when its suffix is that of a mesh format, and content is never echoed.
+A scene file that is wrong is refused as a whole: half a scene has no meaning. A misspelt key of a
+body would move it or put it into no group, so it is wrong too; at the top a scene may carry more
+than is read here, and an unknown key there is a warning. What a mesh path names is opened only when
+its suffix is that of a mesh format, and content is never echoed.
 """
 
 from __future__ import annotations
@@ -14,15 +16,28 @@ from __future__ import annotations
 import json
 import math
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.units import is_unit
 
 SCHEMA = "satcheck-scene-1"
+
+_BODY_KEYS = frozenset(("id", "mesh", "transform", "group", "static"))
+_SCENE_KEYS = frozenset(
+    ("schema", "name", "units", "bodies", "ignore_within_groups", "allowed_pairs")
+)
+# What says where a scene comes from, and changes nothing.
+_INFORMATION = frozenset(
+    ("$schema", "author", "comment", "description", "licence", "license", "original", "source")
+)
 
 _MAX_BYTES = 256 << 20  # a million bodies
 # A matrix whose determinant is this small against the product of its row lengths is singular up
@@ -68,6 +83,9 @@ class _Reader:
         document = self._parse()
         if not isinstance(document, dict) or document.get("schema") != SCHEMA:
             raise self._error("bad-scene", f'not a scene file: "schema" is not "{SCHEMA}"')
+        if "bodies" not in document:
+            hint = _meant("bodies", document.keys() - _SCENE_KEYS, " (did you mean it by {}?)")
+            raise self._error("bad-scene", f'"bodies" is missing{hint}')
         entries = self._list(document, "bodies")
         bodies = tuple(self._body(entry, number) for number, entry in enumerate(entries))
         ids: set[str] = set()
@@ -75,18 +93,52 @@ class _Reader:
             if body.id in ids:
                 raise self._error("duplicate-id", f"duplicate id {body.id!r}", body=body.id)
             ids.add(body.id)
-        allowed, issues = self._allowed_pairs(document, frozenset(ids))
+        allowed, unknown_bodies = self._allowed_pairs(document, frozenset(ids))
+        ignored = frozenset(
+            self._string(group, "a group of ignore_within_groups")
+            for group in self._list(document, "ignore_within_groups")
+        )
+        units = self._text(document, "units", None)
         return SceneFile(
             name=self._text(document, "name", self._location.stem),
-            units=self._text(document, "units", None),
+            units=units,
             bodies=bodies,
-            ignore_within_groups=frozenset(
-                self._string(group, "a group of ignore_within_groups")
-                for group in self._list(document, "ignore_within_groups")
-            ),
+            ignore_within_groups=ignored,
             allowed_pairs=allowed,
-            issues=issues,
+            issues=(
+                *self._unknown_keys(document),
+                *self._unknown_units(units),
+                *self._unknown_groups(ignored, {body.group for body in bodies if body.group}),
+                *unknown_bodies,
+            ),
         )
+
+    def _unknown_keys(self, document: dict[str, Any]) -> list[Issue]:
+        return [
+            issue(
+                "unknown-key",
+                f"unknown key {key!r}{_meant(key, _SCENE_KEYS)}: it is ignored",
+                file=self._path,
+            )
+            for key in document
+            if key not in _SCENE_KEYS and key not in _INFORMATION
+        ]
+
+    def _unknown_units(self, units: str | None) -> list[Issue]:
+        if units is None or is_unit(units):
+            return []
+        message = f"unknown units {units!r}: lengths are plain numbers"
+        return [issue("unknown-units", message, file=self._path)]
+
+    def _unknown_groups(self, ignored: frozenset[str], groups: set[str]) -> list[Issue]:
+        return [
+            issue(
+                "unknown-group",
+                f"no body is in group {group!r} of ignore_within_groups{_meant(group, groups)}",
+                file=self._path,
+            )
+            for group in sorted(ignored - groups)
+        ]
 
     def _error(self, code: str, message: str, body: str | None = None) -> SceneFileError:
         return SceneFileError(code, message, file=self._path, body=body)
@@ -96,16 +148,17 @@ class _Reader:
             return math.nan  # found again, with the body's name, where a number is expected
 
         try:
-            if self._location.stat().st_size > _MAX_BYTES:
+            if size_of(self._location) > _MAX_BYTES:
                 raise self._error("too-large", f"larger than {_MAX_BYTES} bytes")
             text = self._location.read_text("utf-8-sig")
-        except FileNotFoundError:
-            raise self._error("file-not-found", "no such file") from None
+        except SceneFileError:
+            raise
+        except SatcheckError as error:
+            raise self._error(error.code, error.message) from None
         except UnicodeDecodeError:
             raise self._error("bad-encoding", "the scene file is not UTF-8") from None
-        except (OSError, ValueError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "not a path"
-            raise self._error("unreadable-file", f"cannot be read: {reason}") from None
+        except OSError as error:
+            raise self._error("unreadable-file", f"cannot be read: {error.strerror}") from None
         try:
             return json.loads(text, parse_constant=refuse)
         except json.JSONDecodeError as error:
@@ -133,6 +186,14 @@ class _Reader:
     def _body(self, entry: Any, number: int) -> BodyEntry:
         if not isinstance(entry, dict):
             raise self._error("bad-scene", f"body number {number + 1} is not an object")
+        unknown = next((key for key in entry if key not in _BODY_KEYS), None)
+        if unknown is not None:
+            named = entry.get("id")
+            known = isinstance(named, str) and named
+            where = "" if known else f" of body number {number + 1}"
+            hint = _meant(unknown, _BODY_KEYS - entry.keys())
+            message = f"unknown key {unknown!r}{where}{hint}"
+            raise self._error("bad-scene", message, named if known else None)
         id_ = self._string(entry.get("id"), f'"id" of body number {number + 1}')
         mesh = self._string(entry.get("mesh"), '"mesh"', id_)
         static = entry.get("static", False)
@@ -225,3 +286,11 @@ class _Reader:
                 reason = entry[2] if len(entry) == 3 else ""
                 allowed[frozenset((a, b))] = reason if isinstance(reason, str) else ""
         return allowed, tuple(issues)
+
+
+def _meant(word: str, known: Iterable[str], form: str = " (did you mean {}?)") -> str:
+    """A question for the known word that `word` resembles most, empty when it resembles none."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(word, sorted(known), n=1)
+    return form.format(repr(close[0])) if close else ""

@@ -86,6 +86,37 @@ def test_an_unknown_id_in_allowed_pairs_is_a_warning(folder):
     assert scene.allowed_pairs == {}
 
 
+def test_what_a_scene_says_of_its_origin_is_no_warning(folder):
+    more = dict.fromkeys(("description", "source", "licence", "original"), "text")
+    assert load(folder, scene_of(body("a"), units="mm (as in the file)", **more)).issues == ()
+
+
+MISSPELT = {
+    "key": ({"allowed_pair": []}, "unknown-key", "'allowed_pairs'"),
+    "foreign key": ({"gravity": 9.81}, "unknown-key", "'gravity'"),
+    "group": ({"ignore_within_groups": ["robo"]}, "unknown-group", "mean 'robot'?"),
+    "units": ({"units": "furlong"}, "unknown-units", "'furlong'"),
+}
+
+
+@pytest.mark.parametrize("name", MISSPELT)
+def test_a_typo_at_the_top_is_a_warning(folder, name):
+    more, code, told = MISSPELT[name]
+    (issue,) = load(folder, scene_of(body("a", group="robot"), **more)).issues
+    assert (issue.code, issue.severity) == (code, "warning")
+    assert told in issue.message
+
+
+def test_a_typo_in_a_body_is_refused_with_the_key_meant(folder):
+    typo = {"id": "b", "mesh": "../meshes/cube.obj", "transfrom": SHIFT}
+    with pytest.raises(SceneFileError, match=r"body 'b': .*'transfrom' .*mean 'transform'\?"):
+        load(folder, scene_of(body("a"), typo))
+    with pytest.raises(SceneFileError, match=r"'ide' of body number 1 .*mean 'id'\?"):
+        load(folder, scene_of({"ide": "b", "mesh": "../meshes/cube.obj"}))
+    with pytest.raises(SceneFileError, match=r"\"bodies\" is missing .*'bodys'"):
+        load(folder, {"schema": "satcheck-scene-1", "bodys": []})
+
+
 SINGULAR = [[1, 0, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 ZERO = [[0, 0, 0, 3], [0, 0, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1]]
 NOT_A_NUMBER = [*SHIFT[:2], [0, 0, float("nan"), 0], SHIFT[3]]
