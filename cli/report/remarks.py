@@ -43,9 +43,9 @@ def _band(finding: Finding) -> list[str]:
 
 
 def _undecided(finding: Finding, report: Report) -> list[str]:
-    """The reason, unless it is one for all pairs of a body or for the whole run (see summary)."""
+    """The reason, unless a line on the body or the summary says it for many pairs at once."""
     capped = finding.quality == "estimate" and report.settings["accuracy"] != "exact"
-    if finding.reason is None or capped or by_surfaces(finding):
+    if finding.reason is None or capped or finding.quality in ("exact", "bounded"):
         return []
     return [f"{finding.a} and {finding.b}: {finding.reason}"]
 

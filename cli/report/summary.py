@@ -50,7 +50,7 @@ def _worst(report: Report) -> list[str]:
     deep = [f for f in report.findings if f.depth is not None and f.relation in OVERLAPS]
     if not deep:
         return []
-    worst = max(deep, key=lambda f: f.depth or 0.0)
+    worst = max(deep, key=lambda f: f.depth_bounds or (0.0, f.depth or 0.0))
     known = unit_of(report.units)
     figure = depth(worst, bounded="at most ") + (f" {known}" if known else "")
     if len(deep) == 1:

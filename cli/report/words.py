@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 # A lower bound below this share of the upper one is left out: it tells a person nothing.
 NEGLIGIBLE = 1e-3
+# The step of a plan, and its result, where a body has no inside to check.
+UNSEEN = ("containment", "not checked")
 
 
 def counted(count: int, one: str, many: str | None = None) -> str:
@@ -40,6 +42,5 @@ def depth(finding: Finding, *, bounded: str = "<= ") -> str:
 
 
 def by_surfaces(finding: Finding) -> bool:
-    """Whether the relation is proven for the surfaces only: a body has no inside to check."""
-    decided = finding.relation != "indeterminate" and finding.quality != "estimate"
-    return decided and finding.reason is not None
+    """Whether one body may lie inside the other, which has no inside to check."""
+    return any((stage.stage, stage.result) == UNSEEN for stage in finding.plan)

@@ -97,7 +97,8 @@ SURFACES = replace(
     a="far",
     b="soup",
     severity="warning",
-    reason="surfaces only: soup is no solid, so containment is not defined",
+    reason="the inside of soup was not checked: it is not closed",
+    plan=(Stage("containment", "not checked", 0.5, "the inside of soup was not checked"),),
 )
 ESTIMATE = replace(
     PENETRATING,

@@ -177,7 +177,7 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
         (
             (PENETRATING, replace(BOUNDED, depth_bounds=(0.9, 1.2500004))),
             "2 bodies, 2 pairs: 1 penetrating, 1 containing. Possibly the deepest: "
-            "a_rather_long_name and another_rather_long_name, 0.9 .. 1.25001.",
+            "block and block_pushed, 1.",
         ),
         (
             (replace(BOUNDED, depth_bounds=(1e-9, 1.25)),),
