@@ -7,8 +7,10 @@ PYTHON ?= python3
 VENV := .venv
 ifeq ($(OS),Windows_NT)
 BIN := $(VENV)/Scripts
+ACTIVATE := $(VENV)\Scripts\activate
 else
 BIN := $(VENV)/bin
+ACTIVATE := . $(VENV)/bin/activate
 endif
 
 ROOMS := cli audit scene decompose core
@@ -21,6 +23,9 @@ SOURCES := pyproject.toml CMakeLists.txt $(foreach room,$(ROOMS),$(wildcard \
 # The boxes do overlap, which is exit code 1; make would call that an error.
 demo: $(VENV)/installed
 	$(BIN)/satcheck --exit-zero sample_meshes/box.obj sample_meshes/box_pushed.stl
+	@echo
+	@echo "Now your own meshes: $(BIN)/satcheck A B"
+	@echo "or, to leave out the folder: $(ACTIVATE)"
 
 test: $(VENV)/installed-test
 	$(BIN)/python -m tests
