@@ -119,7 +119,8 @@ def _hulls(pair: Pair, plan: Plan, box_lower: float) -> Contact | None:
     a, b = pair.a.hull_shape(), pair.b.hull_shape()
     overlap = core.check_pair(a, b, query="overlap")
     if overlap.outcome != "separated":
-        plan.record("hull", overlap.outcome, "not both convex: hulls prove only separation")
+        result = "undecided" if overlap.outcome == "undecided" else "meet"
+        plan.record("hull", result, "not both convex: hulls prove only separation")
         return None
     distance = core.check_pair(a, b, query="distance")
     lower = max(distance.lower or 0.0, box_lower)

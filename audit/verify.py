@@ -43,9 +43,11 @@ def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Es
         mtv = _along(normal, length + step * ulp)
         relation = relation_after(pair, mtv)
         if relation in FREE:
-            plan.record("verify", relation, f"A moved by its MTV, lengthened by {step} ulp")
+            longer = f", lengthened by {step} units in the last place" if step else ""
+            plan.record("verify", relation, f"A moved by its MTV{longer}")
             return Escape(mtv, True, length if step == 0 else length + (step + 2) * ulp)
-    plan.record("verify", "failed", f"still not free after {LENGTHENING_ULPS[-1]} ulp more")
+    most = f"{LENGTHENING_ULPS[-1]} units in the last place"
+    plan.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
     return Escape(_along(normal, length), False, math.inf)
 
 
