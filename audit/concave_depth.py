@@ -8,18 +8,16 @@ triangles, because a free A has no crossing triangles either.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
-from satcheck import core
-from satcheck.audit.boxes import box_escape
+from satcheck.audit.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.depth import Depth
-from satcheck.audit.escape_search import escape_on_meshes, escape_on_parts
+from satcheck.audit.escape_search import FIRST_SPHERE, escape_on_meshes, escape_on_parts
 from satcheck.audit.inner_bodies import depth_of_hulls, depth_of_parts
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
-from satcheck.audit.tolerances import UNIT_ROUNDOFF, rounding_pad
+from satcheck.audit.tolerances import UNIT_ROUNDOFF
 from satcheck.audit.triangles import crossing_depth
 from satcheck.audit.verify import Escape, verified_escape
 
@@ -29,7 +27,8 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
 
     Cheap bounds first; parts, which may take seconds to compute, only where a gap is left open.
     """
-    hulls = _way_out_of_hulls(pair, plan)
+    hulls = way_out_of_hulls(pair)
+    plan.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
     lower, upper, shorter = 0.0, hulls.upper, None
     if contact.proven:
         known = crossing_depth(pair, contact.crossing), _depth_of_nesting(pair, contact, plan)
@@ -55,12 +54,11 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
 
 
 def _depth_of_nesting(pair: Pair, contact: Contact, plan: Plan) -> float:
-    """A body inside another stays inside at least until their surfaces meet."""
-    if contact.relation not in ("contains", "inside"):
-        return 0.0
-    gap = core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
-    lower = max(gap - rounding_pad(pair.largest_coordinate), 0.0)
-    plan.record("depth", "lower bound", f"at least {lower:.6g} by the gap around the inner body")
+    lower = gap_around(pair, contact)
+    if lower > 0:
+        plan.record(
+            "depth", "lower bound", f"at least {lower:.6g} by the gap around the inner body"
+        )
     return lower
 
 
@@ -68,36 +66,36 @@ def _is_wide(pair: Pair, lower: float, upper: float) -> bool:
     return upper - lower > pair.settings.depth_width * upper
 
 
-def nudged_depth(pair: Pair, contact: Contact, nudge: Vector) -> Depth:
-    """The depth of a pair that a verified translation of A within the touch band frees."""
-    length, normal = _length_and_normal(nudge)
+def depth_by_move(pair: Pair, contact: Contact, move: Vector, plan: Plan) -> Depth:
+    """The depth of a pair that a verified translation of A within the touch band frees.
+
+    A band that somebody asked for is not allowed to make the figures coarser: a shorter move is
+    then searched, as without a band. Within the input precision there is nothing to refine.
+    """
+    if pair.settings.tolerance is None:
+        return _depth_of(pair, contact, move)
+    length, normal = _length_and_normal(move)
+    hulls = way_out_of_hulls(pair)
+    if not is_fine(pair, hulls.upper):
+        depth = concave_depth(pair, contact, plan)
+        found = depth.escape.verified and depth.upper <= length
+        return depth if found else _depth_of(pair, contact, move)
+    lower = crossing_depth(pair, contact.crossing)
+    shorter = escape_on_meshes(pair, contact, length, normal, lower, plan)
+    return _depth_of(pair, contact, shorter or move)
+
+
+def is_fine(pair: Pair, way_out: float) -> bool:
+    """Whether the touch band is narrower than the moves with which the search for a way out of
+    that length starts: it then says nothing about the band."""
+    return pair.tolerance < FIRST_SPHERE * way_out
+
+
+def _depth_of(pair: Pair, contact: Contact, move: Vector) -> Depth:
+    length, normal = _length_and_normal(move)
     upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
     lower = min(crossing_depth(pair, contact.crossing), upper)
-    return Depth(lower, upper, normal, Escape(nudge, True, upper))
-
-
-@dataclass(frozen=True, slots=True)
-class WayOut:
-    """length: of the nominal translation along -normal; upper: that length rounded outward."""
-
-    length: float
-    upper: float
-    normal: Vector
-
-
-def _way_out_of_hulls(pair: Pair, plan: Plan) -> WayOut:
-    """What frees A for certain: out of B's hull, or out of its box."""
-    length, normal = box_escape(pair.a.bounds, pair.b.bounds)
-    way, how = WayOut(length, length, normal), "world boxes"
-    if pair.may("hull"):
-        found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
-        distance, least, towards = found.distance, found.lower, found.normal
-        penetrating = found.outcome == "penetrating"
-        if penetrating and distance is not None and least is not None and towards is not None:
-            way = WayOut(-distance, -least, towards)
-            how = "hulls of the whole meshes"
-    plan.record("depth", "upper bound", f"at most {way.upper:.6g} by the {how}")
-    return way
+    return Depth(lower, upper, normal, Escape(move, True, upper))
 
 
 def _length_and_normal(translation: Vector) -> tuple[float, Vector]:

@@ -31,17 +31,17 @@ class Depth:
     witness: Witness | None = None
 
 
-def measure_depth(pair: Pair, contact: Contact, nudge: Vector | None, plan: Plan) -> Depth:
+def measure_depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Depth:
     """The depth of an overlapping pair: exact for convex ones, an interval for the others.
 
-    nudge: a translation of A within the touch band that is known to free it.
+    move: a translation of A within the touch band that is known to free it.
     """
     if contact.convex is not None:
         return _convex_depth(pair, contact.convex, plan)
-    from satcheck.audit.concave_depth import concave_depth, nudged_depth
+    from satcheck.audit.concave_depth import concave_depth, depth_by_move
 
-    if nudge is not None:
-        return nudged_depth(pair, contact, nudge)
+    if move is not None:
+        return depth_by_move(pair, contact, move, plan)
     return concave_depth(pair, contact, plan)
 
 

@@ -1,4 +1,8 @@
-"""One pair: up the ladder, the figures that were asked for, the words for the result."""
+"""One pair: up the ladder, the figures that were asked for, the words for the result.
+
+A clearance is kept or not by the exact gap, whatever the touch band calls the pair: an overlap has
+no gap, so it keeps none.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Severity
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.audit.touch_band import estimate_is_within, move_within
 
 CLEARANCE_RULE = "clearance"
 ID_DIGITS = 12
@@ -49,28 +54,29 @@ def _weakness(pair: Pair, contact: Contact) -> str | None:
     """What the answer leaves out; the relation of hulls that are apart leaves out nothing."""
     hollow = [body.id for body in (pair.a, pair.b) if not body.solid]
     if not contact.proven:
-        return (
-            f"not proven at --accuracy {pair.settings.accuracy}"
-            if not pair.may("exact")
-            else ("a degenerate contact was sampled")
-        )
+        return _unproven(pair) if not pair.may("exact") else "a degenerate contact was sampled"
     if not hollow or contact.gap_lower > 0:
         return None
     verb = "is no solid" if len(hollow) == 1 else "are no solids"
     return f"surfaces only: {' and '.join(hollow)} {verb}, so containment is not defined"
 
 
-def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
-    nudge = None
-    if contact.convex is None and contact.relation == "penetrating" and pair.may("exact"):
-        from satcheck.audit.touch_band import flush_nudge
+def _unproven(pair: Pair) -> str:
+    return f"not proven at --accuracy {pair.settings.accuracy}"
 
-        nudge = flush_nudge(pair, contact, plan)
-    depth = measure_depth(pair, contact, nudge, plan) if pair.settings.depth else None
-    relation: Relation = "touching" if nudge or _shallow(pair, contact) else contact.relation
+
+def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
+    shallow, move = _is_shallow(pair, contact, plan), None
+    if contact.convex is None and pair.may("exact"):
+        move = move_within(pair, contact, plan)
+    guess = shallow and not contact.proven
+    depth = measure_depth(pair, contact, move, plan) if pair.settings.depth and not guess else None
+    within = shallow or move is not None or _is_within(pair, depth)
+    relation: Relation = "touching" if within else contact.relation
     figures = {} if depth is None else _depth_figures(depth)
-    if pair.settings.clearance is not None and depth is not None and contact.convex is not None:
-        figures["distance"] = -depth.upper
+    if pair.settings.clearance is not None and contact.convex is not None:
+        signed = contact.convex.distance or 0.0
+        figures["distance"] = signed if depth is None else -depth.upper
     return _finding(
         pair.a.id,
         pair.b.id,
@@ -80,15 +86,21 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
         quality=_depth_quality(contact, depth),
         tolerance=pair.tolerance,
         reason=_weakness(pair, contact),
-        **_rule(pair, relation),
+        **(_broken_clearance(pair, 0.0) if within else {}),
         **figures,
     )
 
 
-def _shallow(pair: Pair, contact: Contact) -> bool:
-    """Whether a convex pair penetrates by no more than the touch band."""
-    result = contact.convex
-    return result is not None and -(result.distance or 0.0) <= pair.tolerance
+def _is_shallow(pair: Pair, contact: Contact, plan: Plan) -> bool:
+    """Whether an overlap within the touch band needs no triangles to be seen."""
+    if contact.convex is not None:
+        return -(contact.convex.distance or 0.0) <= pair.tolerance
+    return not pair.may("exact") and estimate_is_within(pair, plan)
+
+
+def _is_within(pair: Pair, depth: Depth | None) -> bool:
+    """Whether the way out that was found, by parts for instance, is no longer than the band."""
+    return depth is not None and depth.escape.verified and depth.upper <= pair.tolerance
 
 
 def _depth_figures(depth: Depth) -> dict[str, Any]:
@@ -112,14 +124,16 @@ def _depth_quality(contact: Contact, depth: Depth | None) -> Quality:
 
 
 def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
-    clearance = pair.settings.clearance
-    relation, proven = contact.relation, contact.proven
+    relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
+    broken = _broken_clearance(pair, gap.lower)
     if gap.upper <= pair.tolerance:
         relation = "touching"
-    elif clearance is not None and relation == "separated" and gap.lower < clearance:
-        relation, proven = "near", proven and math.isfinite(gap.upper)
+    elif broken and relation == "separated":
+        relation = "near"
+        if math.isinf(gap.upper):
+            proven, reason = False, f"the gap is {_unproven(pair)}"
     figures: dict[str, Any] = {}
-    if clearance is not None and math.isfinite(gap.upper):
+    if pair.settings.clearance is not None and math.isfinite(gap.upper):
         figures = {"distance": gap.upper, "normal": gap.normal, "witness": gap.witness}
     return _finding(
         pair.a.id,
@@ -129,22 +143,21 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
         exact_relation=contact.relation if contact.proven else None,
         quality="exact" if proven else "estimate",
         tolerance=pair.tolerance,
-        reason=_weakness(pair, contact),
-        **_rule(pair, relation),
+        reason=reason,
+        **broken,
         **figures,
     )
 
 
-def _rule(pair: Pair, relation: Relation) -> dict[str, Any]:
-    """Bodies that touch keep no clearance either, so a clearance makes that an error."""
-    kept = pair.settings.clearance or 0.0
-    if relation == "near" or (relation == "touching" and kept > pair.tolerance):
+def _broken_clearance(pair: Pair, gap: float) -> dict[str, Any]:
+    """gap: as far as it is proven. Empty where the clearance is kept or none was asked for."""
+    if gap < (pair.settings.clearance or 0.0):
         return {"rule": CLEARANCE_RULE, "severity": "error"}
     return {}
 
 
 def _severity(relation: Relation) -> Severity:
-    if relation in OVERLAPS or relation == "near":
+    if relation in OVERLAPS:
         return "error"
     return "note" if relation == "touching" else "none"
 

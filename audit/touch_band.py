@@ -1,10 +1,12 @@
-"""Whether a pair of concave meshes that cross is only flush: free after a move within the band.
+"""The touch band, one rule for every pair: the signed distance is proven to be within it.
 
-A part that was set flush into another crosses it by the rounding of its file, however deep it sits
-in the hull of the other. One crossing pair of triangles that is deeper than the band proves the
-contrary at once. Otherwise A is nudged off the triangles it crosses, a third of the band at a time,
-so that a part in a corner can leave three walls; a nudge that frees it is an upper bound of its
-depth that lies within the band.
+A gap is within it when it is known to be no longer than the tolerance, an overlap when a verified
+translation of A that is no longer than the tolerance ends it. Two convex bodies need no search.
+For the others, what proves the contrary at once comes first: one crossing pair of triangles that is
+deeper, a wider gap around a body inside another. Then the way out of the hulls is tried, then A is
+nudged off the triangles it crosses, a third of the band at a time, so that a part in a corner can
+leave three walls. A part that was set flush into another crosses it by the rounding of its file,
+however deep it sits in the hull of the other. A wide band is searched as the depth is.
 """
 
 from __future__ import annotations
@@ -12,50 +14,113 @@ from __future__ import annotations
 import math
 
 from satcheck import core
+from satcheck.audit.cheap_bounds import WayOut, gap_around, way_out_of_hulls
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
+from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.triangles import Crossing, crossing_depth, triangle_normal
 from satcheck.audit.vectors import added, scaled
-from satcheck.audit.verify import FREE
+from satcheck.audit.verify import FREE, relation_after
 
 WALLS = 3
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 
-def flush_nudge(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
-    """A translation of A, at most the tolerance long, after which it is free; None: none found."""
-    if pair.tolerance == 0 or contact.crossing is None:
-        return None
-    if crossing_depth(pair, contact.crossing) > pair.tolerance:
-        plan.record("touch-band", "deeper", "two triangles cross by more than the tolerance")
-        return None
-    nudge = _search(pair, contact.crossing, ORIGIN, WALLS)
-    plan.record(
-        "touch-band",
-        "deeper" if nudge is None else "flush",
-        f"no nudge of {pair.tolerance:.3g} was found that frees A"
-        if nudge is None
-        else f"a nudge of {math.hypot(*nudge):.3g} frees A",
-    )
-    return nudge
+def estimate_is_within(pair: Pair, plan: Plan) -> bool:
+    """Whether the shapes that a capped ladder ends with overlap by no more than the tolerance.
+
+    The bodies inside them then overlap by no more than that; how far apart they are stays open.
+    """
+    out = way_out_of_hulls(pair)
+    within = out.upper <= pair.tolerance
+    if within:
+        plan.record("touch-band", "within", f"{_band(pair)}: the {out.by} overlap by no more")
+    return within
 
 
-def _search(pair: Pair, crossing: Crossing, at: Vector, walls: int) -> Vector | None:
-    """Depth first: step off the crossing triangles, then off those that are then crossed."""
-    step = pair.tolerance / WALLS
-    for away in _ways_off(pair, crossing):
-        there = added(at, scaled(away, step))
-        moved = core.Surface(pair.a.mesh.translated(there), pair.a.solid)
-        found = core.mesh_relation(moved, pair.b.surface())
-        if found.proven and found.relation in FREE:
-            return there
-        if walls > 1 and found.triangle_a >= 0 and found.triangle_b >= 0:
-            further = _search(pair, (found.triangle_a, found.triangle_b), there, walls - 1)
+def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
+    """A translation of A, at most the tolerance long, after which it is free; None: none found.
+
+    For an overlap that the triangles decided.
+    """
+    if pair.tolerance == 0:
+        return None
+    lower = max(crossing_depth(pair, contact.crossing), gap_around(pair, contact))
+    if lower > pair.tolerance:
+        plan.record("touch-band", "deeper", f"{_band(pair)}: at least {lower:.3g} deep")
+        return None
+    hulls = way_out_of_hulls(pair)
+    nudges = _Nudges(pair)
+    move = _out_of_hulls(pair, hulls) or nudges.off(contact.crossing)
+    if move is None and nudges.deepest > pair.tolerance:
+        plan.record("touch-band", "deeper", f"{_band(pair)}: at least {nudges.deepest:.3g} deep")
+        return None
+    move = move or _searched(pair, contact, hulls, lower, plan)
+    if move is None:
+        plan.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
+    else:
+        plan.record("touch-band", "within", f"{_band(pair)}: {math.hypot(*move):.3g} frees A")
+    return move
+
+
+def _band(pair: Pair) -> str:
+    source = "the input precision" if pair.settings.tolerance is None else "as asked"
+    return f"tolerance {pair.tolerance:.3g}, {source}"
+
+
+def _out_of_hulls(pair: Pair, hulls: WayOut) -> Vector | None:
+    for length in (hulls.upper, hulls.upper + rounding_pad(pair.largest_coordinate)):
+        move = scaled(hulls.normal, -length)
+        if 0 < length <= pair.tolerance and relation_after(pair, move) in FREE:
+            return move
+    return None
+
+
+def _searched(
+    pair: Pair, contact: Contact, hulls: WayOut, lower: float, plan: Plan
+) -> Vector | None:
+    """By the search for the depth, with or without a depth asked for; not for a narrow band."""
+    from satcheck.audit.concave_depth import is_fine
+    from satcheck.audit.escape_search import escape_on_meshes
+
+    if is_fine(pair, hulls.upper):
+        return None
+    found = escape_on_meshes(pair, contact, hulls.upper, hulls.normal, lower, plan)
+    return found if found is not None and math.hypot(*found) <= pair.tolerance else None
+
+
+class _Nudges:
+    """deepest: a lower bound of the depth, by the triangles that were found to cross."""
+
+    def __init__(self, pair: Pair) -> None:
+        self._pair = pair
+        self.deepest = 0.0
+
+    def off(
+        self, crossing: Crossing | None, at: Vector = ORIGIN, walls: int = WALLS
+    ) -> Vector | None:
+        """Depth first: step off the crossing triangles, then off those that are then crossed."""
+        if crossing is None:
+            return None
+        pair = self._pair
+        for away in _ways_off(pair, crossing):
+            there = added(at, scaled(away, pair.tolerance / WALLS))
+            moved = core.Surface(pair.a.mesh.translated(there), pair.a.solid)
+            found = core.mesh_relation(moved, pair.b.surface())
+            if found.proven and found.relation in FREE:
+                return there
+            if found.triangle_a < 0 or found.triangle_b < 0:
+                continue
+            blocking = (found.triangle_a, found.triangle_b)
+            self.deepest = max(self.deepest, crossing_depth(pair, blocking))
+            if self.deepest > pair.tolerance:
+                return None
+            further = self.off(blocking, there, walls - 1) if walls > 1 else None
             if further is not None:
                 return further
-    return None
+        return None
 
 
 def _ways_off(pair: Pair, crossing: Crossing) -> list[Vector]:

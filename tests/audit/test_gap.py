@@ -48,6 +48,34 @@ def test_bodies_that_touch_keep_no_clearance(tmp_path):
     assert (finding.relation, finding.severity) == ("touching", "error")
 
 
+@pytest.mark.parametrize(
+    ("shift", "clearance", "broken", "distance"),
+    [
+        (1.25, 0.5, True, 0.25),
+        (1.25, 0.25, False, 0.25),
+        (1.25, 0.125, False, 0.25),
+        (1.0, 0.125, True, 0.0),
+        (1.0, 0.0, False, 0.0),
+        (0.75, 0.125, True, -0.25),
+    ],
+)
+def test_a_wide_band_hides_no_broken_clearance(tmp_path, shift, clearance, broken, distance):
+    scene = scene_of(tmp_path, a=unit_box(), b=unit_box(shift))
+    for depth in (True, False):
+        finding = only(check(scene, Settings(tolerance=1.0, clearance=clearance, depth=depth)))
+        assert finding.relation == "touching"
+        expected = ("error", "clearance") if broken else ("note", None)
+        assert (finding.severity, finding.rule) == expected
+        assert finding.distance == pytest.approx(distance)
+
+
+@pytest.mark.parametrize(("clearance", "severity"), [(0.75, "error"), (0.5, "note")])
+def test_a_concave_gap_within_the_band(tmp_path, clearance, severity):
+    scene = scene_of(tmp_path, a=bracket(), b=unit_box(2.5, 3, 1))
+    finding = only(check(scene, Settings(tolerance=1.0, clearance=clearance)))
+    assert (finding.relation, finding.severity, finding.distance) == ("touching", severity, 0.5)
+
+
 @pytest.mark.parametrize(("clearance", "relation"), [(0.75, "near"), (0.25, "separated")])
 def test_concave_distance(tmp_path, clearance, relation):
     scene = scene_of(tmp_path, a=bracket(), b=unit_box(2.5, 3, 1))
@@ -63,4 +91,5 @@ def test_a_capped_ladder_cannot_measure(tmp_path):
     finding = only(check(scene, Settings(accuracy="hull", clearance=5.0)))
     assert (finding.relation, finding.quality) == ("near", "estimate")
     assert finding.distance is None
+    assert finding.reason == "the gap is not proven at --accuracy hull"
     assert finding.exact_relation == "separated"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from satcheck.audit import Settings, check
@@ -65,6 +67,61 @@ def test_a_deep_concave_pair_is_not_nudged(tmp_path):
     finding = only(check(scene, Settings(tolerance=1e-6, depth=False)))
     assert finding.relation == "penetrating"
     assert [s.result for s in finding.plan if s.stage == "touch-band"] == ["deeper"]
+
+
+PEG = unit_box(1.5, 3, 1, edge=2.0)  # 0.5 deep in an arm of the bracket
+SEED = unit_box(0.75, 4, 1)  # inside that arm, 1.25 deep
+
+
+@pytest.mark.parametrize("depth", [True, False])
+@pytest.mark.parametrize(
+    ("meshes", "exact", "within", "beyond"),
+    [
+        ((bracket(), PEG), "penetrating", (0.6, 2.0, 9.0), (0.1, 0.4)),
+        ((bracket(), SEED), "contains", (1.5, 5.0), (0.1, 1.0)),
+        ((bracket(), bracket()), "coincident", (3.0, 9.0), (0.5, 1.5)),
+        ((unit_box(), unit_box()), "coincident", (1.0, 5.0), (0.5,)),
+        ((unit_box(edge=4.0), unit_box(1, 1, 1)), "contains", (2.0, 5.0), (1.5,)),
+    ],
+    ids=["crossing", "nested", "coincident", "convex coincident", "convex nested"],
+)
+def test_one_rule_for_every_overlap(tmp_path, meshes, exact, within, beyond, depth):
+    scene = scene_of(tmp_path, a=meshes[0], b=meshes[1])
+    for tolerance in (*within, *beyond):
+        finding = only(check(scene, Settings(tolerance=tolerance, depth=depth)))
+        assert finding.relation == ("touching" if tolerance in within else exact), tolerance
+        assert finding.exact_relation == exact
+
+
+@pytest.mark.parametrize("mesh", [PEG, SEED], ids=["crossing", "nested"])
+def test_a_wide_band_does_not_make_the_figures_coarser(tmp_path, mesh):
+    scene = scene_of(tmp_path, a=bracket(), b=mesh)
+    plain = only(check(scene))
+    for tolerance in (1.3, 2.0, 9.0):
+        finding = only(check(scene, Settings(tolerance=tolerance)))
+        assert finding.relation == "touching"
+        assert finding.depth <= plain.depth
+        assert finding.depth_bounds[0] <= plain.depth
+        assert math.hypot(*finding.mtv) <= math.hypot(*plain.mtv)
+
+
+@pytest.mark.parametrize("accuracy", ["aabb", "obb", "hull", "parts", "exact"])
+def test_boxes_that_only_touch_have_no_depth_on_any_rung(tmp_path, accuracy):
+    scene = scene_of(tmp_path, a=unit_box(), b=unit_box(1.0))
+    finding = only(check(scene, Settings(accuracy=accuracy)))
+    proven = accuracy not in ("aabb", "obb")
+    assert finding.relation == "touching"
+    assert (finding.depth, finding.mtv) == (None, None)
+    assert finding.quality == ("exact" if proven else "estimate")
+    assert (finding.reason is None) == proven
+
+
+def test_the_band_is_named_and_nothing_unproven_called_deeper(tmp_path):
+    scene = scene_of(tmp_path, a=bracket(), b=bracket())
+    finding = only(check(scene, Settings(tolerance=1e-3, depth=False)))
+    (stage,) = [stage for stage in finding.plan if stage.stage == "touch-band"]
+    assert stage.result == "not found"
+    assert stage.detail.startswith("tolerance 0.001, as asked")
 
 
 def test_default_band_never_swallows_a_body(tmp_path):
