@@ -18,6 +18,7 @@ from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Severity
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.touch_band import estimate_is_within, move_within
+from satcheck.audit.unseen import unseen_inside, unseen_severity
 
 CLEARANCE_RULE = "clearance"
 ID_DIGITS = 12
@@ -132,9 +133,14 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
         relation = "near"
         if math.isinf(gap.upper):
             proven, reason = False, f"the gap is {_unproven(pair)}"
+    unseen = unseen_inside(pair, contact)
+    if unseen is not None:
+        reason = unseen
+        plan.record("containment", "not checked", unseen)
     figures: dict[str, Any] = {}
     if pair.settings.clearance is not None and math.isfinite(gap.upper):
         figures = {"distance": gap.upper, "normal": gap.normal, "witness": gap.witness}
+    severity = {} if unseen is None else {"severity": unseen_severity(pair)}
     return _finding(
         pair.a.id,
         pair.b.id,
@@ -144,7 +150,7 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
         quality="exact" if proven else "estimate",
         tolerance=pair.tolerance,
         reason=reason,
-        **broken,
+        **{**severity, **broken},
         **figures,
     )
 

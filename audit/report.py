@@ -65,11 +65,16 @@ class PairCounts:
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """by_relation counts every pair that is not allowed; pruned pairs count as separated."""
+    """by_relation counts every pair that is not allowed; pruned pairs count as separated.
+
+    surfaces_only: of those, the decided pairs of which one body may lie inside the other, but the
+    other has no inside to check (warnings; none with Settings.allow_open).
+    """
 
     verdict: Verdict
     pairs: PairCounts
     by_relation: Mapping[Relation, int]
+    surfaces_only: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,6 +227,7 @@ def _summary(summary: Summary) -> dict[str, Any]:
             "indeterminate": pairs.indeterminate,
         },
         "by_relation": {name: summary.by_relation.get(name, 0) for name in RELATIONS},
+        "surfaces_only": summary.surfaces_only,
     }
 
 

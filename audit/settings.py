@@ -25,6 +25,7 @@ class Settings:
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
     accuracy: the highest rung of the ladder that may be climbed.
+    allow_open: a body that may lie in another one without an inside is a note, not a warning.
     list_pruned: findings for pairs that the broad phase settled; None: up to 16 bodies.
     depth_width: relative width of a depth interval that is narrow enough.
     part_*: how concave meshes are split into convex parts, and what that may cost.
@@ -35,6 +36,7 @@ class Settings:
     clearance: float | None = None
     tolerance: float | None = None
     accuracy: Accuracy = "exact"
+    allow_open: bool = False
     list_pruned: bool | None = None
     depth_width: float = DEPTH_WIDTH
     part_threshold: float = 0.05
@@ -67,6 +69,7 @@ class Settings:
             "clearance": self.clearance,
             "tolerance": "input-precision" if self.tolerance is None else self.tolerance,
             "accuracy": self.accuracy,
+            "allow_open": self.allow_open,
             "list_pruned": self.list_pruned,
             "depth_width": self.depth_width,
             "part_threshold": self.part_threshold,

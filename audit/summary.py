@@ -52,14 +52,20 @@ def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts
 def summarise(counts: PairCounts, findings: Sequence[Finding]) -> Summary:
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     by_relation["separated"] += counts.total - counts.allowed - len(findings)
-    return Summary(_verdict(counts, findings), counts, by_relation)
+    surfaces_only = sum(
+        finding.severity == "warning" and finding.relation != "indeterminate"
+        for finding in findings
+    )
+    verdict = _verdict(counts, findings, surfaces_only)
+    return Summary(verdict, counts, by_relation, surfaces_only)
 
 
-def _verdict(counts: PairCounts, findings: Sequence[Finding]) -> Verdict:
+def _verdict(counts: PairCounts, findings: Sequence[Finding], surfaces_only: int) -> Verdict:
     """An error finding stands whatever else is unknown; a check of nothing never passes."""
     if any(finding.severity == "error" for finding in findings):
         return "fail"
-    return "incomplete" if counts.indeterminate or not counts.total else "pass"
+    unchecked = counts.indeterminate + surfaces_only
+    return "incomplete" if unchecked or not counts.total else "pass"
 
 
 def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
