@@ -98,7 +98,7 @@ def place(scene: Scene, settings: Settings) -> Roster:
         mesh = shared.setdefault(body.file.sha256, SharedMesh(body.file, settings))
         try:
             placed[index] = PlacedBody(body, mesh)
-        except ValueError as error:
+        except (ValueError, OverflowError) as error:
             lost[index] = Lost(body.id, body.file.path, f"cannot be placed: {error}")
             issues.append(_unplaceable(body, error))
     return Roster(
@@ -112,5 +112,5 @@ def place(scene: Scene, settings: Settings) -> Roster:
     )
 
 
-def _unplaceable(body: Body, error: ValueError) -> Issue:
+def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:
     return Issue("unplaceable", "error", body.id, body.file.path, str(error))

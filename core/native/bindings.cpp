@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "batch.hpp"
+#include "numeric_range.hpp"
 #include "sat_polygon.hpp"
 
 namespace nb = nanobind;
@@ -36,6 +37,7 @@ Pose pose_from(const double* p) {
   const double norm_squared = x * x + y * y + z * z + w * w;
   for (int i = 0; i < 7; ++i) {
     if (!std::isfinite(p[i])) throw std::invalid_argument("a pose has a coordinate that is not finite");
+    if (i < 3 && !in_range(p[i])) throw std::overflow_error("a pose has a translation that is out of range");
   }
   if (!(norm_squared > 0)) throw std::invalid_argument("a pose has a quaternion of length 0");
   const double k = 2 / norm_squared;
@@ -232,7 +234,8 @@ void bind_shapes(nb::module_& m) {
       .def_prop_ro("dimension", [](const Shape& s) { return s.is_polytope() ? s.polytope.dimension : 3; });
   nb::class_<HullShape, Shape>(m, "Hull",
                               R"(Convex hull of points, an (n, 3) float64 array or a sequence of (x, y, z), n >= 1, or of a
-Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite.)")
+Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite, OverflowError when one other than 0 lies
+outside 1e-80 .. 1e45, beyond which nothing is proven.)")
       .def(
           "__init__", [](HullShape* self, const Points& points) { new (self) HullShape{make_hull(to_points(points))}; },
           nb::arg("points").noconvert())
@@ -312,7 +315,8 @@ pose_a, pose_b  None, (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw): rotate by th
 query           "overlap" gives the outcome only and stops at the first proof; "depth" and "distance" give
                 the signed distance, normal and witness points.
 method          "auto", or "sat" / "gjk" to take that one where it applies.
-Raises ValueError for a pose that is not finite or an unknown query or method.
+Raises ValueError for a pose that is not finite or an unknown query or method, OverflowError for a
+translation out of range.
 
 SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), GJK (Gilbert, Johnson, Keerthi 1988), EPA on signed
 face distances (after van den Bergen 2001), exact signs (Shewchuk 1997) where float64 cannot tell.)");

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "numeric_range.hpp"
 #include "polytope.hpp"
 #include "polytope_faces.hpp"
 #include "predicates.hpp"
@@ -26,9 +27,7 @@ struct DistinctPoints {
 
 DistinctPoints distinct(const std::vector<Vec3>& points) {
   if (points.empty()) throw std::invalid_argument("the convex hull needs at least one point");
-  for (const Vec3& p : points) {
-    if (!is_finite(p)) throw std::invalid_argument("the convex hull needs finite coordinates");
-  }
+  require_in_range(points, "point");
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {

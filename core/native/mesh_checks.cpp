@@ -4,17 +4,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "numeric_range.hpp"
+
 namespace satcheck {
 
 void require_valid(const Mesh& mesh) {
   // Half-edges are numbered 3 t + i in 32 bits.
   constexpr std::size_t kMaxTriangles = std::numeric_limits<std::uint32_t>::max() / 3 - 1;
   if (mesh.triangles.size() > kMaxTriangles) throw std::invalid_argument("too many triangles");
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (!is_finite(mesh.vertices[i])) {
-      throw std::invalid_argument("vertex " + std::to_string(i) + " is not finite");
-    }
-  }
+  require_in_range(mesh.vertices, "vertex");
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const std::uint32_t v : mesh.triangles[t]) {
       if (v >= mesh.vertices.size()) {

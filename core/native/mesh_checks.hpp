@@ -5,7 +5,7 @@
 
 namespace satcheck {
 
-// Throws std::invalid_argument on a coordinate that is not finite or an index out of range.
+// Throws std::invalid_argument on a coordinate (numeric_range.hpp) or an index out of range.
 void require_valid(const Mesh& mesh);
 
 }  // namespace satcheck

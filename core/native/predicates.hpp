@@ -4,8 +4,7 @@
 // Geometric Predicates" (1997). A float64 filter with a static bound decides the generic case;
 // otherwise the determinant is expanded without rounding, for the sign alone.
 //
-// Range: exact while no product of three coordinate differences overflows or underflows, that is
-// for differences between about 1e-97 and 1e+102 in magnitude (or exactly 0).
+// Range: exact for the coordinates of numeric_range.hpp, which everything that calls them enforces.
 #pragma once
 
 #include <vector>

@@ -2,13 +2,15 @@
 
 #include <stdexcept>
 
+#include "numeric_range.hpp"
+
 namespace satcheck {
 
 namespace {
 
 void require_positive(double value, const char* what) {
-  if (!(value > 0) || !std::isfinite(value)) {
-    throw std::invalid_argument(std::string(what) + " must be positive and finite");
+  if (!(value >= kSmallestSize && value <= kLargestCoordinate)) {
+    throw std::invalid_argument(std::string(what) + " must be positive, and between 1e-45 and 1e45");
   }
 }
 

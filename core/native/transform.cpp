@@ -1,20 +1,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "numeric_range.hpp"
 #include "predicates.hpp"
 #include "topology.hpp"
 
 namespace satcheck {
-namespace {
-
-void require_finite(const std::vector<Vec3>& points) {
-  for (const Vec3& p : points) {
-    if (!is_finite(p)) throw std::invalid_argument("a transformed coordinate is not finite");
-  }
-}
-
-}  // namespace
-
 Mesh transform(const Mesh& mesh, const std::array<double, 16>& m) {
   for (const double entry : m) {
     if (!std::isfinite(entry)) throw std::invalid_argument("the matrix is not finite");
@@ -30,7 +21,7 @@ Mesh transform(const Mesh& mesh, const std::array<double, 16>& m) {
     p = {rounded_affine(row[0], p, m[3]), rounded_affine(row[1], p, m[7]),
          rounded_affine(row[2], p, m[11])};
   }
-  require_finite(result.vertices);
+  require_in_range(result.vertices, "transformed vertex");
   if (handedness < 0) {
     for (Triangle& t : result.triangles) std::swap(t[1], t[2]);
   }
@@ -40,7 +31,7 @@ Mesh transform(const Mesh& mesh, const std::array<double, 16>& m) {
 Mesh translate(const Mesh& mesh, Vec3 offset) {
   Mesh result{mesh.vertices, mesh.triangles};
   for (Vec3& p : result.vertices) p = p + offset;
-  require_finite(result.vertices);
+  require_in_range(result.vertices, "transformed vertex");
   return result;
 }
 

@@ -34,6 +34,8 @@ def load_mesh_file(path: str, location: Path, *, seconds: float, megabytes: int)
         raise MeshFileError("reader-out-of-memory", "out of memory", file=path) from None
     except ValueError as error:  # the mesh refuses what a reader let through
         raise MeshFileError("bad-record", str(error), file=path) from error
+    except OverflowError as error:
+        raise MeshFileError("out-of-range", str(error), file=path) from error
     low, high = examined.mesh.bounds
     largest = max(map(abs, (*low, *high)))
     return MeshFile(
