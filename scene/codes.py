@@ -46,7 +46,7 @@ _ALL = (
     Code("entity-declaration", "error", "XML entity declarations are refused."),
     # Its geometry.
     Code("non-finite", "error", "A coordinate is infinite or not a number."),
-    Code("out-of-range", "error", "A coordinate, or the whole, is too large or too small to be exact."),
+    Code("out-of-range", "error", "The coordinates are too large or too small to be exact."),
     Code("empty-mesh", "error", "The mesh has no triangles."),
     Code("only-degenerate", "error", "Every triangle of the mesh has area 0."),
     Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
