@@ -33,6 +33,7 @@ class Choices:
     clearance: Length | None
     tolerance: Length | None
     accuracy: str
+    allow_open: bool
     jobs: int
     cache: bool
     timings: bool
@@ -115,6 +116,7 @@ def _settings(choices: Choices, scene: Scene) -> Any:
         clearance=length(choices.clearance, "--clearance"),
         tolerance=length(choices.tolerance, "--tolerance"),
         accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it
+        allow_open=choices.allow_open,
         jobs=choices.jobs,
         cache=choices.cache,
         timings=choices.timings,

@@ -142,6 +142,11 @@ def satcheck() -> None:
     "All but exact may report overlaps that are none, and say so.",
 )
 @click.option(
+    "--allow-open",
+    is_flag=True,
+    help="A mesh that is not closed has no inside: do not report that as incomplete.",
+)
+@click.option(
     "-j",
     "--jobs",
     type=click.IntRange(min=0),
@@ -170,6 +175,7 @@ def check(
     clearance: Length | None,
     tolerance: Length | None,
     accuracy: str,
+    allow_open: bool,
     jobs: int,
     no_cache: bool,
     no_timings: bool,
@@ -199,6 +205,7 @@ def check(
             clearance=clearance,
             tolerance=tolerance,
             accuracy=accuracy,
+            allow_open=allow_open,
             jobs=jobs,
             cache=not no_cache,
             timings=not no_timings,

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 import pytest
 
 from tests.cli.process import (
     APART,
     PUSHED,
+    SAMPLES,
     VALIDATOR,
     satcheck,
 )
@@ -71,6 +75,27 @@ def test_tolerance_widens_the_touch_band() -> None:
     (finding,) = satcheck("--format", "json", "--tolerance", "2", *PUSHED).document["findings"]
     assert finding["relation"] == "touching"
     assert finding["exact_relation"] == "penetrating"
+
+
+def test_a_body_within_an_open_mesh_is_no_pass() -> None:
+    last = "No collision found, but 1 pair was checked by surfaces only."
+    ran = satcheck("open_box.off", "cube.off")
+    assert ran.code == 3
+    assert "open_box is not closed: 1 pair was checked by surfaces only" in ran.out
+    assert ran.out.splitlines()[-1].endswith(last)
+    allowed = satcheck("--allow-open", "open_box.off", "cube.off")
+    assert allowed.code == 0
+    assert allowed.out.splitlines()[-1].endswith(last)
+
+
+def test_nothing_checked_is_no_pass(tmp_path: Path) -> None:
+    bodies = [{"id": id, "mesh": str(SAMPLES / "box.obj")} for id in ("base", "bolt")]
+    scene = {"schema": "satcheck-scene-1", "name": "x", "bodies": bodies}
+    scene |= {"allowed_pairs": [["base", "bolt", "bolted down"]]}
+    (tmp_path / "scene.json").write_text(json.dumps(scene), encoding="utf-8")
+    ran = satcheck(str(tmp_path / "scene.json"))
+    assert "No pair was checked: all are allowed by the scene." in ran.out
+    assert "No collision" not in ran.out
 
 
 def test_explain_tells_the_plan() -> None:
