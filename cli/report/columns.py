@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from rich.cells import cell_len, chop_cells
+
 from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.numbers import duration, number, vector
 from satcheck.cli.report.words import depth
@@ -36,11 +38,13 @@ class Column:
 
     @property
     def widest(self) -> int:
-        return max(len(text) for text in (self.name, *self.cells))
+        return max(cell_len(text) for text in (self.name, *self.cells))
 
     @property
     def longest_word(self) -> int:
-        return max(len(word) for text in (self.name, *self.cells) for word in text.split() or [""])
+        return max(
+            cell_len(word) for text in (self.name, *self.cells) for word in text.split() or [""]
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,11 +105,10 @@ def broken(name: str, width: int) -> str:
     """In lines of at most `width`, ended after `_`, `-`, `.`, `/` or a space where one is there."""
     lines = [""]
     for piece in _PIECES.findall(name):
-        if len(lines[-1]) + len(piece) > width and lines[-1]:
+        if cell_len(lines[-1]) + cell_len(piece) > width and lines[-1]:
             lines.append("")
         lines[-1] += piece
-        while len(lines[-1]) > width:
-            lines[-1:] = [lines[-1][:width], lines[-1][width:]]
+        lines[-1:] = chop_cells(lines[-1], width) or [""]
     return "\n".join(lines)
 
 

@@ -100,7 +100,12 @@ def test_a_narrow_terminal_drops_time_then_quality_then_breaks_names() -> None:
 
 @pytest.mark.parametrize(
     ("name", "width", "lines"),
-    [("l_bracket", 6, "l_\nbracke\nt"), ("peg_in_arm", 8, "peg_in_\narm"), ("rod", 8, "rod")],
+    [
+        ("l_bracket", 6, "l_\nbracke\nt"),
+        ("peg_in_arm", 8, "peg_in_\narm"),
+        ("rod", 8, "rod"),
+        ("歯車_a", 5, "歯車_\na"),
+    ],
 )
 def test_names_are_broken_after_a_separator(name: str, width: int, lines: str) -> None:
     assert broken(name, width) == lines
