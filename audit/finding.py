@@ -27,7 +27,7 @@ ID_DIGITS = 12
 def finding_id(a: str, b: str) -> str:
     """Stable for the two bodies, whatever their order, pose or result."""
     key = "\0".join(sorted((a, b)))
-    return hashlib.sha256(key.encode()).hexdigest()[:ID_DIGITS]
+    return hashlib.sha256(key.encode(errors="surrogateescape")).hexdigest()[:ID_DIGITS]
 
 
 def examine(pair: Pair, plan: Plan) -> Finding:
@@ -95,8 +95,13 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
 def _is_shallow(pair: Pair, contact: Contact, plan: Plan) -> bool:
     """Whether an overlap within the touch band needs no triangles to be seen."""
     if contact.convex is not None:
-        return -(contact.convex.distance or 0.0) <= pair.tolerance
+        return -(contact.convex.lower or 0.0) <= _band_with_rounding(pair)
     return not pair.may("exact") and estimate_is_within(pair, plan)
+
+
+def _band_with_rounding(pair: Pair) -> float:
+    """The tolerance, and what rounding may add to a proven bound of a length equal to it."""
+    return pair.tolerance * (1 + EXACT_WIDTH)
 
 
 def _is_within(pair: Pair, depth: Depth | None) -> bool:
@@ -127,7 +132,7 @@ def _depth_quality(contact: Contact, depth: Depth | None) -> Quality:
 def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
     relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
     broken = _broken_clearance(pair, gap.lower)
-    if gap.upper <= pair.tolerance:
+    if gap.most <= _band_with_rounding(pair):
         relation = "touching"
     elif broken and relation == "separated":
         relation = "near"

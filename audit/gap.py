@@ -10,17 +10,20 @@ from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector, Witness
+from satcheck.audit.tolerances import rounding_pad
 
 
 @dataclass(frozen=True, slots=True)
 class Gap:
-    """The distance, world units: lower <= true distance <= upper (inf: unknown).
+    """The distance, world units, to rounding: lower <= true distance <= upper (inf: unknown).
 
-    normal: unit, from A to B; None where the points coincide. witness: the closest points.
+    most: a proven upper bound, rounding granted: what the touch band asks for. normal: unit, from A
+    to B; None where the points coincide. witness: the closest points.
     """
 
     lower: float
     upper: float
+    most: float
     normal: Vector | None = None
     witness: Witness | None = None
 
@@ -31,20 +34,21 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
         return _convex_gap(contact.convex)
     if contact.relation == "touching":
         witness = contact.point and Witness(contact.point, contact.point)
-        return Gap(0.0, 0.0, None, witness)
+        return Gap(0.0, 0.0, 0.0, None, witness)
     settled = contact.gap_lower > pair.asked_gap or pair.asked_gap == 0
     if settled or not pair.may("exact"):
-        return Gap(contact.gap_lower, math.inf)
+        return Gap(contact.gap_lower, math.inf, math.inf)
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
     limit = pair.tolerance if pair.settings.clearance is None else math.inf
     found = core.mesh_distance(pair.a.surface(), pair.b.surface(), limit)
     if math.isinf(found.distance):
         plan.record("distance", "beyond", f"more than {limit:.6g} apart")
-        return Gap(limit, math.inf)
+        return Gap(limit, math.inf, math.inf)
     plan.record("distance", "measured", f"triangles {found.triangle_a} and {found.triangle_b}")
     return Gap(
         found.distance,
         found.distance,
+        found.distance + rounding_pad(pair.largest_coordinate),
         _direction(found.witness_a, found.witness_b),
         Witness(found.witness_a, found.witness_b),
     )
@@ -55,7 +59,7 @@ def _convex_gap(result: core.PairResult) -> Gap:
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
-    return Gap(distance, distance, result.normal, witness)
+    return Gap(distance, distance, max(result.upper or 0.0, distance), result.normal, witness)
 
 
 def _direction(start: Vector, end: Vector) -> Vector | None:

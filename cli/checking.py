@@ -65,6 +65,15 @@ def _refuse_early(choices: Choices) -> None:
         raise click.UsageError("give two or more mesh files, or a scene file")
     if choices.output and not choices.output.absolute().parent.is_dir():
         raise CannotWrite(str(choices.output), "its folder does not exist")
+    if choices.output is not None and _is_an_input(choices.output, choices.paths):
+        raise click.UsageError(f"-o {choices.output} would overwrite an input")
+
+
+def _is_an_input(output: Path, paths: tuple[str, ...]) -> bool:
+    try:
+        return any(output.samefile(path) for path in paths)
+    except OSError:  # one of them is not there yet
+        return any(output.absolute() == Path(path).absolute() for path in paths)
 
 
 def _scene(choices: Choices) -> Scene:

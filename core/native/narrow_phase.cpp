@@ -189,12 +189,13 @@ void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Po
   result.reason = Reason::none;
   if (!result.has_distance) return;
   if (result.outcome == Outcome::touching) result.distance = result.lower = result.upper = 0;
+  // Where float64 had the sign wrong, the proven bound on the right side is the figure that is left.
   if (result.outcome == Outcome::separated) {
-    result.distance = std::fmax(result.distance, 0.0);
+    if (!(result.distance > 0)) result.distance = result.upper;
     result.lower = std::fmax(result.lower, 0.0);
   }
   if (result.outcome == Outcome::penetrating) {
-    result.distance = std::fmin(result.distance, 0.0);
+    if (!(result.distance < 0)) result.distance = result.lower;
     result.upper = std::fmin(result.upper, 0.0);
   }
 }

@@ -131,3 +131,13 @@ def test_default_band_never_swallows_a_body(tmp_path):
     finding = only(check(scene_of(tmp_path, a=a, b=b)))
     assert finding.tolerance < 0.01
     assert finding.relation == "penetrating"
+
+
+def test_without_a_band_nothing_below_the_noise_of_a_distance_is_swallowed(tmp_path):
+    ulp = 2.0**-52
+    cases = ((1 - ulp / 2, "penetrating"), (1.0, "touching"), (1 + ulp, "separated"))
+    for shift, relation in cases:
+        scene = scene_of(tmp_path, a=unit_box(), b=unit_box(shift, 0.25, 0.5))
+        finding = only(check(scene, Settings(tolerance=0.0)))
+        assert finding.exact_relation == relation
+        assert finding.relation == relation

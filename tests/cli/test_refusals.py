@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -144,3 +146,23 @@ def test_ctrl_c_is_130(tmp_path: Path) -> None:
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=30)
     assert (process.returncode, out, err.strip()) == (130, "", "satcheck: interrupted")
+
+
+def test_an_input_is_not_overwritten(tmp_path: Path) -> None:
+    cube = (SAMPLES / "cube.off").read_bytes()
+    for name in ("a.off", "b.off"):
+        (tmp_path / name).write_bytes(cube)
+    done = satcheck("a.off", "b.off", "-o", "./b.off", cwd=tmp_path)
+    assert done.code == 2
+    assert "would overwrite an input" in done.err
+    assert (tmp_path / "b.off").read_bytes() == cube
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
+def test_a_name_that_is_no_utf8_is_only_a_name(tmp_path: Path) -> None:
+    odd = os.fsdecode(b"b\xff.off")
+    for name in ("a.off", odd):
+        (tmp_path / name).write_bytes((SAMPLES / "cube.off").read_bytes())
+    done = satcheck("a.off", odd, "--format", "json", cwd=tmp_path)
+    assert done.code == 1
+    assert done.document["findings"][0]["relation"] == "coincident"
