@@ -26,7 +26,7 @@ def test_the_same_request_gives_the_same_bytes(torus: Mesh) -> None:
     assert parts_of(torus) == parts_of(torus)
 
 
-@pytest.mark.parametrize("exponent", [-1000, -30, 30, 1000])
+@pytest.mark.parametrize("exponent", [-140, -30, 30, 140])
 def test_a_power_of_two_scales_the_parts_exactly(l_shape: Mesh, exponent: int) -> None:
     scaled = Mesh(np.ldexp(np.asarray(l_shape.vertices), exponent), np.asarray(l_shape.triangles))
     expected = parts_of(l_shape)

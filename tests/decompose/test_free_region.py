@@ -38,7 +38,7 @@ def test_a_part_outside_the_mesh_is_returned_as_it_is(l_shape: Mesh, box: Mesh) 
     assert free_region(part, Surface(l_shape, True)) is part
 
 
-@pytest.mark.parametrize("exponent", [-200, -30, 30, 200])
+@pytest.mark.parametrize("exponent", [-140, -30, 30, 140])
 def test_the_region_scales_with_the_mesh(l_shape: Mesh, exponent: int) -> None:
     def scaled(mesh: Mesh) -> Mesh:
         return Mesh(np.ldexp(np.asarray(mesh.vertices), exponent), np.asarray(mesh.triangles))
