@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.cli.entry import main
+from satcheck.cli import main
 
 if __name__ == "__main__":
     main()

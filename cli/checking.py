@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,11 @@ if TYPE_CHECKING:
 
 # With -o at most this many warnings are repeated on stderr.
 WARNINGS = 5
+
+
+# Up to this, a check ends before the garbage collector could pay.
+SMALL_BODIES = 2
+SMALL_TRIANGLES = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +52,10 @@ def run(choices: Choices) -> int:
     _refuse_early(choices)
     document = Document()
     scene = _scene(choices)
+    if len(scene.bodies) > SMALL_BODIES or any(
+        body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
+    ):
+        gc.enable()
     if len(scene.bodies) < 2 and choices.form == "table":  # every pair would be an empty row
         return exit_codes.ERROR
     report = _report(scene, choices)
