@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 SCHEMA = "satcheck.report/1"
 
@@ -28,16 +28,7 @@ Relation = Literal[
 Quality = Literal["exact", "bounded", "estimate"]
 Severity = Literal["error", "warning", "note", "none"]
 Verdict = Literal["pass", "fail", "incomplete"]
-RELATIONS: tuple[Relation, ...] = (
-    "separated",
-    "near",
-    "touching",
-    "penetrating",
-    "contains",
-    "inside",
-    "coincident",
-    "indeterminate",
-)
+RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # Relations with a common interior, the ones that have a depth.
 OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
 
