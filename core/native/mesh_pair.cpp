@@ -1,81 +1,15 @@
 #include "mesh_pair.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "contact.hpp"
 #include "sheet_contact.hpp"
-#include "topology.hpp"
+#include "traversal.hpp"
 #include "triangle_pair.hpp"
 
 namespace satcheck {
 namespace {
-
-struct Findings {
-  std::optional<ContactPair> crossing;
-  std::vector<ContactPair> contacts;
-  std::size_t box_tests = 0, triangle_tests = 0;
-};
-
-double half_area(const Aabb& box) {
-  const Vec3 e = box.max - box.min;
-  return e.x * e.y + e.y * e.z + e.z * e.x;
-}
-
-class Traversal {
- public:
-  Traversal(const Surface& a, const Surface& b) : a_(a), b_(b) {}
-
-  // All touching pairs, or the first crossing one.
-  Findings run() {
-    if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return {};
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
-    while (!stack.empty() && !found_.crossing) {
-      const auto [i, j] = stack.back();
-      stack.pop_back();
-      const BvhNode &m = a_.bvh.nodes[i], &n = b_.bvh.nodes[j];
-      ++found_.box_tests;
-      if (!meet(m.box, n.box)) continue;
-      if (m.is_leaf() && n.is_leaf()) {
-        test_leaves(m, n);
-      } else if (n.is_leaf() || (!m.is_leaf() && half_area(m.box) >= half_area(n.box))) {
-        stack.emplace_back(m.first + 1, j);
-        stack.emplace_back(m.first, j);
-      } else {
-        stack.emplace_back(i, n.first + 1);
-        stack.emplace_back(i, n.first);
-      }
-    }
-    return std::move(found_);
-  }
-
- private:
-  void test_leaves(const BvhNode& m, const BvhNode& n) {
-    for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
-      const std::uint32_t ta = a_.bvh.order[k];
-      const Aabb box = triangle_box(a_.mesh, ta);
-      if (!meet(box, n.box)) continue;
-      const Corners ca = corners(a_.mesh, ta);
-      for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
-        const std::uint32_t tb = b_.bvh.order[l];
-        if (!meet(box, triangle_box(b_.mesh, tb))) continue;
-        ++found_.triangle_tests;
-        const TriangleContact contact = classify(ca, corners(b_.mesh, tb));
-        if (contact == TriangleContact::disjoint) continue;
-        if (contact == TriangleContact::crossing) {
-          found_.crossing = ContactPair{ta, tb};
-          return;
-        }
-        found_.contacts.push_back({ta, tb});
-      }
-    }
-  }
-
-  const Surface& a_;
-  const Surface& b_;
-  Findings found_;
-};
 
 // The first part of `inner` inside `solid`, and whether all are. There is no contact.
 struct Containment {
@@ -158,7 +92,7 @@ MeshRelation mesh_relation(const Surface& a, const Surface& b) {
     result.point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return result;
   }
-  const Findings found = Traversal(a, b).run();
+  const SurfaceContacts found = find_contacts(a, b);
   MeshRelation result;
   if (found.crossing) {
     result.relation = Relation::penetrating;

@@ -1,0 +1,72 @@
+#include "traversal.hpp"
+
+#include <utility>
+
+#include "triangle_pair.hpp"
+
+namespace satcheck {
+namespace {
+
+double half_area(const Aabb& box) {
+  const Vec3 e = box.max - box.min;
+  return e.x * e.y + e.y * e.z + e.z * e.x;
+}
+
+class Traversal {
+ public:
+  Traversal(const Surface& a, const Surface& b) : a_(a), b_(b) {}
+
+  SurfaceContacts run() {
+    if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return {};
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
+    while (!stack.empty() && !found_.crossing) {
+      const auto [i, j] = stack.back();
+      stack.pop_back();
+      const BvhNode &m = a_.bvh.nodes[i], &n = b_.bvh.nodes[j];
+      ++found_.box_tests;
+      if (!meet(m.box, n.box)) continue;
+      if (m.is_leaf() && n.is_leaf()) {
+        test_leaves(m, n);
+      } else if (n.is_leaf() || (!m.is_leaf() && half_area(m.box) >= half_area(n.box))) {
+        stack.emplace_back(m.first + 1, j);
+        stack.emplace_back(m.first, j);
+      } else {
+        stack.emplace_back(i, n.first + 1);
+        stack.emplace_back(i, n.first);
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void test_leaves(const BvhNode& m, const BvhNode& n) {
+    for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
+      const std::uint32_t ta = a_.bvh.order[k];
+      const Aabb box = triangle_box(a_.mesh, ta);
+      if (!meet(box, n.box)) continue;
+      const Corners ca = corners(a_.mesh, ta);
+      for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
+        const std::uint32_t tb = b_.bvh.order[l];
+        if (!meet(box, triangle_box(b_.mesh, tb))) continue;
+        ++found_.triangle_tests;
+        const TriangleContact contact = classify(ca, corners(b_.mesh, tb));
+        if (contact == TriangleContact::disjoint) continue;
+        if (contact == TriangleContact::crossing) {
+          found_.crossing = ContactPair{ta, tb};
+          return;
+        }
+        found_.contacts.push_back({ta, tb});
+      }
+    }
+  }
+
+  const Surface& a_;
+  const Surface& b_;
+  SurfaceContacts found_;
+};
+
+}  // namespace
+
+SurfaceContacts find_contacts(const Surface& a, const Surface& b) { return Traversal(a, b).run(); }
+
+}  // namespace satcheck
