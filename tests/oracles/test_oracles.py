@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
-from tests.oracles import brute_sat, exact_pair
+from tests.oracles import brute_sat, exact_distance, exact_pair
 from tests.oracles.random_shapes import box_corners, moved
 
 CUBE = box_corners((1, 1, 1))
@@ -45,6 +46,32 @@ def test_float_and_rational_agree(seed: int) -> None:
     else:
         truth = math.sqrt(exact_pair.exact_squared_distance(a, b))
     assert distance == pytest.approx(truth, abs=AGREEMENT)
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_both_rational_oracles_agree(seed: int) -> None:
+    """On generic sets, and on a lattice where everything is degenerate."""
+    rng = np.random.default_rng(seed)
+    counts = rng.integers(1, 8, size=2)
+    a, b = (rng.integers(-3, 4, size=(n, 3)) / 4 for n in counts)
+    if seed % 2:
+        a, b = (rng.normal(size=(n, 3)) for n in counts)
+    truth = exact_distance.exact_truth(a, b)
+    assert truth.outcome == exact_pair.exact_outcome(a, b)
+    if truth.outcome == "penetrating":
+        low, high = exact_distance.root(exact_pair.exact_squared_depth(a, b))
+        assert (truth.low, truth.high) == (-high, -low)
+    else:
+        square = exact_pair.exact_squared_distance(a, b)
+        assert (truth.low, truth.high) == exact_distance.root(square)
+
+
+def test_roots_are_enclosed() -> None:
+    for square in (Fraction(9, 4), Fraction(2), Fraction(1, 3**200), Fraction(7**150)):
+        low, high = exact_distance.root(square)
+        assert low**2 <= square <= high**2
+        assert (high - low) * 2**250 <= high
+    assert exact_distance.root(Fraction(9, 4)) == (Fraction(3, 2), Fraction(3, 2))
 
 
 def test_flat_sets_have_no_interior() -> None:
