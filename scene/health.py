@@ -53,9 +53,10 @@ class Examined:
 def examine(mesh: Mesh) -> Examined:
     """Welds, inspects and orients a mesh.
 
-    Raises MeshFileError (without a file name) when no triangle has an area.
+    Its vertices and triangles come in an order of their own, so that no answer depends on the
+    order in the file. Raises MeshFileError (without a file name) when no triangle has an area.
     """
-    welded = mesh.welded()
+    welded = mesh.welded().sorted()
     topology = welded.topology()
     if topology.degenerate_triangles == topology.triangles:
         raise MeshFileError(

@@ -133,6 +133,7 @@ when a coordinate other than 0 lies outside 1e-80 .. 1e45, beyond which nothing 
           },
           "triangle"_a, "The three corners of one triangle; needs no numpy.")
       .def("welded", &weld, ReleaseGil(), "Vertices with equal coordinates become one; unreferenced ones are dropped; triangles keep their order.")
+      .def("sorted", &sort, ReleaseGil(), "Vertices by their coordinates, triangles by their corners: an order that a file's own does not change.")
       .def("transformed", &transform, "matrix"_a, ReleaseGil(), R"(Placed by a 4x4 matrix, 16 numbers by rows, column vectors. Each coordinate is rounded once; a mirror flips
 the winding. ValueError when the matrix is not affine, not finite or singular.)")
       .def("translated",

@@ -14,12 +14,6 @@
 namespace satcheck {
 namespace {
 
-bool coordinates_less(Vec3 a, Vec3 b) {
-  if (a.x != b.x) return a.x < b.x;
-  if (a.y != b.y) return a.y < b.y;
-  return a.z < b.z;
-}
-
 struct DistinctPoints {
   std::vector<Vec3> point;            // by x, then y, then z
   std::vector<std::uint32_t> source;  // the first input index of each

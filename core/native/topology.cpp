@@ -108,6 +108,33 @@ void count_triangles(Topology& topology, const Mesh& welded) {
 
 Mesh weld(const Mesh& mesh) { return weld_and_count(mesh).mesh; }
 
+Mesh sort(const Mesh& mesh) {
+  struct Numbered {
+    Vec3 point;
+    std::uint32_t number;
+  };
+  std::vector<Numbered> order;
+  order.reserve(mesh.vertices.size());
+  for (const Vec3& p : mesh.vertices) order.push_back({p, static_cast<std::uint32_t>(order.size())});
+  std::sort(order.begin(), order.end(), [](const Numbered& a, const Numbered& b) {
+    return a.point == b.point ? a.number < b.number : coordinates_less(a.point, b.point);
+  });
+  Mesh result;
+  result.vertices.reserve(order.size());
+  std::vector<std::uint32_t> place(order.size());
+  for (const Numbered& v : order) {
+    place[v.number] = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.push_back(v.point);
+  }
+  result.triangles = mesh.triangles;
+  for (Triangle& t : result.triangles) {
+    for (std::uint32_t& v : t) v = place[v];
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  }
+  std::sort(result.triangles.begin(), result.triangles.end());
+  return result;
+}
+
 Topology measure_topology(const Mesh& mesh) {
   const Welding welding = weld_and_count(mesh);
   const Mesh& welded = welding.mesh;

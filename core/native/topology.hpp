@@ -33,6 +33,10 @@ Topology measure_topology(const Mesh& mesh);
 // of vertices and triangles is kept.
 Mesh weld(const Mesh& mesh);
 
+// The same triangles in an order that depends on nothing but their coordinates: vertices ascending,
+// each triangle from its lowest one on, triangles ascending. Copies of a vertex stay apart.
+Mesh sort(const Mesh& mesh);
+
 // The parts connected through shared edges of the welded mesh, in order of their first triangle.
 std::vector<Mesh> split_components(const Mesh& mesh);
 

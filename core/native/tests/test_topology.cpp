@@ -1,6 +1,7 @@
 // Topology numbers and repairs of boxes that are put together and broken in known ways.
 #include "topology.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
@@ -142,6 +143,19 @@ void components_and_transforms() {
   }
 }
 
+void sorting_forgets_the_order() {
+  Mesh shuffled = unit;
+  std::reverse(shuffled.vertices.begin(), shuffled.vertices.end());
+  const auto last = static_cast<std::uint32_t>(unit.vertices.size() - 1);
+  std::reverse(shuffled.triangles.begin(), shuffled.triangles.end());
+  for (Triangle& t : shuffled.triangles) t = {last - t[1], last - t[2], last - t[0]};
+  const Mesh one = sort(unit), other = sort(shuffled);
+  CHECK(one.vertices == other.vertices && one.triangles == other.triangles);
+  CHECK(measure_topology(one).volume == measure_topology(unit).volume);
+  const Mesh flipped = sort(reversed(unit));
+  CHECK(flipped.vertices == one.vertices && flipped.triangles != one.triangles);
+}
+
 void a_million_triangles() {
   const Mesh sphere = uv_sphere(500);
   const auto start = std::chrono::steady_clock::now();
@@ -149,9 +163,13 @@ void a_million_triangles() {
   const auto middle = std::chrono::steady_clock::now();
   const Mesh turned = orient(reversed(sphere));
   const auto end = std::chrono::steady_clock::now();
-  std::printf("%zu triangles: topology %.3f s, orient %.3f s\n", sphere.triangles.size(),
+  const Mesh sorted = sort(sphere);
+  const auto sorted_at = std::chrono::steady_clock::now();
+  std::printf("%zu triangles: topology %.3f s, orient %.3f s, sort %.3f s\n", sphere.triangles.size(),
               std::chrono::duration<double>(middle - start).count(),
-              std::chrono::duration<double>(end - middle).count());
+              std::chrono::duration<double>(end - middle).count(),
+              std::chrono::duration<double>(sorted_at - end).count());
+  CHECK(sort(sorted).triangles == sorted.triangles);
   CHECK(t.solid && t.manifold && t.volume > 4.18 && t.volume < 4.19);
   CHECK(turned.triangles == sphere.triangles);
 }
@@ -165,6 +183,7 @@ int main() {
   inside_out_box_in_a_notch();
   moebius_band_stays();
   components_and_transforms();
+  sorting_forgets_the_order();
   a_million_triangles();
   return exit_status();
 }
