@@ -49,9 +49,9 @@ class Choices:
 
 def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
-    _refuse_early(choices)
+    refuse_early(choices.paths, choices.output)
     document = Document()
-    scene = _scene(choices)
+    scene = load(choices.paths)
     if len(scene.bodies) > SMALL_BODIES or any(
         body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
@@ -69,14 +69,14 @@ def run(choices: Choices) -> int:
     return exit_codes.of_report(report, exit_zero=choices.exit_zero)
 
 
-def _refuse_early(choices: Choices) -> None:
+def refuse_early(paths: tuple[str, ...], output: Path | None) -> None:
     """What can be seen to fail before any work is done."""
-    if not choices.paths:
+    if not paths:
         raise click.UsageError("give two or more mesh files, or a scene file")
-    if choices.output and not choices.output.absolute().parent.is_dir():
-        raise CannotWrite(str(choices.output), "its folder does not exist")
-    if choices.output is not None and _is_an_input(choices.output, choices.paths):
-        raise click.UsageError(f"-o {choices.output} would overwrite an input")
+    if output and not output.absolute().parent.is_dir():
+        raise CannotWrite(str(output), "its folder does not exist")
+    if output is not None and _is_an_input(output, paths):
+        raise click.UsageError(f"-o {output} would overwrite an input")
 
 
 def _is_an_input(output: Path, paths: tuple[str, ...]) -> bool:
@@ -86,15 +86,15 @@ def _is_an_input(output: Path, paths: tuple[str, ...]) -> bool:
         return any(output.absolute() == Path(path).absolute() for path in paths)
 
 
-def _scene(choices: Choices) -> Scene:
+def load(paths: tuple[str, ...]) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone."""
     from satcheck.cli.report.words import issue_line
     from satcheck.scene import load_scene
 
-    scene = load_scene(choices.paths)
+    scene = load_scene(paths)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
-    _hint(choices.paths[0])
+    _hint(paths[0])
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise click.UsageError(
             "one body alone cannot collide: give two or more mesh files, or a scene file"

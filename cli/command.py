@@ -16,6 +16,7 @@ from satcheck.cli.lengths import Length, length
 DEFAULT_COMMAND = "check"
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
 FORMATS = ("table", "json")
+DOCUMENTS = ("report", "stability")
 STANDARD_OUTPUT = Path("-")
 
 
@@ -215,6 +216,68 @@ def check(
     )
 
 
+@satcheck.command(context_settings=_HELP_NAMES)
+@click.argument("paths", nargs=2, metavar="A B", shell_complete=_complete_paths)
+@click.option(
+    "--samples",
+    type=click.IntRange(min=1),
+    metavar="N",
+    default=4,
+    show_default=True,
+    help="How many variants of each kind.",
+)
+@click.option(
+    "--seed", type=click.IntRange(min=0), metavar="N", default=0, help="Which ones.  [default: 0]"
+)
+@click.option("--depth/--no-depth", default=True, help="Compare depths as well.  [default: depth]")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="As for a check.")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
+    metavar="FILE",
+    help="Write the report to FILE; - is standard output.",
+)
+@click.option("--explain", is_flag=True, help="Show every variant, not only what went wrong.")
+@click.option("--no-cache", is_flag=True, help="Neither read nor write the cache of convex parts.")
+@debug_option
+def stability(
+    paths: tuple[str, str],
+    samples: int,
+    seed: int,
+    depth: bool,
+    form: str | None,
+    output: Path | None,
+    explain: bool,
+    no_cache: bool,
+    debug: bool,
+) -> int:
+    """Ask the same question in other ways: does the answer stay?
+
+    The mesh files A and B are scaled by powers of two, stored in another order, turned to other
+    axes, swapped, moved, retessellated and disturbed by one unit in the last place, N samples of
+    each. What changed is held against what such a change may do, by proof.
+
+    Exit code 0: all within bounds. 1: something changed beyond them. 2: wrong usage or an
+    unreadable input. 3: something could not be decided.
+    """
+    from satcheck.cli.stability import Choices, run
+
+    del debug
+    return run(
+        Choices(
+            paths=paths,
+            form=form or ("json" if output and output.suffix.lower() == ".json" else "table"),
+            output=None if output == STANDARD_OUTPUT else output,
+            samples=samples,
+            seed=seed,
+            depth=depth,
+            cache=not no_cache,
+            explain=explain,
+        )
+    )
+
+
 @satcheck.group(context_settings=_HELP_NAMES)
 def cache() -> None:
     """The cache of convex parts: info, clear.
@@ -240,8 +303,9 @@ def clear() -> None:
 
 
 @satcheck.command()
-def schema() -> None:
-    """Print the JSON Schema of the JSON report."""
+@click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
+def schema(document: str) -> None:
+    """Print the JSON Schema of the JSON report, or of another document."""
     from satcheck.cli.report.schema import text
 
-    click.echo(text(), nl=False)
+    click.echo(text(document), nl=False)

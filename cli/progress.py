@@ -16,9 +16,10 @@ PATIENCE = 0.7
 
 
 class Bar:
-    """Context manager; call it as `bar(done, total)` from any thread."""
+    """Context manager; call it as `bar(done, total)` from any thread. `unit`: what is counted."""
 
-    def __init__(self) -> None:
+    def __init__(self, unit: str = "pairs") -> None:
+        self._unit = unit
         # FORCE_COLOR would make rich write cursor movements into a redirected stderr.
         self._wanted = bool(
             sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
@@ -66,11 +67,11 @@ class Bar:
                 TextColumn("checking"),
                 BarColumn(),
                 MofNCompleteColumn(),
-                TextColumn("pairs"),
+                TextColumn(self._unit),
                 Elapsed(),
                 console=Console(stderr=True),
                 transient=True,
             )
-            task = bar.add_task("pairs", completed=self._done, total=self._total or None)
+            task = bar.add_task(self._unit, completed=self._done, total=self._total or None)
             bar.start()
             self._shown = (bar, task)

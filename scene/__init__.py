@@ -11,6 +11,7 @@ from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.loader import load_scene
+from satcheck.scene.remeshed import remeshed
 
 __all__ = [
     "CODES",
@@ -24,4 +25,5 @@ __all__ = [
     "SceneFileError",
     "Unreadable",
     "load_scene",
+    "remeshed",
 ]

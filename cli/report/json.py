@@ -13,7 +13,12 @@ _STEP = "  "
 
 def render(report: Report, *, timings: bool) -> str:
     """The document and a final newline; without timings it is the same bytes every time."""
-    return _text(report.to_dict(timings), "") + "\n"
+    return document(report.to_dict(timings))
+
+
+def document(values: dict[str, Any]) -> str:
+    """Any JSON values in that form, and a final newline."""
+    return _text(values, "") + "\n"
 
 
 def _text(value: Any, indent: str) -> str:

@@ -1,12 +1,12 @@
-"""The JSON Schema (2020-12) of the report, as published in the package."""
+"""The JSON Schemas (2020-12) of the documents, as published in the package."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-FILE = Path(__file__).with_name("report.schema.json")
+HERE = Path(__file__).parent
 
 
-def text() -> str:
-    """The schema document."""
-    return FILE.read_text(encoding="utf-8")
+def text(name: str = "report") -> str:
+    """The schema of one kind of document: `report` of a check, or `stability`."""
+    return (HERE / f"{name}.schema.json").read_text(encoding="utf-8")

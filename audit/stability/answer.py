@@ -1,0 +1,131 @@
+"""What a check said about a pair, in the frame in which the question was first asked."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from satcheck import core
+from satcheck.audit.check import check
+from satcheck.audit.report import Finding, Quality, Relation, Report, Vector, Witness
+from satcheck.audit.settings import Settings
+from satcheck.audit.stability.variant import Rows, Variant
+from satcheck.scene import Body, Scene
+
+MIRRORED: dict[Relation, Relation] = {"contains": "inside", "inside": "contains"}
+NESTED = frozenset({"contains", "inside"})
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """relation: the exact one; indeterminate, with a reason, where it is not proven.
+
+    gap: of bodies that do not overlap. depth: proven bounds, of overlapping ones. clear: how far
+    apart the surfaces of nested bodies are. largest: the largest coordinate of the world meshes.
+    convex: both bodies are; None where nobody had to know. Lengths in the units of the files.
+    """
+
+    relation: Relation
+    largest: float
+    convex: bool | None = None
+    gap: float | None = None
+    depth: tuple[float, float] | None = None
+    mtv: Vector | None = None
+    normal: Vector | None = None
+    witness: Witness | None = None
+    clear: float | None = None
+    quality: Quality | None = None
+    reason: str | None = None
+
+    @property
+    def signed(self) -> tuple[float, float] | None:
+        """Bounds of the signed distance: > 0 a gap, < 0 an overlap."""
+        if self.gap is not None:
+            return self.gap, self.gap
+        return None if self.depth is None else (-self.depth[1], -self.depth[0])
+
+
+def ask(variant: Variant, settings: Settings) -> Answer:
+    """The variant's answer, taken back. Never raises for what a check reports as a result."""
+    bodies = (variant.b, variant.a) if variant.swapped else (variant.a, variant.b)
+    largest = max(_largest_coordinate(body) for body in bodies)
+    report = check(Scene("stability", None, bodies), _with_reach(settings, largest))
+    return _taken_back(_answer(report, bodies, largest), variant)
+
+
+def _with_reach(settings: Settings, largest: float) -> Settings:
+    """Measures every gap: a clearance beyond any, a power of two, so that it scales with the pair;
+    no touch band, because the exact relation is what is asked."""
+    from dataclasses import replace
+
+    reach = math.ldexp(1.0, math.frexp(largest)[1] + 2)
+    return replace(settings, clearance=reach, tolerance=0.0, list_pruned=True, jobs=1)
+
+
+def _largest_coordinate(body: Body) -> float:
+    return max(abs(c) for corner in body.world_mesh().bounds for c in corner)
+
+
+def _answer(report: Report, bodies: tuple[Body, Body], largest: float) -> Answer:
+    (finding,) = report.findings
+    relation = finding.exact_relation
+    if finding.relation == "indeterminate" or relation is None:
+        return Answer("indeterminate", largest, reason=finding.reason or "not proven")
+    known = [one.convex for one in report.bodies]
+    overlap = finding.distance is not None and finding.distance < 0
+    return Answer(
+        relation,
+        largest,
+        convex=None if None in known else all(known),
+        gap=None if overlap else finding.distance,
+        depth=_depth(finding),
+        mtv=finding.mtv,
+        normal=finding.normal,
+        witness=finding.witness,
+        clear=_clear(bodies) if relation in NESTED else None,
+        quality=finding.quality,
+    )
+
+
+def _depth(finding: Finding) -> tuple[float, float] | None:
+    if finding.depth_bounds is not None or finding.distance is None or finding.distance >= 0:
+        return finding.depth_bounds
+    return -finding.distance, -finding.distance
+
+
+def _clear(bodies: tuple[Body, Body]) -> float:
+    one, other = (core.Surface(body.world_mesh(), body.file.health.solid) for body in bodies)
+    return core.mesh_distance(one, other).distance
+
+
+def _taken_back(answer: Answer, variant: Variant) -> Answer:
+    by = 1.0 / variant.scale  # a power of two: exact
+    sign = -1.0 if variant.swapped else 1.0
+    depth, witness = answer.depth, answer.witness
+    if witness is not None:
+        a, b = _scaled(witness.a, by), _scaled(witness.b, by)
+        witness = Witness(b, a) if variant.swapped else Witness(a, b)
+    return Answer(
+        MIRRORED.get(answer.relation, answer.relation) if variant.swapped else answer.relation,
+        answer.largest * by,
+        convex=answer.convex,
+        gap=None if answer.gap is None else answer.gap * by,
+        depth=None if depth is None else (depth[0] * by, depth[1] * by),
+        mtv=_turned_back(answer.mtv, variant.turn, sign * by),
+        normal=_turned_back(answer.normal, variant.turn, sign),
+        witness=witness,
+        clear=None if answer.clear is None else answer.clear * by,
+        quality=answer.quality,
+        reason=answer.reason,
+    )
+
+
+def _turned_back(vector: Vector | None, turn: Rows, by: float) -> Vector | None:
+    if vector is None:
+        return None
+    x, y, z = (sum(turn[row][k] * vector[row] for row in range(3)) for k in range(3))
+    return _scaled((x, y, z), by)
+
+
+def _scaled(vector: Vector, by: float) -> Vector:
+    return vector[0] * by + 0.0, vector[1] * by + 0.0, vector[2] * by + 0.0

@@ -1,0 +1,123 @@
+"""What `satcheck stability` found, for people: a row a family, what went wrong, one sentence."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from satcheck.cli.report.numbers import bounds, number, vector
+from satcheck.cli.report.words import counted
+
+if TYPE_CHECKING:
+    from satcheck.audit.stability import Answer, Family, FamilyResult, Sample, Stability
+    from satcheck.cli.output import Page
+
+_QUESTIONS: dict[Family, str] = {
+    "scale": "times powers of two",
+    "order": "vertices, faces reordered",
+    "axes": "axes exchanged, mirrored",
+    "swap": "A and B swapped",
+    "translation": "moved, exactly",
+    "retessellation": "other triangles",
+    "motion": "turned and moved",
+    "noise": "1 ulp of noise",
+}
+_COLOURS = {"same": "green", "within": "green", "beyond": "bold red", "undecided": "bold magenta"}
+
+
+def render(found: Stability, page: Page, *, explain: bool) -> str:
+    """The whole text, final newline included."""
+    written = io.StringIO()
+    console = Console(
+        file=written,
+        width=page.width,
+        force_terminal=page.colour,
+        color_system="standard" if page.colour else None,
+        no_color=not page.colour,
+        legacy_windows=False,
+        highlight=False,
+        emoji=False,
+        markup=False,
+    )
+    console.print(f"{found.a} against {found.b}: {answer_line(found.asked)}")
+    console.print(_families(found, unicode=page.unicode))
+    for family in found.families:
+        for sample in family.samples:
+            if explain or sample.comparison.judgement in ("beyond", "undecided"):
+                console.print(f"  {_sample_line(family, sample)}")
+        if family.skipped:
+            console.print(f"  {_QUESTIONS[family.family]}: not asked, {family.skipped}")
+    console.print(_summary(found))
+    return "".join(f"{line.rstrip()}\n" for line in written.getvalue().splitlines())
+
+
+def answer_line(answer: Answer) -> str:
+    """`penetrating, depth 1, move A by (-1, 0, 0)`."""
+    parts: list[str] = [answer.relation]
+    if answer.reason:
+        parts.append(answer.reason)
+    if answer.gap is not None and answer.relation == "separated":
+        parts.append(f"gap {number(answer.gap)}")
+    if answer.depth is not None:
+        parts.append(f"depth {bounds(*answer.depth)}")
+    if answer.mtv is not None:
+        parts.append(f"move A by {vector(answer.mtv)}")
+    return ", ".join(parts)
+
+
+def _families(found: Stability, *, unicode: bool) -> Table:
+    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
+    table.add_column("asked again")
+    table.add_column("samples", justify="right")
+    table.add_column("relation")
+    table.add_column("changed by", justify="right")
+    table.add_column("may be", justify="right")
+    table.add_column("verdict")
+    for family in found.families:
+        if family.samples:
+            judgement = family.judgement or ""
+            table.add_row(
+                _QUESTIONS[family.family],
+                str(len(family.samples)),
+                _relations(family),
+                "" if family.change is None else _small(family.change),
+                _small(family.bound),
+                Text(judgement, style=_COLOURS.get(judgement, "")),
+            )
+    return table
+
+
+def _relations(family: FamilyResult) -> str:
+    seen = family.relations
+    if len(seen) == 1:
+        return next(iter(seen))
+    return ", ".join(f"{count} {relation}" for relation, count in sorted(seen.items()))
+
+
+def _small(length: float) -> str:
+    return "0" if length == 0 else f"{length:.2g}"
+
+
+def _sample_line(family: FamilyResult, sample: Sample) -> str:
+    found = sample.comparison
+    line = f"{_QUESTIONS[family.family]}, {sample.how}: {answer_line(sample.answer)}"
+    if not found.beyond:
+        return f"{line} ({found.judgement})"
+    change = f" by {_small(found.change)}" if found.change else ""
+    return f"{line} ({' and '.join(found.beyond)} changed{change}, beyond the bound)"
+
+
+def _summary(found: Stability) -> str:
+    asked = f"Asked in {counted(found.asked_ways, 'other way')} (seed {found.seed})"
+    beyond = sum(s.comparison.judgement == "beyond" for f in found.families for s in f.samples)
+    unknown = sum(s.comparison.judgement == "undecided" for f in found.families for s in f.samples)
+    if beyond:
+        return f"{asked}: {counted(beyond, 'answer')} changed beyond the bound."
+    if unknown:
+        return f"{asked}: {counted(unknown, 'comparison')} could not be made."
+    return f"{asked}: nothing changed beyond its bound."

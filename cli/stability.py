@@ -1,0 +1,75 @@
+"""`satcheck stability`: from its options to a document and an exit code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from satcheck.cli import exit_codes
+from satcheck.cli.checking import load, refuse_early
+from satcheck.cli.output import PLAIN_PAGE, Document, write_file
+
+if TYPE_CHECKING:
+    from satcheck.audit.stability import Stability
+    from satcheck.cli.output import Page
+
+_EXIT_CODES = {
+    "stable": exit_codes.CLEAN,
+    "changed": exit_codes.FINDINGS,
+    "undecided": exit_codes.INCOMPLETE,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Choices:
+    """What the command line asked for."""
+
+    paths: tuple[str, ...]
+    form: str
+    output: Path | None
+    samples: int
+    seed: int
+    depth: bool
+    cache: bool
+    explain: bool
+
+
+def run(choices: Choices) -> int:
+    """Ask, write the document; returns the exit code."""
+    refuse_early(choices.paths, choices.output)
+    document = Document()
+    found = _probe(choices)
+    page = PLAIN_PAGE if choices.output else document.page
+    text = _render(found, choices, page)
+    if choices.output:
+        write_file(choices.output, text)
+    else:
+        document.write(text, utf8=choices.form == "json")
+    return _EXIT_CODES[found.verdict]
+
+
+def _probe(choices: Choices) -> Stability:
+    from satcheck.audit import Settings
+    from satcheck.cli.progress import Bar
+
+    scene = load(choices.paths)
+    if scene.unreadable:
+        raise click.ClickException("an input could not be used: there is no pair to ask about")
+    from satcheck.audit.stability import probe
+
+    settings = Settings(depth=choices.depth, cache=choices.cache)
+    with Bar("variants") as bar:
+        return probe(scene, choices.samples, choices.seed, settings, progress=bar)
+
+
+def _render(found: Stability, choices: Choices, page: Page) -> str:
+    if choices.form == "json":
+        from satcheck.cli.report.json import document
+
+        return document(found.to_dict())
+    from satcheck.cli.report.stability import render
+
+    return render(found, page, explain=choices.explain)
