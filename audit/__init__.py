@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from satcheck.audit.check import check
+from satcheck.audit.contact_report import Contacts, ContactTotals, Curve, Patch
 from satcheck.audit.report import (
     BodyReport,
     Finding,
@@ -19,10 +20,14 @@ from satcheck.audit.settings import Settings
 
 __all__ = [
     "BodyReport",
+    "ContactTotals",
+    "Contacts",
+    "Curve",
     "Finding",
     "Issue",
     "PairCounts",
     "PartError",
+    "Patch",
     "Report",
     "Settings",
     "Stage",

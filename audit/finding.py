@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import hashlib
 import math
+from dataclasses import replace
 from typing import Any
 
+from satcheck.audit.contact_report import Contacts
 from satcheck.audit.depth import Depth, measure_depth
 from satcheck.audit.gap import Gap, measure_gap
 from satcheck.audit.ladder import Contact, boxes_apart, settle
@@ -34,8 +36,15 @@ def examine(pair: Pair, plan: Plan) -> Finding:
     """Everything asked about one pair. Warnings go to the plan."""
     contact = settle(pair, plan)
     if contact.relation in OVERLAPS:
-        return _overlapping(pair, contact, plan)
-    return _apart(pair, contact, measure_gap(pair, contact, plan), plan)
+        finding = _overlapping(pair, contact, plan)
+    else:
+        finding = _apart(pair, contact, measure_gap(pair, contact, plan), plan)
+    if pair.settings.contacts:
+        from satcheck.audit.contacts import find_contacts
+
+        contacts = find_contacts(pair, contact, plan)
+        finding = replace(finding, contacts=contacts, plan=tuple(plan.stages))
+    return finding
 
 
 def apart_by_boxes(pair: Pair) -> Finding:
@@ -43,8 +52,16 @@ def apart_by_boxes(pair: Pair) -> Finding:
     plan = Plan()
     if not boxes_apart(pair, plan) > pair.asked_gap:
         raise RuntimeError(f"the broad phase dropped {pair.a.id} and {pair.b.id}")
-    known = {"exact_relation": "separated", "quality": "exact", "tolerance": pair.tolerance}
-    return _finding(pair.a.id, pair.b.id, "separated", plan, **known)
+    return _finding(
+        pair.a.id,
+        pair.b.id,
+        "separated",
+        plan,
+        exact_relation="separated",
+        quality="exact",
+        tolerance=pair.tolerance,
+        contacts=Contacts() if pair.settings.contacts else None,
+    )
 
 
 def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:

@@ -12,9 +12,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, get_args
 
+from satcheck.audit.contact_report import Contacts
+from satcheck.audit.contact_report import Vector as Vector
+
 SCHEMA = "satcheck.report/1"
 
-Vector = tuple[float, float, float]
 Relation = Literal[
     "separated",
     "near",
@@ -146,7 +148,7 @@ class Finding:
     mtv_verified: bool | None = None
     witness: Witness | None = None
     volume: None = None
-    contacts: None = None
+    contacts: Contacts | None = None
     certificate: None = None
     reason: str | None = None
     plan: tuple[Stage, ...]
@@ -261,7 +263,7 @@ def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
         "mtv_verified": finding.mtv_verified,
         "witness": witness and {"a": _vector(witness.a), "b": _vector(witness.b)},
         "volume": finding.volume,
-        "contacts": finding.contacts,
+        "contacts": finding.contacts and finding.contacts.to_dict(),
         "certificate": finding.certificate,
         "reason": finding.reason,
         "plan": [_stage(stage, timings) for stage in finding.plan],

@@ -15,6 +15,8 @@ ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
 DEPTH_WIDTH = 0.01
 # Up to this many bodies the pairs that the broad phase settled are listed as findings too.
 LIST_PRUNED_BODIES = 16
+# Points that the contacts of a pair may list: some 5 MB of JSON.
+CONTACT_POINTS = 100_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +24,7 @@ class Settings:
     """Lengths are in the units of the files. None means "not asked for" unless said otherwise.
 
     depth: depth and MTV of overlapping pairs.
+    contacts: where surfaces meet; contact_points: how many points a pair may list.
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
     accuracy: the highest rung of the ladder that may be climbed.
@@ -33,6 +36,8 @@ class Settings:
     """
 
     depth: bool = True
+    contacts: bool = False
+    contact_points: int = CONTACT_POINTS
     clearance: float | None = None
     tolerance: float | None = None
     accuracy: Accuracy = "exact"
@@ -57,6 +62,10 @@ class Settings:
                 raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
         if self.accuracy not in ACCURACIES:
             raise _refused(f"accuracy must be one of {', '.join(ACCURACIES)}")
+        if self.contacts and self.accuracy != "exact":
+            raise _refused(f"contacts are found on triangles: not at accuracy {self.accuracy}")
+        if self.contact_points < 0:
+            raise _refused(f"contact_points must be 0 or more, not {self.contact_points!r}")
         if not 0 < self.depth_width < 1:
             raise _refused(f"depth_width must lie between 0 and 1, not {self.depth_width!r}")
         if self.jobs < 0:
@@ -66,6 +75,8 @@ class Settings:
         """Everything that can change an answer, and nothing that cannot."""
         return {
             "depth": self.depth,
+            "contacts": self.contacts,
+            "contact_points": self.contact_points,
             "clearance": self.clearance,
             "tolerance": "input-precision" if self.tolerance is None else self.tolerance,
             "accuracy": self.accuracy,

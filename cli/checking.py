@@ -36,6 +36,7 @@ class Choices:
     output: Path | None
     explain: bool
     depth: bool
+    contacts: bool
     clearance: Length | None
     tolerance: Length | None
     accuracy: str
@@ -132,6 +133,7 @@ def _settings(choices: Choices, scene: Scene) -> Any:
 
     return Settings(
         depth=choices.depth,
+        contacts=choices.contacts,
         clearance=length(choices.clearance, "--clearance"),
         tolerance=length(choices.tolerance, "--tolerance"),
         accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it

@@ -124,6 +124,11 @@ def satcheck() -> None:
     help="Find how deep bodies overlap, and the shortest way out.  [default: depth]",
 )
 @click.option(
+    "--contacts",
+    is_flag=True,
+    help="Find where surfaces meet: curves, patches of flush faces, points. JSON has their points.",
+)
+@click.option(
     "--clearance",
     type=length,
     help="Also find pairs with a gap smaller than this, and report the gap.",
@@ -173,6 +178,7 @@ def check(
     output: Path | None,
     explain: bool,
     depth: bool,
+    contacts: bool,
     clearance: Length | None,
     tolerance: Length | None,
     accuracy: str,
@@ -203,6 +209,7 @@ def check(
             output=output,
             explain=explain,
             depth=depth,
+            contacts=contacts,
             clearance=clearance,
             tolerance=tolerance,
             accuracy=accuracy,

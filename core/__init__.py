@@ -7,6 +7,8 @@ from satcheck.core._native import (
     Box,
     Capsule,
     Cone,
+    ContactCurve,
+    ContactPatch,
     Cylinder,
     Ellipsoid,
     Hull,
@@ -20,6 +22,7 @@ from satcheck.core._native import (
     Shape,
     Sphere,
     Surface,
+    SurfaceIntersection,
     Topology,
     check_pair,
     check_pairs,
@@ -27,6 +30,7 @@ from satcheck.core._native import (
     mesh_distance,
     mesh_relation,
     sat_polygons,
+    surface_intersection,
 )
 from satcheck.core.conventions import OUTCOMES
 
@@ -35,6 +39,8 @@ __all__ = [
     "Box",
     "Capsule",
     "Cone",
+    "ContactCurve",
+    "ContactPatch",
     "Cylinder",
     "Ellipsoid",
     "Hull",
@@ -48,6 +54,7 @@ __all__ = [
     "Shape",
     "Sphere",
     "Surface",
+    "SurfaceIntersection",
     "Topology",
     "check_pair",
     "check_pairs",
@@ -55,4 +62,5 @@ __all__ = [
     "mesh_distance",
     "mesh_relation",
     "sat_polygons",
+    "surface_intersection",
 ]

@@ -15,7 +15,7 @@ from rich.cells import cell_len, chop_cells
 
 from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.numbers import duration, number, vector
-from satcheck.cli.report.words import depth
+from satcheck.cli.report.words import contacts, depth
 
 if TYPE_CHECKING:
     from satcheck.audit.report import Finding
@@ -77,6 +77,7 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column(f"gap{unit}", _gap, right=True, folds=True),
         column(f"depth{unit}", depth, right=True, folds=True),
         column(f"move A by{unit}", _mtv, folds=True),
+        column("contact", contacts, folds=True),
         column("quality", lambda finding: finding.quality or ""),
     ]
     if timings:

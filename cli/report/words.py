@@ -41,6 +41,23 @@ def depth(finding: Finding, *, bounded: str = "<= ") -> str:
     return bounded + at_most(high) if low <= NEGLIGIBLE * high else bounds(low, high)
 
 
+def contacts(finding: Finding) -> str:
+    """`1 loop of length 4.25`, `2 patches of area 3, 1 point`; empty when nobody asked."""
+    if finding.contacts is None:
+        return ""
+    curves, totals = finding.contacts.curves, finding.contacts.totals
+    loops = len(curves) == totals.curves and all(curve.closed for curve in curves)
+    found = []
+    if totals.patches:
+        found.append(f"{counted(totals.patches, 'patch', 'patches')} of area {number(totals.area)}")
+    if totals.curves:
+        name = counted(totals.curves, "loop" if loops else "curve")
+        found.append(f"{name} of length {number(totals.length)}")
+    if totals.points:
+        found.append(counted(totals.points, "point"))
+    return ", ".join(found) or "none"
+
+
 def by_surfaces(finding: Finding) -> bool:
     """Whether one body may lie inside the other, which has no inside to check."""
     return any((stage.stage, stage.result) == UNSEEN for stage in finding.plan)

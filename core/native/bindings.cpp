@@ -17,6 +17,7 @@ namespace nb = nanobind;
 using namespace satcheck;
 
 namespace satcheck {
+void bind_contacts(nb::module_& m);
 void bind_mesh(nb::module_& m);
 }
 
@@ -292,6 +293,7 @@ NB_MODULE(_native, m) {
   // Shapes held by a module that lives until the interpreter ends are no leak, and no news for stderr.
   nb::set_leak_warnings(false);
   bind_mesh(m);
+  bind_contacts(m);
   bind_shapes(m);
   bind_pair_result(m);
   bind_pair_results(m);

@@ -13,17 +13,11 @@
 namespace satcheck {
 namespace {
 
-bool lexicographic_less(Vec3 a, Vec3 b) {
-  if (a.x != b.x) return a.x < b.x;
-  if (a.y != b.y) return a.y < b.y;
-  return a.z < b.z;
-}
-
 // Closed segments on one line (or points); order along a line is lexicographic order.
 bool collinear_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
-  if (lexicographic_less(q, p)) std::swap(p, q);
-  if (lexicographic_less(s, r)) std::swap(r, s);
-  return !lexicographic_less(q, r) && !lexicographic_less(s, p);
+  if (coordinates_less(q, p)) std::swap(p, q);
+  if (coordinates_less(s, r)) std::swap(r, s);
+  return !coordinates_less(q, r) && !coordinates_less(s, p);
 }
 
 bool point_on_segment(Vec3 x, Vec3 p, Vec3 q) {
@@ -54,8 +48,8 @@ bool segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
 std::pair<Vec3, Vec3> extremes(const Corners& t) {
   Vec3 low = t[0], high = t[0];
   for (const Vec3& p : t) {
-    if (lexicographic_less(p, low)) low = p;
-    if (lexicographic_less(high, p)) high = p;
+    if (coordinates_less(p, low)) low = p;
+    if (coordinates_less(high, p)) high = p;
   }
   return {low, high};
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from satcheck.audit.contact_report import Contacts, ContactTotals, Curve, Patch
 from satcheck.audit.report import (
     BodyReport,
     Finding,
@@ -110,6 +111,15 @@ ESTIMATE = replace(
     depth_bounds=(0.0, 2.0),
     reason="not proven at --accuracy aabb",
 )
+SQUARE = ((0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (1.0, 1.0, 1.0), (0.0, 1.0, 1.0))
+CONTACTS = Contacts(
+    curves=(Curve(SQUARE, True, 4.0),),
+    patches=(Patch((SQUARE,), (0.0, 0.0, 1.0), True, 1.0),),
+    points=((5.0, 5.0, 5.0),),
+    triangle_pairs=((3, 4), (3, 5)),
+    totals=ContactTotals(1, 4.0, 1, 1.0, 1, 2),
+)
+CROSSING = replace(PENETRATING, id="block|crossing", b="crossing", contacts=CONTACTS)
 BLOCK = BodyReport(
     id="block",
     name="block",

@@ -63,6 +63,17 @@ def test_depth_that_was_not_asked_for_is_null() -> None:
     assert finding["mtv"] is None
 
 
+def test_contacts_are_there_when_asked_for() -> None:
+    without, asked = (
+        satcheck("--format", "json", *more, *PUSHED) for more in ((), ("--contacts",))
+    )
+    assert without.document["findings"][0]["contacts"] is None
+    VALIDATOR.validate(asked.document)
+    (loop,) = asked.document["findings"][0]["contacts"]["curves"]
+    assert loop["closed"]
+    assert loop["length"] == 8.5
+
+
 def test_clearance_finds_the_near() -> None:
     ran = satcheck("--clearance", "0.75", *APART)
     assert ran.code == 1

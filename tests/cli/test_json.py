@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.audit.report import Report
+from satcheck.audit import Contacts, Report
 from satcheck.cli.report.json import render
 from satcheck.cli.report.schema import text
 from tests.cli import reports
@@ -19,6 +20,8 @@ FULL = reports.report(
     reports.TOUCHING,
     reports.SEPARATED,
     reports.UNDECIDED,
+    reports.CROSSING,
+    replace(reports.SEPARATED, contacts=Contacts()),
     issues=(reports.OPEN, reports.MISSING),
     units="mm",
 )
@@ -55,6 +58,7 @@ def test_vectors_take_one_line() -> None:
         (["findings", 0, "mtv"], [1.0, 0.0]),
         (["findings", 0, "depth"], -1.0),
         (["findings", 0, "extra"], None),
+        (["findings", 5, "contacts", "curves", 0, "points"], [[1.0, 0.0, 0.0]]),
         (["summary", "pairs", "total"], 1.5),
         (["issues", 0, "code"], "Not Kebab"),
     ],

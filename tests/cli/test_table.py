@@ -7,12 +7,15 @@ from dataclasses import replace
 
 import pytest
 
+from satcheck.audit import Contacts
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import ROWS, render
 from tests.cli import reports
 from tests.cli.reports import (
     BOUNDED,
+    CONTACTS,
+    CROSSING,
     ESTIMATE,
     PENETRATING,
     SEPARATED,
@@ -45,6 +48,14 @@ def test_columns_without_content_are_left_out() -> None:
     assert "depth" not in shown(SEPARATED)
     assert "move A by" not in shown(SEPARATED)
     assert "time" not in shown(SEPARATED, timings=False)
+
+
+def test_contacts_in_a_few_words() -> None:
+    assert "1 patch of area 1, 1 loop of length 4, 1 point" in shown(CROSSING)
+    assert "none" in shown(replace(CROSSING, contacts=Contacts()))
+    cut = replace(CONTACTS, curves=(), truncated=True)
+    assert "1 curve of length 4" in shown(replace(CROSSING, contacts=cut))
+    assert "contact" not in shown(PENETRATING)
 
 
 def test_bounds_are_shown_outward() -> None:

@@ -1,0 +1,24 @@
+// Segments between numbered nodes, joined into the longest chains that do not branch, and into loops.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace satcheck {
+
+using NodePair = std::pair<std::uint32_t, std::uint32_t>;
+
+struct Chain {
+  std::vector<std::uint32_t> nodes;  // a closed chain does not repeat its first node
+  bool closed = false;
+};
+
+// Undirected segments, none twice. A chain ends where not exactly two segments meet.
+std::vector<Chain> join_chains(const std::vector<NodePair>& segments, std::size_t node_count);
+
+// Directed segments of which as many enter a node as leave it; no loop passes a node twice. Throws
+// std::logic_error when they do not close.
+std::vector<std::vector<std::uint32_t>> join_loops(std::vector<NodePair> segments);
+
+}  // namespace satcheck
