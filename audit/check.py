@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ from satcheck.audit.plan import Plan
 from satcheck.audit.report import Finding, Issue, Report
 from satcheck.audit.roster import Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
-from satcheck.audit.summary import body_reports, count, issues_of, summarise, tool
+from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
@@ -64,6 +64,7 @@ def check(
         settings=settings.to_dict(),
         summary=summarise(counts, findings),
         bodies=body_reports(roster),
+        exempt=exempt_of(roster),
         findings=tuple(findings),
         issues=issues,
         tracebacks=tuple(one.traceback for one in examined if one.traceback),
@@ -130,7 +131,10 @@ def _examine(pair: Pair) -> Examined:
     """One pair, come what may: a failure here must not take the other pairs with it."""
     plan = Plan()
     try:
-        return Examined(examine(pair, plan), tuple(plan.issues))
+        finding = examine(pair, plan)
+        if pair.settings.certificate:
+            finding = _with_certificate(pair, finding)
+        return Examined(finding, tuple(plan.issues))
     except Exception as error:  # noqa: BLE001 the one place where a run survives its own faults
         import traceback
 
@@ -139,6 +143,22 @@ def _examine(pair: Pair) -> Examined:
         issue = Issue("internal-error", "error", None, None, message)
         finding = indeterminate(pair.a.id, pair.b.id, reason, plan)
         return Examined(finding, (*plan.issues, issue), traceback.format_exc())
+
+
+def _with_certificate(pair: Pair, finding: Finding) -> Finding:
+    """The finding with its evidence, or with a stage that says why there is none."""
+    from satcheck.audit.certify import certified
+
+    plan = Plan()
+    try:
+        found = certified(pair, finding)
+    except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
+        found = f"internal error: {type(error).__name__}: {error}"
+    if isinstance(found, str):
+        plan.record("certificate", "none", found)
+        return replace(finding, plan=(*finding.plan, *plan.stages))
+    plan.record("certificate", found["relation"]["kind"], "accepted by the checker")
+    return replace(finding, certificate=found, plan=(*finding.plan, *plan.stages))
 
 
 def _findings(
@@ -151,5 +171,7 @@ def _findings(
     if len(roster.ids) <= LIST_PRUNED_BODIES if listed is None else listed:
         for i, j in roster.asked_pairs():
             if (i, j) not in found:
-                found[i, j] = apart_by_boxes(Pair(roster.placed[i], roster.placed[j], settings))
+                pair = Pair(roster.placed[i], roster.placed[j], settings)
+                finding = apart_by_boxes(pair)
+                found[i, j] = _with_certificate(pair, finding) if settings.certificate else finding
     return [found[pair] for pair in sorted(found)]

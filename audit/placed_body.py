@@ -16,6 +16,7 @@ from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, NEARLY_CONVEX, UNIT_ROUND
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition, DecompositionError
     from satcheck.scene import Body, MeshFile
+    from satcheck.verify.bodies import Placed, Shape
 
 T = TypeVar("T")
 
@@ -44,15 +45,22 @@ class SharedMesh:
     one rounding of each world coordinate: the body is then taken as the hull of its world vertices.
     """
 
-    __slots__ = ("convex", "decomposition", "file")
+    __slots__ = ("convex", "decomposition", "file", "shape")
 
     def __init__(self, file: MeshFile, settings: Settings) -> None:
         self.file = file
         self.convex = Once(self._convex)
         self.decomposition = Once(lambda: self._decomposition(settings))
+        self.shape = Once(self._shape)
 
     def _convex(self) -> bool:
         return self.file.health.solid and self.file.mesh.convexity_defect(0.0) == 0.0
+
+    def _shape(self) -> Shape:
+        """As the checker of certificates sees it."""
+        from satcheck.verify.bodies import shape_of
+
+        return shape_of(self.file)
 
     def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
         """A failure is an answer too: it is not tried again for the next pair."""
@@ -83,6 +91,7 @@ class PlacedBody:
     __slots__ = (
         "body",
         "bounds",
+        "checked",
         "defect",
         "hull",
         "hull_shape",
@@ -105,9 +114,15 @@ class PlacedBody:
         self.surface = Once(lambda: core.Surface(self.mesh, self.solid))
         self.hull = Once(lambda: self.mesh.convex_hull())
         self.hull_shape = Once(lambda: core.Hull(self.hull()))
+        self.checked = Once(self._checked)
         self.defect = Once(
             lambda: self.mesh.convexity_defect(NEARLY_CONVEX * diagonal(self.bounds))
         )
+
+    def _checked(self) -> Placed:
+        from satcheck.verify.bodies import place_shape
+
+        return place_shape(self.id, self.body.group, self.shared.shape(), self.body.transform)
 
     @property
     def convex(self) -> bool:

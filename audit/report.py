@@ -84,7 +84,8 @@ class BodyReport:
 
     An unreadable body has None everywhere but id, name and file. `convex` is None where no pair
     had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
-    input in world units.
+    input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
+    None: as in the file. `group`: as the scene says.
     """
 
     id: str
@@ -92,6 +93,8 @@ class BodyReport:
     file: str
     sha256: str | None
     path: str | None
+    transform: tuple[float, ...] | None
+    group: str | None
     triangles: int | None
     health: Mapping[str, bool | int | float | str | None] | None
     resolution: float | None
@@ -127,7 +130,8 @@ class Finding:
     quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
     is proven, the depth is a proven interval; estimate: not proven.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
-    as it had to be for the moved mesh to be verified free.
+    as it had to be for the moved mesh to be verified free. certificate: JSON values that prove it
+    (Settings.certificate), see the schema.
     """
 
     id: str
@@ -149,7 +153,7 @@ class Finding:
     witness: Witness | None = None
     volume: None = None
     contacts: Contacts | None = None
-    certificate: None = None
+    certificate: Mapping[str, Any] | None = None
     reason: str | None = None
     plan: tuple[Stage, ...]
     baseline_state: None = None
@@ -167,6 +171,14 @@ class Issue:
 
 
 @dataclass(frozen=True, slots=True)
+class Exempt:
+    """What the scene does not ask about: pairs within these groups, and pairs of these ids."""
+
+    groups: tuple[str, ...] = ()
+    pairs: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
 class Report:
     """`tracebacks` is for --debug and never leaves the program in a document."""
 
@@ -177,6 +189,7 @@ class Report:
     bodies: tuple[BodyReport, ...]
     findings: tuple[Finding, ...]
     issues: tuple[Issue, ...]
+    exempt: Exempt = Exempt()
     truncated: None = None
     tracebacks: tuple[str, ...] = field(default=())
 
@@ -189,6 +202,10 @@ class Report:
             "settings": dict(self.settings),
             "summary": _summary(self.summary),
             "bodies": [_body(body) for body in self.bodies],
+            "exempt": {
+                "groups": list(self.exempt.groups),
+                "pairs": [list(pair) for pair in self.exempt.pairs],
+            },
             "findings": [_finding(finding, timings) for finding in self.findings],
             "issues": [_issue(issue) for issue in self.issues],
             "truncated": self.truncated,
@@ -232,6 +249,8 @@ def _body(body: BodyReport) -> dict[str, Any]:
         "file": body.file,
         "sha256": body.sha256,
         "path": body.path,
+        "transform": body.transform and [_number(entry) for entry in body.transform],
+        "group": body.group,
         "triangles": body.triangles,
         "health": None if body.health is None else dict(body.health),
         "resolution": _number(body.resolution),
@@ -269,6 +288,11 @@ def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
         "plan": [_stage(stage, timings) for stage in finding.plan],
         "baseline_state": finding.baseline_state,
     }
+
+
+def finding_values(finding: Finding) -> dict[str, Any]:
+    """One finding as JSON values."""
+    return _finding(finding, timings=True)
 
 
 def _stage(stage: Stage, timings: bool) -> dict[str, Any]:

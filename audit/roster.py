@@ -23,6 +23,7 @@ class Lost:
     id: str
     file: str
     reason: str
+    group: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +100,7 @@ def place(scene: Scene, settings: Settings) -> Roster:
         try:
             placed[index] = PlacedBody(body, mesh)
         except (ValueError, OverflowError) as error:
-            lost[index] = Lost(body.id, body.file.path, f"cannot be placed: {error}")
+            lost[index] = Lost(body.id, body.file.path, f"cannot be placed: {error}", body.group)
             issues.append(_unplaceable(body, error))
     return Roster(
         placed=placed,

@@ -29,6 +29,7 @@ class Settings:
     tolerance: half width of the touch band; None: the input precision of each pair.
     accuracy: the highest rung of the ladder that may be climbed.
     allow_open: a body that may lie in another one without an inside is a note, not a warning.
+    certificate: every proven finding carries evidence that `satcheck verify` checks.
     list_pruned: findings for pairs that the broad phase settled; None: up to 16 bodies.
     depth_width: relative width of a depth interval that is narrow enough.
     part_*: how concave meshes are split into convex parts, and what that may cost.
@@ -42,6 +43,7 @@ class Settings:
     tolerance: float | None = None
     accuracy: Accuracy = "exact"
     allow_open: bool = False
+    certificate: bool = False
     list_pruned: bool | None = None
     depth_width: float = DEPTH_WIDTH
     part_threshold: float = 0.05

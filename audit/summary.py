@@ -12,6 +12,7 @@ from satcheck._version import __version__
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.report import (
     BodyReport,
+    Exempt,
     Finding,
     Issue,
     PairCounts,
@@ -82,6 +83,8 @@ def _lost_report(body: Lost) -> BodyReport:
         file=body.file,
         sha256=None,
         path=None,
+        transform=None,
+        group=body.group,
         triangles=None,
         health=None,
         resolution=None,
@@ -101,6 +104,8 @@ def _body_report(body: PlacedBody) -> BodyReport:
         file=file.path,
         sha256=file.sha256,
         path=None,
+        transform=body.body.transform,
+        group=body.body.group,
         triangles=file.mesh.triangle_count,
         health={
             field.name: _finite(getattr(file.health, field.name)) for field in fields(file.health)
@@ -115,6 +120,19 @@ def _body_report(body: PlacedBody) -> BodyReport:
 def _finite(value: bool | int | float | str) -> bool | int | float | str | None:
     """A volume that overflowed is not known; None says so."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def exempt_of(roster: Roster) -> Exempt:
+    """In the order of the bodies; only what concerns bodies that are here."""
+    rank = {id_: k for k, id_ in enumerate(roster.ids)}
+    pairs = [
+        sorted(pair, key=rank.__getitem__) for pair in roster.allowed_ids if pair <= rank.keys()
+    ]
+    pairs.sort(key=lambda pair: [rank[id_] for id_ in pair])
+    return Exempt(
+        groups=tuple(sorted(roster.ignored_groups)),
+        pairs=tuple((pair[0], pair[1]) for pair in pairs if len(pair) == 2),
+    )
 
 
 def issues_of(scene: Scene, roster: Roster, of_pairs: Iterable[Issue]) -> tuple[Issue, ...]:

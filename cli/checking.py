@@ -41,6 +41,7 @@ class Choices:
     tolerance: Length | None
     accuracy: str
     allow_open: bool
+    certificate: bool
     jobs: int
     cache: bool
     timings: bool
@@ -138,6 +139,7 @@ def _settings(choices: Choices, scene: Scene) -> Any:
         tolerance=length(choices.tolerance, "--tolerance"),
         accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it
         allow_open=choices.allow_open,
+        certificate=choices.certificate,
         jobs=choices.jobs,
         cache=choices.cache,
         timings=choices.timings,

@@ -153,6 +153,11 @@ def satcheck() -> None:
     help="A mesh that is not closed has no inside: do not report that as incomplete.",
 )
 @click.option(
+    "--certificate",
+    is_flag=True,
+    help="Give every proven verdict evidence, in the JSON report, that satcheck verify checks.",
+)
+@click.option(
     "-j",
     "--jobs",
     type=click.IntRange(min=0),
@@ -183,6 +188,7 @@ def check(
     tolerance: Length | None,
     accuracy: str,
     allow_open: bool,
+    certificate: bool,
     jobs: int,
     no_cache: bool,
     no_timings: bool,
@@ -214,6 +220,7 @@ def check(
             tolerance=tolerance,
             accuracy=accuracy,
             allow_open=allow_open,
+            certificate=certificate,
             jobs=jobs,
             cache=not no_cache,
             timings=not no_timings,
@@ -283,6 +290,33 @@ def stability(
             explain=explain,
         )
     )
+
+
+@satcheck.command(context_settings=_HELP_NAMES)
+@click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
+@click.option(
+    "--root",
+    type=click.Path(file_okay=False, exists=True, path_type=Path),
+    default=Path(),
+    help="The folder that the paths of mesh files in the report start from.  [default: this one]",
+)
+@click.option(
+    "--format", "form", type=click.Choice(FORMATS), default="table", help="How to report."
+)
+@debug_option
+def verify(report: Path, root: Path, form: str, debug: bool) -> int:
+    """Re-check the certificates of a report from the mesh files.
+
+    REPORT is what satcheck --certificate --format json wrote. Its verdicts are checked in rational
+    arithmetic by code of its own, which shares nothing with the solver. A verdict without a
+    certificate (an estimate below --accuracy exact, for instance) is not certified, and no pass.
+
+    Exit codes: 0, every verdict is accepted; 1, one is rejected or not certified; 2, wrong usage,
+    an unreadable report, or no certificate in it.
+    """
+    from satcheck.cli.verifying import run
+
+    return run(report, root, form, debug)
 
 
 @satcheck.group(context_settings=_HELP_NAMES)

@@ -72,6 +72,7 @@ def test_keys_come_in_the_order_of_the_schema():
             "settings",
             "summary",
             "bodies",
+            "exempt",
             "findings",
             "issues",
             "truncated",

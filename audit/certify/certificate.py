@@ -1,0 +1,249 @@
+"""The certificate of a finding: one part for each thing it says, checked before it is given out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from satcheck import core
+from satcheck.audit.certify import overlaps
+from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
+from satcheck.audit.pair import Pair
+from satcheck.audit.report import OVERLAPS, Finding, finding_values
+from satcheck.verify import Rejected
+from satcheck.verify.evidence import exceeds, gap_along, vector
+from satcheck.verify.findings import Asked, check_finding, depth_at_most, pair_of
+
+Json = dict[str, Any]
+SURFACES: Json = {"kind": "surfaces"}
+
+
+def certified(pair: Pair, finding: Finding) -> Json | str:
+    """A certificate that the checker accepts, or why there is none."""
+    if finding.exact_relation is None:
+        return "the relation is not proven"
+    a, b = pair.a.checked(), pair.b.checked()
+    settings = pair.settings
+    asked = Asked(settings.tolerance, settings.clearance, settings.allow_open)
+    certificate = _Maker(pair, finding).make()
+    if isinstance(certificate, str):
+        return certificate
+    try:
+        check_finding(finding_values(finding) | {"certificate": certificate}, a, b, asked)
+    except Rejected as why:
+        return f"what was found does not prove it: {why}"
+    return certificate
+
+
+class _Maker:
+    def __init__(self, pair: Pair, finding: Finding) -> None:
+        self.pair, self.finding = pair, finding
+        a, b = pair.a.checked(), pair.b.checked()
+        if a.world is None or b.world is None:
+            raise AssertionError("a placed body has a world mesh")
+        self.a, self.b = a, b
+        self.worlds = a.world, b.world
+        self.placed = pair_of(a, b, a.world, b.world)
+
+    def make(self) -> Json | str:
+        finding = self.finding
+        relation = self._relation()
+        if relation is None:
+            return f"no evidence was found for {finding.exact_relation!r}"
+        certificate: Json = {"relation": relation}
+        if self.placed.convex and finding.depth_bounds is not None:
+            depth = self._depth(Fraction(finding.depth_bounds[0]), finding.depth_bounds[1])
+            if depth is not None:
+                certificate["depth"] = depth
+        if finding.mtv_verified and finding.mtv is not None:
+            certificate["mtv"] = self._free(finding.mtv)
+        if finding.relation != finding.exact_relation:
+            certificate |= self._band()
+        return certificate
+
+    def _relation(self) -> Json | None:
+        exact, placed = self.finding.exact_relation, self.placed
+        if exact == "separated":
+            return self._apart()
+        if exact == "touching":
+            return self._touching()
+        if exact == "coincident":
+            return {"kind": "same"}
+        hint = self._hint() or next(overlaps.contacts(placed, None), None)
+        if hint is None:  # one lies in the other, or some of its parts do
+            return SURFACES
+        solids = placed.a.world.solid + placed.b.world.solid
+        if solids == 2:
+            return self._hulls_overlap() or overlaps.overlap(placed, hint)
+        return (overlaps.sheet_overlap if solids else overlaps.crossing)(placed, hint)
+
+    def _hint(self) -> tuple[int, int] | None:
+        found = core.mesh_relation(self.pair.a.surface(), self.pair.b.surface())
+        if found.triangle_a < 0 or found.triangle_b < 0:
+            return None
+        return found.triangle_a, found.triangle_b
+
+    def _axes(self) -> Iterator[Any]:
+        """Candidates for a separating axis, from A to B, the simplest first."""
+        for axis in range(3):
+            for side in (1, -1):
+                yield [side if k == axis else 0 for k in range(3)]
+        if self.finding.normal is not None:
+            yield list(self.finding.normal)
+        found = core.check_pair(
+            self.pair.a.hull_shape(), self.pair.b.hull_shape(), query="distance"
+        )
+        if found.normal is not None:
+            yield list(found.normal)
+
+    def _apart(self) -> Json:
+        """A separation of the hulls as wide as asked about, or the surfaces themselves."""
+        asked = Fraction(0)
+        if self.finding.relation == "separated":
+            asked = max(
+                Fraction(self.pair.tolerance), Fraction(self.pair.settings.clearance or 0.0)
+            )
+        placed = self.placed
+        for axis in self._axes():
+            n = vector(axis)
+            if any(n) and exceeds(gap_along(placed.a, placed.b, n), n, asked):
+                return {"kind": "axis", "axis": axis}
+        found = core.check_pair(self.pair.a.hull_shape(), self.pair.b.hull_shape(), query="overlap")
+        if found.outcome != "separated":
+            return SURFACES
+        nearest = nearest_point(placed)
+        n = nearest.point
+        if not any(n):
+            return SURFACES
+        # The nearest point of A - B leads from B to A.
+        direction = shortened((-n[0], -n[1], -n[2]))
+        if exceeds(
+            gap_along(placed.a, placed.b, vector(_text(direction))), vector(_text(direction)), asked
+        ):
+            return {"kind": "axis", "axis": _text(direction)}
+        return SURFACES
+
+    def _touching(self) -> Json | None:
+        placed = self.placed
+        if placed.convex:
+            outside = expanded(placed, Fraction(0))
+            nearest = nearest_point(placed)
+            if outside is not None and not outside.overlaps and not any(nearest.point):
+                return {
+                    "kind": "axis",
+                    "axis": _text(shortened(outside.axis)),
+                    "contact": _on_hulls(nearest.weights),
+                }
+        for s, t in overlaps.contacts(placed, self._hint()):
+            contact = overlaps.nearest_points(placed, s, t)
+            return {**SURFACES, "contact": contact}
+        return None
+
+    def _hulls_overlap(self) -> Json | None:
+        """For convex bodies that stick out of each other."""
+        if not self.placed.convex:
+            return None
+        found = expanded(self.placed, Fraction(0))
+        if found is None or not found.overlaps:
+            return None
+        leads: Json = {}
+        for axis in range(3):
+            for side in (1, -1):
+                n = [side if k == axis else 0 for k in range(3)]
+                lead = self.placed.a.extent(n) - self.placed.b.extent(n)
+                if lead > 0:
+                    leads.setdefault("a_reaches", n)
+                elif lead < 0:
+                    leads.setdefault("b_reaches", n)
+                else:
+                    leads.setdefault("even", n)
+        even = leads.pop("even", None)
+        if even is not None and leads:
+            leads = {"a_reaches": even, "b_reaches": even} | leads
+        if len(leads) < 2:
+            return None
+        return {"kind": "polytope", **_polytope(found), **leads}
+
+    def _depth(self, lower: Fraction, upper: float) -> Json | None:
+        found = expanded(self.placed, lower)
+        if found is None or not found.overlaps:
+            return None
+        limit = Fraction(upper)
+        normal = self.finding.normal
+        if normal is not None and depth_at_most(vector(list(normal)), self.placed, limit):
+            return {"lower": _polytope(found), "upper": list(normal)}
+        complete = expanded(self.placed, limit * 2) or found
+        return {"lower": _polytope(found), "upper": _text(shortened(complete.axis))}
+
+    def _free(self, move: Any) -> Json:
+        """That A, moved, has no common interior with B."""
+        world = self.worlds[0].moved(move)
+        placed = pair_of(self.a, self.b, world, self.worlds[1])
+        length = math.hypot(*move)
+        hints = [[-c / length for c in move]] if length else []
+        if self.finding.normal is not None:
+            hints.append(list(self.finding.normal))
+        for axis in range(3):
+            hints += [[float(side) if k == axis else 0.0 for k in range(3)] for side in (1, -1)]
+        for axis_ in hints:
+            n = vector(axis_)
+            if any(n) and gap_along(placed.a, placed.b, n) >= 0:
+                return {"kind": "axis", "axis": axis_}
+        if placed.convex:
+            found = expanded(placed, Fraction(0))
+            if found is not None and not found.overlaps:
+                return {"kind": "axis", "axis": _text(shortened(found.axis))}
+        return SURFACES
+
+    def _band(self) -> Json:
+        """Why the relation is another than the exact one."""
+        finding = self.finding
+        if finding.exact_relation == "separated":
+            if self.placed.convex:
+                return {"gap": _on_hulls(nearest_point(self.placed).weights)}
+            found = core.mesh_distance(self.pair.a.surface(), self.pair.b.surface())
+            return {"gap": overlaps.nearest_points(self.placed, found.triangle_a, found.triangle_b)}
+        if finding.exact_relation in OVERLAPS and not (
+            finding.mtv_verified
+            and finding.depth is not None
+            and finding.depth <= self.pair.tolerance
+        ):
+            if self.placed.convex:
+                found_ = expanded(self.placed, Fraction(self.pair.tolerance) * 2)
+                if found_ is not None:
+                    return {"band": {"axis": _text(shortened(found_.axis))}}
+            from satcheck.audit.ladder import Contact
+            from satcheck.audit.plan import Plan
+            from satcheck.audit.touch_band import move_within
+
+            contact = Contact(finding.exact_relation, True, crossing=self._hint())
+            move = move_within(self.pair, contact, Plan())
+            if move is not None:
+                return {"band": {"move": list(move), "free": self._free(move)}}
+        return {}
+
+
+def _text(v: Any) -> list[str]:
+    return [str(c) for c in v]
+
+
+def _polytope(found: Expanded) -> Json:
+    return {
+        "vertices": [list(vertex) for vertex in found.vertices],
+        "faces": [list(face) for face in found.faces],
+    }
+
+
+def _on_hulls(weights: dict[tuple[int, int], Fraction]) -> Json:
+    ends: Json = {}
+    for side, key in enumerate(("a", "b")):
+        shares: dict[int, Fraction] = {}
+        for vertex, weight in weights.items():
+            shares[vertex[side]] = shares.get(vertex[side], Fraction(0)) + weight
+        ends[key] = {
+            "vertices": list(shares),
+            "weights": [overlaps.as_json(weight) for weight in shares.values()],
+        }
+    return ends

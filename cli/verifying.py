@@ -1,0 +1,106 @@
+"""`satcheck verify REPORT`: from a report to what is proven of it, and an exit code."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from satcheck.cli import exit_codes
+from satcheck.cli.output import Document, talk
+from satcheck.core.errors import SatcheckError
+
+if TYPE_CHECKING:
+    from satcheck.verify import Checked, Verification
+
+MOST_BYTES = 1 << 30
+
+
+def run(report: Path, root: Path, form: str, debug: bool) -> int:
+    """debug is read by the process as a whole."""
+    from satcheck.cli.progress import Bar
+    from satcheck.cli.report.json import document as json_text
+    from satcheck.verify import Rejected, verify
+
+    del debug
+    document = Document()
+    content = _read(report)
+    try:
+        with Bar() as bar:
+            found = verify(content, root, bar)
+    except Rejected as why:
+        raise SatcheckError("bad-report", f"{report}: {why}") from None
+    text = json_text(_values(found)) if form == "json" else _table(found)
+    document.write(text, utf8=form == "json")
+    if not found.certified:
+        talk(f"satcheck: {report}: no certificates: was it made with --certificate?")
+        return exit_codes.ERROR
+    return exit_codes.CLEAN if found.accepted else exit_codes.FINDINGS
+
+
+def _read(report: Path) -> Any:
+    try:
+        if report.stat().st_size > MOST_BYTES:
+            raise SatcheckError("bad-report", f"{report}: too large")
+        text = report.read_text("utf-8")
+    except OSError as error:
+        raise SatcheckError("unreadable-file", f"{report}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
+    try:
+        return json.loads(text, parse_constant=_refuse)
+    except (ValueError, RecursionError) as error:
+        raise SatcheckError("bad-report", f"{report}: not JSON: {error}") from None
+
+
+def _refuse(constant: str) -> Any:
+    raise ValueError(f"{constant} is no number")
+
+
+def _values(found: Verification) -> dict[str, Any]:
+    return {
+        "schema": "satcheck.verification/1",
+        "accepted": found.accepted and found.certified,
+        "findings": [asdict(finding) for finding in found.findings],
+        "faults": list(found.faults),
+        "pruned": found.pruned,
+        "exempt": found.exempt,
+    }
+
+
+def _table(found: Verification) -> str:
+    """What was not accepted, line by line, and a sentence about all."""
+    lines = [_line(finding) for finding in found.findings if finding.outcome != "accepted"]
+    lines += [f"rejected: {fault}" for fault in found.faults]
+    lines.append(_summary(found))
+    return "\n".join(lines) + "\n"
+
+
+def _line(finding: Checked) -> str:
+    return f"{finding.outcome}: {finding.a} and {finding.b}, {finding.relation}: {finding.reason}"
+
+
+def _summary(found: Verification) -> str:
+    from satcheck.cli.report.words import counted
+
+    accepted = [f for f in found.findings if f.outcome == "accepted"]
+    parts = [f"{counted(len(accepted), 'verdict')} accepted"]
+    for outcome in ("rejected", "not certified", "open"):
+        count = sum(f.outcome == outcome for f in found.findings)
+        if count:
+            parts.append(f"{count:,} {'indeterminate' if outcome == 'open' else outcome}")
+    if found.faults:
+        parts.append(f"{counted(len(found.faults), 'fault')} in the rest of the report")
+    if found.pruned:
+        parts.append(f"{counted(found.pruned, 'pair')} apart by their boxes")
+    if found.exempt:
+        parts.append(f"{counted(found.exempt, 'pair')} exempt by the scene, not checked")
+    depths, moves = sum(f.depth for f in accepted), sum(f.mtv for f in accepted)
+    proven = [
+        counted(count, *words)
+        for count, words in ((depths, ("depth",)), (moves, ("way out", "ways out")))
+        if count
+    ]
+    extra = f" Proven besides: {', '.join(proven)}." if proven else ""
+    return ", ".join(parts) + "." + extra

@@ -1,0 +1,105 @@
+"""Reports with certificates about small meshes, one for each kind of certificate."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from tempfile import mkdtemp
+from typing import Any
+
+from satcheck.audit import Settings, check
+from satcheck.scene import load_scene
+from satcheck.verify import Verification, verify
+from tests.audit.shapes import Mesh, bracket, moved, open_box, unit_box, write
+
+Json = dict[str, Any]
+
+ROD = 7.0
+
+
+def sheet(x: float = 0.0, edge: float = 2.0) -> Mesh:
+    """A square without thickness, perpendicular to z, in the plane z = 0."""
+    points = [(x, 0.0, 0.0), (x + edge, 0.0, 0.0), (x + edge, edge, 0.0), (x, edge, 0.0)]
+    return points, [(0, 1, 2, 3)]
+
+
+def upright(y: float = 1.0) -> Mesh:
+    """A square without thickness that stands across `sheet`."""
+    points = [(0.5, y, -1.0), (1.5, y, -1.0), (1.5, y, 1.0), (0.5, y, 1.0)]
+    return points, [(0, 1, 2, 3)]
+
+
+def other_diagonals() -> Mesh:
+    """The unit box, its faces split along the other diagonals."""
+    points, faces = unit_box()
+    return points, [(*face[1:], face[0]) for face in faces]
+
+
+def pieces(*meshes: Mesh) -> Mesh:
+    """Several meshes as one."""
+    points: list[Any] = []
+    faces: list[Any] = []
+    for mesh_points, mesh_faces in meshes:
+        faces += [tuple(k + len(points) for k in face) for face in mesh_faces]
+        points += mesh_points
+    return points, faces
+
+
+# name: (relation, kind, A, B)
+PAIRS: dict[str, tuple[str, str, Mesh, Mesh]] = {
+    "boxes-apart": ("separated", "axis", unit_box(), unit_box(3.0)),
+    "box-in-notch": ("separated", "surfaces", bracket(), unit_box(2.5, 2.5, 1.0)),
+    "boxes-overlap": ("penetrating", "polytope", unit_box(), unit_box(0.5, 0.25, 0.125)),
+    "box-in-arm": ("penetrating", "overlap", bracket(), unit_box(5.5, 0.5, 1.0)),
+    "flush-inside": ("penetrating", "overlap", bracket(), unit_box(1.0, 0.0, 0.0)),
+    "boxes-flush": ("touching", "axis", unit_box(), unit_box(1.0)),
+    "box-on-notch": ("touching", "surfaces", bracket(), unit_box(2.0, 2.0, 1.0)),
+    "box-in-box": ("contains", "surfaces", unit_box(edge=4.0), unit_box(1.0, 1.0, 1.0)),
+    "box-around": ("inside", "surfaces", unit_box(1.0, 1.0, 1.0), unit_box(edge=4.0)),
+    "box-in-bracket": ("contains", "surfaces", bracket(), unit_box(0.5, 0.5, 1.0)),
+    "one-of-two": (
+        "penetrating",
+        "surfaces",
+        unit_box(edge=4.0),
+        pieces(unit_box(1.0, 1.0, 1.0), unit_box(8.0)),
+    ),
+    "same-box": ("coincident", "same", unit_box(), unit_box()),
+    "sheets-cross": ("penetrating", "crossing", sheet(), upright()),
+    "sheet-in-wall": ("penetrating", "overlap", unit_box(), moved(sheet(), 0.5, 0.25, 0.5)),
+    "sheet-on-wall": ("touching", "surfaces", bracket(), moved(sheet(), 2.0, 2.0, 4.0)),
+    "sheet-in-box": ("contains", "surfaces", unit_box(edge=4.0), moved(sheet(), 1.0, 1.0, 1.0)),
+    "open-box": ("separated", "surfaces", open_box(), unit_box(1.0, 1.0, 1.0)),
+}
+
+
+@cache
+def _folder() -> Path:
+    return Path(mkdtemp(prefix="satcheck-verify-"))
+
+
+@cache
+def _text(name: str, depth: bool) -> str:
+    _, _, a, b = PAIRS[name]
+    folder = _folder() / name
+    folder.mkdir(exist_ok=True)
+    scene = load_scene(write(folder, a=a, b=b))
+    return json.dumps(check(scene, Settings(certificate=True, depth=depth, cache=False)).to_dict())
+
+
+def report_of(name: str, *, depth: bool = False) -> Json:
+    """A fresh copy, to forge."""
+    document: Json = json.loads(_text(name, depth))
+    return document
+
+
+def verified(document: Any) -> Verification:
+    return verify(document, Path("/"))
+
+
+def forged(name: str, forge: Callable[[Json], None], *, depth: bool = False) -> Verification:
+    """The first finding of a report, changed by `forge`."""
+    document = report_of(name, depth=depth)
+    forge(document["findings"][0])
+    return verified(document)

@@ -1,0 +1,81 @@
+"""Whole reports: true ones are accepted, and what is said of them follows from the findings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from satcheck.verify import Rejected, verify
+from tests.verify.reports import PAIRS, Json, report_of, verified
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_a_true_report_is_accepted(name: str) -> None:
+    relation, kind, *_ = PAIRS[name]
+    document = report_of(name)
+    finding = document["findings"][0]
+    assert finding["exact_relation"] == relation
+    assert finding["certificate"]["relation"]["kind"] == kind
+    found = verified(document)
+    assert found.accepted
+    assert [one.outcome for one in found.findings] == ["accepted"]
+
+
+def raise_count(pairs: Json, key: str) -> None:
+    pairs[key] += 1
+
+
+FORGED: dict[str, Callable[[Json], Any]] = {
+    "verdict": lambda d: d["summary"].update(verdict="pass"),
+    "total": lambda d: raise_count(d["summary"]["pairs"], "total"),
+    "decided": lambda d: raise_count(d["summary"]["pairs"], "decided"),
+    "allowed": lambda d: raise_count(d["summary"]["pairs"], "allowed"),
+    "pruned": lambda d: raise_count(d["summary"]["pairs"], "pruned"),
+    "indeterminate": lambda d: raise_count(d["summary"]["pairs"], "indeterminate"),
+    "by relation": lambda d: d["summary"].update(by_relation={"separated": 1}),
+    "surfaces only": lambda d: d["summary"].update(surfaces_only=1),
+    "file": lambda d: d["bodies"][0].update(sha256="0" * 64),
+    "another file": lambda d: d["bodies"][0].update(file=d["bodies"][1]["file"]),
+    "pose": lambda d: d["bodies"][0].update(
+        transform=[1, 0, 0, 9, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+    ),
+    "no solid": lambda d: d["bodies"][0]["health"].update(solid=False),
+    "no findings": lambda d: d.update(findings=[]),
+    "twice": lambda d: d["findings"].append(d["findings"][0]),
+    "tolerance": lambda d: d["findings"][0].update(tolerance=10.0),
+    "severity": lambda d: d["findings"][0].update(severity="none"),
+    "swapped": lambda d: d["findings"][0].update(a="b", b="a"),
+    "stranger": lambda d: d["findings"][0].update(b="c"),
+}
+
+
+@pytest.mark.parametrize("lie", FORGED)
+def test_a_lie_about_the_rest_is_found(lie: str) -> None:
+    document = report_of("box-in-arm")
+    FORGED[lie](document)
+    assert not verified(document).accepted
+
+
+def test_a_dropped_finding_is_missed() -> None:
+    document = report_of("box-in-arm")
+    document["findings"] = []
+    document["summary"]["pairs"].update(total=1, pruned=1, decided=0)
+    document["summary"].update(verdict="pass", by_relation={"separated": 1})
+    assert verified(document).faults
+
+
+def test_without_a_certificate_nothing_is_certified() -> None:
+    document = report_of("boxes-apart")
+    document["findings"][0]["certificate"] = None
+    found = verified(document)
+    assert not found.certified
+    assert not found.accepted
+
+
+@pytest.mark.parametrize("document", [None, [], {}, {"schema": "satcheck.report/1"}, 3, "x"])
+def test_what_is_no_report_is_refused(document: Any) -> None:
+    with pytest.raises(Rejected):
+        verify(document, Path("/"))

@@ -1,0 +1,236 @@
+"""What lies on either side of two surfaces, everywhere: the proof that there is no overlap.
+
+Beside almost every point of a triangle lies, on each of its sides, either the inside or the outside
+of A, and of B. Cut each triangle along all it shares with others, of both surfaces: within a cell
+these answers do not change, so one point of it, and winding numbers, tell them. An open set that is
+the overlap of two solids, or where they differ, is bounded by cells; where no cell has it on a
+side, it is empty. Triangles that the other surface does not meet see one answer of it per connected
+region.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, sub
+from satcheck.verify.surfaces import common, meeting
+from satcheck.verify.world import Corners, Exact
+
+Plane = tuple[
+    Fraction, Fraction
+]  # s, r: corner 0 + s (corner 1 - corner 0) + r (corner 2 - corner 0)
+Segment = tuple[Plane, Plane]
+UNIT_CELL: list[Plane] = [
+    (Fraction(0), Fraction(0)),
+    (Fraction(1), Fraction(0)),
+    (Fraction(0), Fraction(1)),
+]
+ATTEMPTS = 8  # points of a cell, until one lies on no triangle of another plane
+MOST_CELLS = 200_000
+
+
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """A point of a triangle, off all edges, and what is in front of it and behind it: (in A, in B).
+
+    Of a surface that is not solid, nothing is inside.
+    """
+
+    triangle: int
+    point: Point
+    normal: Vector
+    front: tuple[bool, bool]
+    back: tuple[bool, bool]
+
+
+def sides_of(
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], quiet: bool = True
+) -> Iterator[Sides]:
+    """Both sides of every cell of every triangle of A.
+
+    contacts: all pairs of triangles that meet. quiet: leave out regions that B does not meet and
+    that lie outside of it; there nothing is inside B.
+    """
+    partners: dict[int, list[int]] = {}
+    for s, t in contacts:
+        partners.setdefault(s, []).append(t)
+    wanted = set(partners)
+    for region, vertex in _regions(a, wanted):
+        inside = b.world.solid and _winding(b, _point(a.points[vertex])) != 0
+        if inside or not quiet:
+            wanted.update(region)
+    total = 0
+    own = _own_partners(a, wanted)
+    for t in sorted(wanted):
+        corners = a.corners(t)
+        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+        if not any(normal):
+            continue
+        cuts = _cuts(corners, normal, [b.corners(u) for u in partners.get(t, [])])
+        cuts += _cuts(corners, normal, [a.corners(u) for u in own.get(t, [])])
+        for cell in _cells(cuts):
+            total += 1
+            if total > MOST_CELLS:
+                raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
+            yield _look(a, b, t, corners, normal, cell)
+
+
+def _point(p: Vector) -> Point:
+    return Fraction(p[0]), Fraction(p[1]), Fraction(p[2])
+
+
+def _winding(solid: Exact, p: Point) -> int:
+    found = solid.winding(p)
+    if found is None:
+        raise Rejected("a point that should be off a surface lies on it")
+    return found
+
+
+def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
+    """The triangles that are left, by regions connected through vertices, with a vertex of each."""
+    left = np.ones(len(a.world.triangles), dtype=bool)
+    left[list(without)] = False
+    index = np.flatnonzero(left)
+    if not index.size:
+        return
+    label = a.world.labels(a.world.triangles[index])
+    of = label[a.world.triangles[index, 0]]
+    order = np.argsort(of, kind="stable")
+    borders = np.flatnonzero(np.diff(of[order])) + 1
+    for region in np.split(index[order], borders):
+        yield region.tolist(), int(a.world.triangles[region[0], 0])
+
+
+def _own_partners(a: Exact, wanted: set[int]) -> dict[int, list[int]]:
+    """Triangles of A itself that meet the wanted ones."""
+    found: dict[int, list[int]] = {}
+    if not a.world.solid or not wanted:
+        return found
+    index = sorted(wanted)
+    part = a.part(index)
+    for s, t in meeting(part, a):
+        if index[s] != t:
+            found.setdefault(index[s], []).append(t)
+    return found
+
+
+def _cuts(corners: Corners, normal: Vector, others: list[Corners]) -> list[Segment]:
+    """The segments within a triangle along which it shares something with others.
+
+    An edge that triangles in its plane run equally often in both directions is no cut: across it
+    winding numbers change only where another triangle cuts.
+    """
+    crossing: set[Segment] = set()
+    flat: Counter[Segment] = Counter()
+    for other in others:
+        shared = [_in_plane(corners, normal, p) for p in common(corners, other)]
+        edges = [(shared[k - 1], p) for k, p in enumerate(shared)]
+        if len(shared) > 2:
+            flat.update(edges)
+        elif len(shared) == 2:
+            crossing.add(edges[0])
+    kept = crossing | {(p, q) for p, q in flat if flat[p, q] != flat[q, p]}
+    return [edge for edge in kept if _inside(edge)]
+
+
+def _in_plane(corners: Corners, normal: Vector, p: Point) -> Plane:
+    origin, e, f = corners[0], sub(corners[1], corners[0]), sub(corners[2], corners[0])
+    step = [p[k] - origin[k] for k in range(3)]
+    size = dot(normal, normal)
+    s = (
+        step[1] * f[2] - step[2] * f[1],
+        step[2] * f[0] - step[0] * f[2],
+        step[0] * f[1] - step[1] * f[0],
+    )
+    r = (
+        e[1] * step[2] - e[2] * step[1],
+        e[2] * step[0] - e[0] * step[2],
+        e[0] * step[1] - e[1] * step[0],
+    )
+    return dot(s, normal) / Fraction(size), dot(r, normal) / Fraction(size)
+
+
+def _inside(edge: Segment) -> bool:
+    """Whether it runs through the open triangle, in which it lies."""
+    s, r = edge[0][0] + edge[1][0], edge[0][1] + edge[1][1]
+    return s > 0 and r > 0 and s + r < 2
+
+
+def _cells(cuts: list[Segment]) -> list[list[Plane]]:
+    """Convex pieces of the triangle that no cut enters."""
+    cells = [UNIT_CELL]
+    for edge in cuts:
+        after: list[list[Plane]] = []
+        for cell in cells:
+            after += _split(cell, edge) if _enters(cell, edge) else [cell]
+        cells = after
+        if len(cells) > MOST_CELLS:
+            raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
+    return cells
+
+
+def _turn(p: Plane, q: Plane, x: Plane) -> Fraction:
+    return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
+
+
+def _enters(cell: list[Plane], edge: Segment) -> bool:
+    """Whether a part of the segment, longer than 0, runs through the open cell: M. Cyrus, J. Beck,
+    "Generalized two- and three-dimensional clipping" (1978)."""
+    start, end = Fraction(0), Fraction(1)
+    for k in range(len(cell)):
+        at, to = _turn(cell[k - 1], cell[k], edge[0]), _turn(cell[k - 1], cell[k], edge[1])
+        if at <= 0 and to <= 0:
+            return False
+        if at < 0 < to:
+            start = max(start, at / (at - to))
+        elif to < 0 < at:
+            end = min(end, at / (at - to))
+        if start >= end:
+            return False
+    return True
+
+
+def _split(cell: list[Plane], edge: Segment) -> list[list[Plane]]:
+    """The cell on either side of the line of the segment."""
+    turns = [_turn(*edge, p) for p in cell]
+    halves: list[list[Plane]] = []
+    for side in (1, -1):
+        kept: list[Plane] = []
+        for k, (p, turn) in enumerate(zip(cell, turns, strict=True)):
+            before = turns[k - 1]
+            if before * turn < 0:
+                q, s = cell[k - 1], before / (before - turn)
+                kept.append((q[0] + s * (p[0] - q[0]), q[1] + s * (p[1] - q[1])))
+            if turn * side >= 0:
+                kept.append(p)
+        halves.append(kept)
+    return halves
+
+
+def _look(
+    a: Exact, b: Exact, triangle: int, corners: Corners, normal: Vector, cell: list[Plane]
+) -> Sides:
+    """At points of the open cell, the first of which is its middle."""
+    for attempt in range(ATTEMPTS):
+        weights = [1 + (k * attempt) % 7 for k in range(1, len(cell) + 1)]
+        s = sum((w * p[0] for w, p in zip(weights, cell, strict=True)), Fraction()) / sum(weights)
+        r = sum((w * p[1] for w, p in zip(weights, cell, strict=True)), Fraction()) / sum(weights)
+        point: Point = tuple(  # type: ignore[assignment]
+            corners[0][k]
+            + s * (corners[1][k] - corners[0][k])
+            + r * (corners[2][k] - corners[0][k])
+            for k in range(3)
+        )
+        seen = [e.beside(point, normal) if e.world.solid else (0, 0) for e in (a, b)]
+        if None in seen:
+            continue
+        (front_a, back_a), (front_b, back_b) = (s or (0, 0) for s in seen)
+        return Sides(
+            triangle, point, normal, (front_a != 0, front_b != 0), (back_a != 0, back_b != 0)
+        )
+    raise Rejected("every point tried of a piece of the contact lies on another triangle")

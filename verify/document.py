@@ -1,0 +1,257 @@
+"""A whole report: every finding by its certificate, and whether its summary follows from them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from satcheck.verify.bodies import Bodies, Placed
+from satcheck.verify.exact import Rejected
+from satcheck.verify.findings import Asked, Proven, check_finding, default_tolerance, number
+
+SCHEMA = "satcheck.report/1"
+Outcome = Literal["accepted", "rejected", "not certified", "open"]
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """One finding. open: indeterminate, so nothing is claimed. depth, mtv: proven too."""
+
+    a: str
+    b: str
+    relation: str
+    outcome: Outcome
+    reason: str | None = None
+    depth: bool = False
+    mtv: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Verification:
+    """faults: what is wrong with the report as a whole. exempt: pairs whose boxes meet that the
+    report does not claim to have checked, because the scene exempts them. pruned: pairs that are
+    not listed, whose boxes are apart."""
+
+    findings: tuple[Checked, ...]
+    faults: tuple[str, ...]
+    pruned: int
+    exempt: int
+
+    @property
+    def accepted(self) -> bool:
+        return not self.faults and all(f.outcome in ("accepted", "open") for f in self.findings)
+
+    @property
+    def certified(self) -> bool:
+        """Whether there are certificates, unless none is needed."""
+        outcomes = {f.outcome for f in self.findings}
+        return "not certified" not in outcomes or bool(outcomes & {"accepted", "rejected"})
+
+
+def verify(
+    document: Any, root: Path, progress: Callable[[int, int], None] | None = None
+) -> Verification:
+    """Re-check a report, parsed from JSON, from the mesh files. Their paths start at root.
+
+    Raises Rejected where it is no report. Everything else that is wrong is a result.
+    """
+    report = _Report(document, root)
+    entries = report.findings
+    checked = []
+    for number_, entry in enumerate(entries):
+        checked.append(report.check(entry))
+        if progress is not None:
+            progress(number_ + 1, len(entries))
+    faults = list(report.faults)
+    pruned, exempt = report.check_unlisted(faults)
+    try:
+        report.check_summary(pruned)
+    except Rejected as why:
+        faults.append(str(why))
+    return Verification(tuple(checked), tuple(faults), pruned, exempt)
+
+
+def _list(document: Any, key: str) -> list[Any]:
+    value = document.get(key)
+    if not isinstance(value, list):
+        raise Rejected(f"not a report: {key!r} is no list")
+    return value
+
+
+def _object(document: Any, key: str) -> dict[str, Any]:
+    value = document.get(key)
+    if not isinstance(value, dict):
+        raise Rejected(f"not a report: {key!r} is no object")
+    return value
+
+
+class _Report:
+    def __init__(self, document: Any, root: Path) -> None:
+        if not isinstance(document, dict) or document.get("schema") != SCHEMA:
+            raise Rejected(f'not a report: "schema" is not "{SCHEMA}"')
+        self.document = document
+        self.findings = _list(document, "findings")
+        self.asked = _asked(_object(document, "settings"))
+        reader = Bodies(root)
+        placed = [reader.place(entry) for entry in _list(document, "bodies")]
+        self.bodies = {body.id: body for body in placed}
+        if len(self.bodies) < len(placed):
+            raise Rejected("not a report: two bodies have one id")
+        self.order = {id_: k for k, id_ in enumerate(self.bodies)}
+        self.listed: set[frozenset[str]] = set()
+        self.listed_apart = 0  # of these, pairs that are apart by their boxes
+        self.faults = [
+            f"{body.id}: {body.reason}" for body in placed if body.claims and body.reason
+        ]
+
+    def check(self, entry: Any) -> Checked:
+        if not isinstance(entry, dict):
+            raise Rejected("not a report: a finding is no object")
+        a, b, relation = (str(entry.get(key)) for key in ("a", "b", "relation"))
+        try:
+            proven = self._check(entry)
+        except Rejected as why:
+            outcome: Outcome = "rejected" if entry.get("certificate") else "not certified"
+            return Checked(a, b, relation, outcome, str(why))
+        except Exception as error:  # noqa: BLE001  what a forger found is no reason to stop
+            reason = f"cannot be checked: {type(error).__name__}: {error}"
+            return Checked(a, b, relation, "rejected", reason)
+        if proven is None:
+            return Checked(a, b, relation, "open", str(entry.get("reason")))
+        return Checked(a, b, relation, "accepted", None, proven.depth, proven.mtv)
+
+    def _check(self, entry: dict[str, Any]) -> Proven | None:
+        names = entry.get("a"), entry.get("b")
+        if not all(isinstance(name, str) and name in self.bodies for name in names):
+            raise Rejected("it names a body that the report does not have")
+        a, b = (self.bodies[str(name)] for name in names)
+        if self.order[a.id] >= self.order[b.id] or frozenset(names) in self.listed:
+            raise Rejected("every pair is listed once, in the order of the bodies")
+        self.listed.add(frozenset((a.id, b.id)))
+        self.listed_apart += _boxes_apart(a, b, self.asked)
+        if entry.get("relation") == "indeterminate":
+            if entry.get("severity") != "warning" or entry.get("certificate") is not None:
+                raise Rejected("an indeterminate pair is a warning, and proves nothing")
+            return None
+        return check_finding(entry, a, b, self.asked)
+
+    def check_unlisted(self, faults: list[str]) -> tuple[int, int]:
+        """How many pairs that are not listed are apart by their boxes, and how many are exempt."""
+        exempt = _Exempt(_object(self.document, "exempt"), self.bodies)
+        pruned = exempted = 0
+        for a, b, apart in _unlisted(list(self.bodies.values()), self.listed, self.asked):
+            if exempt.covers(a, b):
+                exempted += 1
+            elif apart:
+                pruned += 1
+            else:
+                faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
+        return pruned, exempted
+
+    def check_summary(self, pruned: int) -> None:
+        summary = _object(self.document, "summary")
+        pairs = _object(summary, "pairs")
+        relations = Counter(str(f.get("relation")) for f in self.findings)
+        exempt = _Exempt(_object(self.document, "exempt"), self.bodies)
+        allowed, ignored = exempt.count()
+        n = len(self.bodies)
+        total = n * (n - 1) // 2 - ignored
+        indeterminate = relations["indeterminate"]
+        expected = {"total": total, "allowed": allowed, "indeterminate": indeterminate}
+        for key, value in expected.items():
+            if number(pairs.get(key)) != value:
+                raise Rejected(f"the summary counts {pairs.get(key)!r} pairs as {key}, not {value}")
+        said = number(pairs.get("pruned"))
+        if said != pruned and not (pruned == 0 and 0 <= said <= self.listed_apart):
+            raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
+        if number(pairs.get("decided")) != total - allowed - indeterminate - said:
+            raise Rejected("the summary's counts of pairs do not add up")
+        relations["separated"] += pruned
+        by_relation = _object(summary, "by_relation")
+        if {k: v for k, v in by_relation.items() if v} != {k: v for k, v in relations.items() if v}:
+            raise Rejected("the summary's counts by relation are not those of the findings")
+        warnings = sum(f.get("severity") == "warning" for f in self.findings) - indeterminate
+        if summary.get("surfaces_only", 0) != warnings:
+            raise Rejected(f"{warnings} pairs were checked by surfaces only")
+        failed = any(f.get("severity") == "error" for f in self.findings)
+        left_open = indeterminate or warnings or not total
+        verdict = "fail" if failed else "incomplete" if left_open else "pass"
+        if summary.get("verdict") != verdict:
+            raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
+
+
+class _Exempt:
+    """The pairs that the scene does not ask about."""
+
+    def __init__(self, value: dict[str, Any], bodies: dict[str, Placed]) -> None:
+        groups, pairs = _list(value, "groups"), _list(value, "pairs")
+        self._bodies = list(bodies.values())
+        self._groups = {group for group in groups if isinstance(group, str)}
+        self._pairs = {
+            frozenset(pair)
+            for pair in pairs
+            if isinstance(pair, list) and all(isinstance(id_, str) for id_ in pair)
+        }
+        if any(len(pair) != 2 or not pair <= bodies.keys() for pair in self._pairs):
+            raise Rejected("an exempt pair names two bodies of the report")
+
+    def covers(self, a: Placed, b: Placed) -> bool:
+        return self._ignored(a, b) or frozenset((a.id, b.id)) in self._pairs
+
+    def _ignored(self, a: Placed, b: Placed) -> bool:
+        return a.group is not None and a.group == b.group and a.group in self._groups
+
+    def count(self) -> tuple[int, int]:
+        """Pairs that are allowed, and pairs that are not counted at all."""
+        sizes = Counter(body.group for body in self._bodies if body.group in self._groups)
+        ignored = sum(size * (size - 1) // 2 for size in sizes.values())
+        named = {body.id: body for body in self._bodies}
+        return sum(
+            not self._ignored(*(named[id_] for id_ in pair)) for pair in self._pairs
+        ), ignored
+
+
+def _unlisted(
+    bodies: list[Placed], listed: set[frozenset[str]], asked: Asked
+) -> Iterator[tuple[Placed, Placed, bool]]:
+    """Pairs without a finding, and whether their boxes are apart by more than was asked about."""
+    for k, a in enumerate(bodies):
+        for b in bodies[k + 1 :]:
+            if frozenset((a.id, b.id)) not in listed:
+                yield a, b, _boxes_apart(a, b, asked)
+
+
+def _boxes_apart(a: Placed, b: Placed, asked: Asked) -> bool:
+    if a.world is None or b.world is None:
+        return False
+    (low_a, high_a), (low_b, high_b) = a.world.bounds, b.world.bounds
+    tolerance = default_tolerance(a, b) if asked.tolerance is None else asked.tolerance
+    beyond = Fraction(max(tolerance, asked.clearance or 0.0))
+    steps = np.maximum(low_b - high_a, low_a - high_b)
+    if steps.max() <= 0:
+        return False
+    exact = [
+        max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s), Fraction(0))
+        for p, q, r, s in zip(*(c.tolist() for c in (low_b, high_a, low_a, high_b)), strict=True)
+    ]
+    return sum(step * step for step in exact) > beyond * beyond
+
+
+def _asked(settings: dict[str, Any]) -> Asked:
+    tolerance, clearance = settings.get("tolerance"), settings.get("clearance")
+    for value in (tolerance, clearance):
+        if value is not None and value != "input-precision" and number(value) < 0:
+            raise Rejected("not a report: a setting is no length")
+    if settings.get("accuracy") not in ("aabb", "obb", "hull", "parts", "exact"):
+        raise Rejected("not a report: its settings name no accuracy")
+    return Asked(
+        None if tolerance == "input-precision" else float(number(tolerance)),
+        None if clearance is None else float(number(clearance)),
+        settings.get("allow_open") is True,
+    )

@@ -1,0 +1,111 @@
+"""Exact arithmetic: float64 numbers are dyadic, so scaled by one power of two they are integers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import combinations
+from math import lcm
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Vector = tuple[int, int, int]
+Point = tuple[Fraction, Fraction, Fraction]
+
+SIGNIFICANT_BITS = 53
+
+
+class Rejected(Exception):
+    """A claim that its certificate does not prove, in one sentence."""
+
+
+def lattice(*arrays: Floats) -> int:
+    """The least k >= 0 such that all these numbers times 2**k are integers."""
+    numbers = np.concatenate([array.ravel() for array in arrays])
+    fractions, exponents = np.frexp(numbers[numbers != 0.0])
+    if not fractions.size:
+        return 0
+    integers = np.ldexp(fractions, SIGNIFICANT_BITS).astype(np.int64)
+    lowest_bit = np.frexp((integers & -integers).astype(np.float64))[1] - 1
+    return max(0, int((SIGNIFICANT_BITS - exponents - lowest_bit).max()))
+
+
+def integers(array: Floats, k: int) -> list[Vector]:
+    """The rows of an (n, 3) array times 2**k, for a k that makes them integers."""
+    fractions, exponents = np.frexp(array)
+    mantissas = np.ldexp(fractions, SIGNIFICANT_BITS).astype(np.int64).tolist()
+    shifts = (exponents - SIGNIFICANT_BITS + k).tolist()
+    return [
+        (shifted(m[0], s[0]), shifted(m[1], s[1]), shifted(m[2], s[2]))
+        for m, s in zip(mantissas, shifts, strict=True)
+    ]
+
+
+def shifted(number: int, by: int) -> int:
+    return number << by if by >= 0 else number >> -by
+
+
+def sub(p: Vector, q: Vector) -> Vector:
+    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
+
+
+def dot(p: Sequence[Any], q: Sequence[Any]) -> Any:
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
+
+
+def cross(p: Vector, q: Vector) -> Vector:
+    return (
+        p[1] * q[2] - p[2] * q[1],
+        p[2] * q[0] - p[0] * q[2],
+        p[0] * q[1] - p[1] * q[0],
+    )
+
+
+def sign(number: int | Fraction) -> int:
+    return int(number > 0) - int(number < 0)
+
+
+def homogeneous(p: Point) -> tuple[int, int, int, int]:
+    """(X, Y, Z, W) with p = (X, Y, Z) / W and W > 0."""
+    w = lcm(*(c.denominator for c in p))
+    return int(p[0] * w), int(p[1] * w), int(p[2] * w), w
+
+
+def nearest_to_origin(points: Sequence[Vector]) -> tuple[Point, dict[int, Fraction]]:
+    """The point of the hull of a few points next to the origin, and its weights on them.
+
+    By trying every subset of up to four: the nearest point x is a convex combination of one of
+    them, and the one for which no point v has v.x < x.x.
+    """
+    for size in range(1, 5):
+        for chosen in combinations(range(len(points)), size):
+            weights = _foot([points[k] for k in chosen])
+            if weights is None or min(weights) < 0:
+                continue
+            x: Point = tuple(  # type: ignore[assignment]
+                sum((w * points[k][axis] for w, k in zip(weights, chosen, strict=True)), Fraction())
+                for axis in range(3)
+            )
+            if all(dot(v, x) >= dot(x, x) for v in points):
+                return x, dict(zip(chosen, weights, strict=True))
+    raise AssertionError("every convex hull has a point next to the origin")
+
+
+def _foot(points: Sequence[Vector]) -> list[Fraction] | None:
+    """Weights, of sum 1, of the foot of the origin on the flat through these points; None where
+    they do not span it."""
+    edges = [sub(p, points[0]) for p in points[1:]]
+    gram = [[Fraction(dot(e, f)) for f in edges] + [Fraction(-dot(e, points[0]))] for e in edges]
+    n = len(edges)
+    for k in range(n):  # the Gram matrix is positive definite, or else some pivot is 0
+        if gram[k][k] == 0:
+            return None
+        for i in range(n):
+            if i != k:
+                factor = gram[i][k] / gram[k][k]
+                gram[i] = [x - factor * y for x, y in zip(gram[i], gram[k], strict=True)]
+    rest = [gram[k][n] / gram[k][k] for k in range(n)]
+    return [1 - sum(rest, Fraction()), *rest]

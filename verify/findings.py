@@ -1,0 +1,212 @@
+"""One finding: its certificates, and whether what it says follows from what they prove."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from satcheck.verify.bodies import Placed
+from satcheck.verify.evidence import axis, gap_along, member, on_body, rational, vector
+from satcheck.verify.exact import Point, Rejected, dot, sub
+from satcheck.verify.polytope import inner_radius_exceeds
+from satcheck.verify.relations import OVERLAPS, Pair, prove, prove_free
+from satcheck.verify.world import Exact, World
+
+# Figures are rounded: a band of this relative width around the tolerance is granted.
+EXACT_WIDTH = Fraction(1, 10**9)
+TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
+SAME = 1e-12  # relative, of a length that was computed twice
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What the settings of the report say. tolerance: None: the input precision."""
+
+    tolerance: float | None
+    clearance: float | None
+    allow_open: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Proven:
+    """What was proven of an accepted finding besides its relation."""
+
+    depth: bool = False
+    mtv: bool = False
+
+
+def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> Proven:
+    """Rejects a finding, of two bodies that could be read, that is not proven."""
+    if a.world is None or b.world is None:
+        raise Rejected(a.reason or b.reason or "a body is missing")
+    certificate = finding.get("certificate")
+    if certificate is None:
+        raise Rejected("it has no certificate")
+    tolerance = _tolerance(finding, a, b, asked)
+    clearance = Fraction(asked.clearance or 0.0)
+    pair = pair_of(a, b, a.world, b.world)
+    relation, exact = finding.get("relation"), finding.get("exact_relation")
+    separated = relation == "separated"
+    hulls_apart = prove(
+        exact if isinstance(exact, str) else "",
+        member(certificate, "relation"),
+        pair,
+        tolerance if separated else Fraction(0),
+        clearance if separated else Fraction(0),
+    )
+    mtv = _check_mtv(finding, certificate, a, b)
+    depth = _check_depth(finding, certificate, pair)
+    if relation != exact:
+        _check_band(finding, certificate, pair, (a, b), tolerance, clearance)
+    _check_severity(finding, a.world, b.world, hulls_apart, asked)
+    return Proven(depth, mtv)
+
+
+def pair_of(a: Placed, b: Placed, world_a: World, world_b: World) -> Pair:
+    k = max(world_a.lattice, world_b.lattice)
+    return Pair(Exact(world_a, k), Exact(world_b, k), a.convex and b.convex)
+
+
+def number(value: Any) -> Fraction:
+    """A finite JSON number."""
+    if isinstance(value, str):
+        raise Rejected("a number is expected")
+    return rational(value)
+
+
+def default_tolerance(a: Placed, b: Placed) -> float:
+    """The input precision of two bodies, but no more than a share of the smaller one."""
+    sizes = [
+        math.dist(*(corner.tolist() for corner in body.world.bounds))
+        for body in (a, b)
+        if body.world is not None
+    ]
+    return min(a.resolution + b.resolution, TOUCH_FRACTION * min(sizes))
+
+
+def _tolerance(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> Fraction:
+    said = number(finding.get("tolerance"))
+    expected = default_tolerance(a, b) if asked.tolerance is None else asked.tolerance
+    if not math.isclose(said, expected, rel_tol=SAME):
+        raise Rejected(f"the tolerance is {expected!r}")
+    return said
+
+
+def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) -> bool:
+    """A, moved by the MTV with one rounding of each coordinate, has no common interior with B."""
+    if finding.get("mtv_verified") is not True:
+        return False
+    if finding.get("exact_relation") not in OVERLAPS:
+        raise Rejected("only an overlap has a way out")
+    depth = number(finding.get("depth"))
+    move = vector(finding.get("mtv"))
+    if dot(move, move) > (depth * (1 + EXACT_WIDTH)) ** 2:
+        raise Rejected("the MTV is longer than the depth")
+    _prove_way_out(move, member(certificate, "mtv"), a, b)
+    return True
+
+
+def _prove_way_out(move: Point, certificate: Any, a: Placed, b: Placed) -> None:
+    assert a.world is not None
+    assert b.world is not None
+    offset = [float(c) for c in move]
+    if not np.isfinite(offset).all():
+        raise Rejected("a translation is finite")
+    prove_free(certificate, pair_of(a, b, a.world.moved(offset), b.world))
+
+
+def _check_depth(finding: dict[str, Any], certificate: dict[str, Any], pair: Pair) -> bool:
+    """The interval of the depth: a ball in the Minkowski difference, an axis across it."""
+    bounds, figure = finding.get("depth_bounds"), finding.get("depth")
+    if bounds is None:
+        if figure is not None or finding.get("depth") is not None:
+            raise Rejected("a depth without its bounds")
+        return False
+    if not isinstance(bounds, list) or len(bounds) != 2:
+        raise Rejected("depth_bounds are two numbers")
+    low, high = number(bounds[0]), number(bounds[1])
+    if not 0 <= low <= high or number(figure) != high:
+        raise Rejected("the depth is the upper end of its bounds")
+    if "depth" not in certificate:
+        return False
+    if not pair.convex:
+        raise Rejected("a depth is certified for convex bodies only")
+    proof = certificate["depth"]
+    inner_radius_exceeds(member(proof, "lower"), pair.a, pair.b, low)
+    if not depth_at_most(axis(member(proof, "upper")), pair, high):
+        raise Rejected("along the axis the bodies overlap by more than the depth")
+    return True
+
+
+def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:
+    """Whether moving A against this axis by the length, world units, takes it off B."""
+    overlap = -gap_along(pair.a, pair.b, n)
+    return overlap <= 0 or overlap * overlap <= length * length * dot(n, n)
+
+
+def _check_band(
+    finding: dict[str, Any],
+    certificate: dict[str, Any],
+    pair: Pair,
+    bodies: tuple[Placed, Placed],
+    tolerance: Fraction,
+    clearance: Fraction,
+) -> None:
+    """Why the relation is another than the exact one."""
+    relation, exact = finding.get("relation"), finding.get("exact_relation")
+    band = tolerance * (1 + EXACT_WIDTH)
+    if exact == "separated" and relation in ("touching", "near"):
+        gap = member(certificate, "gap")
+        ends = [
+            on_body(member(gap, key), body, of_hull=pair.convex)
+            for key, body in (("a", pair.a), ("b", pair.b))
+        ]
+        step = sub(ends[1], ends[0])  # type: ignore[arg-type]
+        squared, scale = dot(step, step), Fraction(1 << pair.a.k)
+        near = relation == "near"
+        if not (squared < (clearance * scale) ** 2 if near else squared <= (band * scale) ** 2):
+            raise Rejected("the points of the gap are further apart than that")
+        return
+    if exact in OVERLAPS and relation == "touching":
+        if "band" in certificate:
+            proof = certificate["band"]
+            if "axis" in proof:
+                if pair.convex and depth_at_most(axis(proof["axis"]), pair, band):
+                    return
+                raise Rejected("the bodies overlap by more than the tolerance")
+            move = vector(member(proof, "move"))
+            if dot(move, move) <= band * band:
+                _prove_way_out(move, member(proof, "free"), *bodies)
+                return
+        elif finding.get("mtv_verified") is True and number(finding["depth"]) <= band:
+            return
+    raise Rejected(f"{relation!r} does not follow from {exact!r}")
+
+
+def _check_severity(
+    finding: dict[str, Any], a: World, b: World, hulls_apart: bool, asked: Asked
+) -> None:
+    relation, exact = finding.get("relation"), finding.get("exact_relation")
+    expected = "error" if relation in OVERLAPS else "note" if relation == "touching" else "none"
+    if exact in ("separated", "touching") and not hulls_apart and _may_hide(a, b):
+        expected = "note" if asked.allow_open else "warning"
+    broken = (asked.clearance or 0.0) > 0 and (exact != "separated" or relation == "near")
+    if relation == "near" or broken:
+        expected = "error"
+    said = finding.get("severity")
+    if said != expected and not (relation == "touching" and said == "error" and asked.clearance):
+        raise Rejected(f"its severity is {expected!r}")
+
+
+def _may_hide(a: World, b: World) -> bool:
+    """Whether one body may lie inside the other, which has no inside to check."""
+    for outer, inner in ((a, b), (b, a)):
+        (low, high), (inner_low, inner_high) = outer.bounds, inner.bounds
+        nested = bool((low <= inner_low).all() and (inner_high <= high).all())
+        if nested and not outer.solid and not outer.is_flat:
+            return True
+    return False

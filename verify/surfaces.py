@@ -1,0 +1,195 @@
+"""Which triangles of two surfaces meet: all pairs with near boxes, each decided exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from satcheck.verify.exact import (
+    Floats,
+    Point,
+    Rejected,
+    Vector,
+    cross,
+    dot,
+    nearest_to_origin,
+    sub,
+)
+from satcheck.verify.world import Corners, Exact, Indices
+
+BLOCK = 4096  # so many pairs are compared at once
+MOST_PAIRS = 50_000_000  # beyond, the surfaces lie in each other: a check would not end
+HalfSpace = tuple[Vector, int]
+Mask = NDArray[np.bool_]
+
+
+def near_pairs(a: Exact, b: Exact, reach: float) -> Iterator[tuple[Indices, Indices]]:
+    """All pairs of triangles whose boxes are no further apart than reach, in blocks.
+
+    A difference is rounded monotonically, so none is lost: x <= reach implies fl(x) <= reach.
+    """
+    boxes = [(e.world.low, e.world.high) for e in (a, b)]
+    (low_a, high_a), (low_b, high_b) = boxes
+    pending = [(np.arange(len(low_a)), np.arange(len(low_b)))]
+    total = 0
+    while pending:
+        i, j = pending.pop()
+        i = i[_near(low_a[i], high_a[i], low_b[j].min(axis=0), high_b[j].max(axis=0), reach)]
+        if i.size == 0:
+            continue
+        j = j[_near(low_b[j], high_b[j], low_a[i].min(axis=0), high_a[i].max(axis=0), reach)]
+        if j.size == 0:
+            continue
+        if i.size * j.size <= BLOCK:
+            near = _near(low_a[i][:, None], high_a[i][:, None], low_b[j], high_b[j], reach)
+            k, m = np.nonzero(near)
+            total += len(k)
+            if total > MOST_PAIRS:
+                raise Rejected(f"more than {MOST_PAIRS} pairs of triangles lie close together")
+            if k.size:
+                yield i[k], j[m]
+        elif i.size >= j.size:
+            pending += [(half, j) for half in _halves(i, low_a[i] + high_a[i])]
+        else:
+            pending += [(i, half) for half in _halves(j, low_b[j] + high_b[j])]
+
+
+def _near(low: Floats, high: Floats, other_low: Floats, other_high: Floats, reach: float) -> Mask:
+    near = (low - other_high <= reach) & (other_low - high <= reach)
+    return np.asarray(near.all(axis=-1))
+
+
+def _halves(index: Indices, centres: Floats) -> list[Indices]:
+    axis = int(np.argmax(centres.max(axis=0) - centres.min(axis=0)))
+    order = np.argsort(centres[:, axis], kind="stable")
+    middle = len(index) // 2
+    return [index[order[:middle]], index[order[middle:]]]
+
+
+def close_pairs(a: Exact, b: Exact, reach: Fraction) -> Iterator[tuple[int, int, Fraction]]:
+    """The pairs of triangles no further apart than reach, world units, and the square of their
+    distance on the lattice, 0 where they meet."""
+    within = reach * (1 << a.k)
+    for i, j in near_pairs(a, b, up(reach)):
+        p, q = a.world.vertices[a.world.triangles[i]], b.world.vertices[b.world.triangles[j]]
+        left = ~_apart(p, q, up(reach))
+        for s, t in zip(i[left].tolist(), j[left].tolist(), strict=True):
+            ca, cb = a.corners(s), b.corners(t)
+            if common(ca, cb):
+                yield s, t, Fraction(0)
+            elif within > 0:
+                x, _ = nearest_to_origin([sub(q, p) for p in ca for q in cb])
+                if dot(x, x) <= within * within:
+                    yield s, t, dot(x, x)
+
+
+def meeting(a: Exact, b: Exact) -> list[tuple[int, int]]:
+    """The pairs of triangles that meet."""
+    return [(s, t) for s, t, _ in close_pairs(a, b, Fraction(0))]
+
+
+def up(value: Fraction) -> float:
+    return float(np.nextafter(float(value), np.inf)) if value else 0.0
+
+
+def _apart(p: Floats, q: Floats, reach: float) -> Mask:
+    """Whether a direction certainly keeps triangles (n, 3, 3) more than reach apart: the normals,
+    the products of edges, the edges across either face, the lines between corners."""
+    done = np.zeros(len(p), dtype=bool)
+    e, f = np.roll(p, -1, axis=1) - p, np.roll(q, -1, axis=1) - q
+    n, m = np.cross(e[:, 0], e[:, 1]), np.cross(f[:, 0], f[:, 1])
+    with np.errstate(all="ignore"):
+        for axes in _directions(p, q, e, f, n, m):
+            left = ~done
+            if not left.any():
+                break
+            done[left] = _separates(axes[left], p[left], q[left], reach)
+    return done
+
+
+def _directions(
+    p: Floats, q: Floats, e: Floats, f: Floats, n: Floats, m: Floats
+) -> Iterator[Floats]:
+    yield n
+    yield m
+    for i in range(3):
+        for j in range(3):
+            yield np.cross(e[:, i], f[:, j])
+    for i in range(3):
+        yield np.cross(n, e[:, i])
+        yield np.cross(m, f[:, i])
+    for i in range(3):
+        for j in range(3):
+            yield q[:, j] - p[:, i]
+
+
+def _separates(axes: Floats, p: Floats, q: Floats, reach: float) -> Mask:
+    """Whatever vectors the axes came out as, the gap along them is bounded with its rounding."""
+    largest = np.abs(axes).max(axis=1, keepdims=True)
+    axes = np.where((largest > 0) & np.isfinite(largest), axes / largest, 0.0)
+    on_p, on_q = np.einsum("kij,kj->ki", p, axes), np.einsum("kij,kj->ki", q, axes)
+    size = np.maximum(np.abs(p).max(axis=1), np.abs(q).max(axis=1))
+    # Three products and two sums on either side, one difference, and as much to spare.
+    error = 16 * 2.0**-53 * np.einsum("ki,ki->k", size, np.abs(axes)) + 2.0**-1000
+    gap = np.maximum(on_q.min(axis=1) - on_p.max(axis=1), on_p.min(axis=1) - on_q.max(axis=1))
+    longest = np.sqrt(np.einsum("ki,ki->k", axes, axes)) * (1 + 2.0**-50)
+    return gap - error > reach * longest  # type: ignore[no-any-return]
+
+
+def common(a: Corners, b: Corners) -> list[Point]:
+    """The corners of the convex set that two closed triangles share: none, one, two or more.
+
+    One is clipped by half-spaces whose common region is the other: I. E. Sutherland, G. W.
+    Hodgman, "Reentrant Polygon Clipping" (1974). A triangle may be a segment or a point.
+    """
+    if not any(_normal(a)):
+        a, b = b, a
+    region: list[Point] = [tuple(map(Fraction, p)) for p in b]  # type: ignore[misc]
+    for normal, limit in half_spaces(a):
+        region = clipped(region, normal, limit)
+        if not region:
+            break
+    return region
+
+
+def _normal(t: Corners) -> Vector:
+    return cross(sub(t[1], t[0]), sub(t[2], t[0]))
+
+
+def half_spaces(t: Corners) -> list[HalfSpace]:
+    """Half-spaces normal . x <= limit that have the closed triangle in common, or the segment or
+    point that it is."""
+    n = _normal(t)
+    if any(n):
+        found = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
+        anchors = [t[0], t[0], *t]
+    else:
+        spans = [(p, q) for p in t for q in t if p != q]
+        p, q = max(spans, key=lambda s: dot(sub(*s), sub(*s)), default=(t[0], t[0]))
+        along = sub(q, p)
+        units = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        across = [cross(along, u) for u in units] if any(along) else units
+        found = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
+        anchors = [q] + [p] * (len(found) - 1)
+    return [(v, dot(v, anchor)) for v, anchor in zip(found, anchors, strict=True)]
+
+
+def _negated(v: Vector) -> Vector:
+    return -v[0], -v[1], -v[2]
+
+
+def clipped(region: list[Point], normal: Vector, limit: int) -> list[Point]:
+    """The part of a convex polygon, segment or point in the half-space normal . x <= limit."""
+    heights = [dot(normal, p) - limit for p in region]
+    kept: list[Point] = []
+    for k, (p, h) in enumerate(zip(region, heights, strict=True)):
+        q, g = region[k - 1], heights[k - 1]
+        if g * h < 0:
+            s = g / (g - h)
+            kept.append(tuple(c + s * (d - c) for c, d in zip(q, p, strict=True)))
+        if h <= 0:
+            kept.append(p)
+    return [p for k, p in enumerate(kept) if p != kept[k - 1]] or kept[:1]

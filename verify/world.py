@@ -1,0 +1,315 @@
+"""A body in the world, read again from its file and placed by its pose, and what is inside it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from satcheck.verify.exact import (
+    Floats,
+    Point,
+    Rejected,
+    Vector,
+    cross,
+    dot,
+    homogeneous,
+    integers,
+    lattice,
+    sign,
+    sub,
+)
+
+Indices = NDArray[np.int64]
+SPLITTER = 2.0**27 + 1  # T. J. Dekker (1971): halves of 26 bits
+
+
+class World:
+    """vertices: (n, 3) float64, triangles: (m, 3). solid: said to bound material; checked.
+
+    Where a solid's material is, winding numbers say: of a point, how often the surface runs around
+    it. That means something because every directed edge is run as often as its reverse.
+    """
+
+    def __init__(
+        self, vertices: Floats, triangles: Indices, solid: bool, *, balanced: bool = False
+    ) -> None:
+        self.vertices, self.triangles, self.solid = vertices, triangles, solid
+        if not np.isfinite(vertices).all():
+            raise Rejected("a coordinate is not finite")
+        if solid and not (balanced or is_balanced(vertices, triangles)):
+            raise Rejected("said to be solid, but its surface is not closed or not evenly wound")
+        corners = vertices[triangles]
+        self.low, self.high = corners.min(axis=1), corners.max(axis=1)
+
+    @cached_property
+    def bounds(self) -> tuple[Floats, Floats]:
+        return self.low.min(axis=0), self.high.max(axis=0)
+
+    @cached_property
+    def used(self) -> Indices:
+        """The vertices that triangles have."""
+        return np.unique(self.triangles)
+
+    @cached_property
+    def lattice(self) -> int:
+        return lattice(self.vertices)
+
+    @cached_property
+    def components(self) -> list[int]:
+        """One vertex of each part that is connected through vertices."""
+        return np.unique(self.labels(self.triangles)[self.used]).tolist()  # type: ignore[no-any-return]
+
+    def labels(self, triangles: Indices) -> Indices:
+        """For each vertex the least one that is connected with it through these triangles."""
+        label = np.arange(len(self.vertices))
+        while True:  # each triangle takes the least label of its corners, labels follow labels
+            least = label[triangles].min(axis=1)
+            before = label.copy()
+            for corner in range(3):
+                np.minimum.at(label, label[triangles[:, corner]], least)
+                np.minimum.at(label, triangles[:, corner], least)
+            label = label[label]
+            if (label == before).all():
+                return label
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether all vertices in use lie in one plane."""
+        used = integers(self.vertices[self.used], self.lattice)
+        origin = used[0]
+        spokes = [sub(p, origin) for p in used]
+        first = next((v for v in spokes if any(v)), None)
+        if first is None:
+            return True
+        normal = next((n for v in spokes if any(n := cross(first, v))), None)
+        return normal is None or all(dot(normal, v) == 0 for v in spokes)
+
+    def moved(self, offset: Sequence[float]) -> World:
+        """Each coordinate rounded once; what is balanced stays so, for equal points stay equal."""
+        moved = self.vertices + np.array(offset)
+        return World(moved, self.triangles, self.solid, balanced=True)
+
+
+def placed(
+    vertices: Floats, triangles: Indices, solid: bool, pose: Sequence[float] | None
+) -> World:
+    """world = pose * (x, y, z, 1), row-major; each coordinate summed in twice the precision and
+    rounded once: T. Ogita, S. M. Rump, S. Oishi, "Accurate Sum and Dot Product" (2005), Dot2.
+    A reflection turns the triangles."""
+    if pose is None:
+        return World(vertices + 0.0, triangles, solid)
+    rows = [(pose[4 * k], pose[4 * k + 1], pose[4 * k + 2]) for k in range(3)]
+    scale = lattice(np.array(rows))
+    x, y, z = integers(np.array(rows), scale)
+    handedness = sign(dot(x, cross(y, z)))
+    if handedness == 0 or tuple(pose[12:]) != (0.0, 0.0, 0.0, 1.0):
+        raise Rejected("the pose is singular or not affine")
+    columns = []
+    for k, row in enumerate(rows):
+        total = np.full(len(vertices), float(pose[4 * k + 3]))
+        correction = np.zeros(len(vertices))
+        for axis in range(3):
+            product, error = two_product(row[axis], vertices[:, axis])
+            total, rest = two_sum(total, product)
+            correction = correction + (rest + error)
+        columns.append(total + correction)
+    turned = triangles if handedness > 0 else triangles[:, [0, 2, 1]]
+    return World(np.column_stack(columns) + 0.0, turned, solid)
+
+
+def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    total = a + b
+    back = total - a
+    return total, (a - (total - back)) + (b - back)
+
+
+def two_product(a: float, b: Floats) -> tuple[Floats, Floats]:
+    product = a * b
+    c, d = SPLITTER * a, SPLITTER * b
+    a_high, b_high = c - (c - a), d - (d - b)
+    a_low, b_low = a - a_high, b - b_high
+    error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)
+    return product, error
+
+
+def is_balanced(vertices: Floats, triangles: Indices) -> bool:
+    """Whether every edge, by the coordinates of its ends, is run as often as its reverse."""
+    _, same = np.unique(vertices + 0.0, axis=0, return_inverse=True)
+    corner = same.reshape(-1)[triangles]
+    start, end = corner.ravel(), np.roll(corner, -1, axis=1).ravel()
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    edges, where = np.unique(np.column_stack([low, high]), axis=0, return_inverse=True)
+    runs = np.bincount(where.reshape(-1), weights=np.sign(end - start), minlength=len(edges))
+    return len(edges) > 0 and not runs.any()
+
+
+def is_convex(vertices: Floats, triangles: Indices) -> bool:
+    """Whether a balanced surface is that of its hull, outward: no vertex in front of a face."""
+    k = lattice(vertices)
+    exact = integers(vertices, k)
+    used = np.unique(triangles)
+    points = vertices[used]
+    solid = False
+    for t in triangles.tolist():
+        a, b, c = (exact[v] for v in t)
+        normal = cross(sub(b, a), sub(c, a))
+        if not any(normal):
+            continue
+        solid = True
+        near = possibly_highest(normal, points)
+        limit = dot(normal, a)
+        if any(dot(normal, exact[v]) > limit for v in used[near].tolist()):
+            return False
+    return solid
+
+
+def rounded(vector: Sequence[Any]) -> Floats:
+    """About this direction, its largest component about 1."""
+    values = [Fraction(c) for c in vector]
+    largest = max(abs(c) for c in values)
+    return np.array([float(c / largest) for c in values])
+
+
+def possibly_highest(normal: Sequence[Any], points: Floats) -> Indices:
+    """The indices of all points that may be the farthest along the normal, and few others."""
+    direction = rounded(normal)
+    heights = points @ direction
+    # Three products, two sums, and the rounding of the direction: 6 roundoffs cover them.
+    error = 8 * 2.0**-53 * float((np.abs(points) @ np.abs(direction)).max()) + 2.0**-1000
+    return np.flatnonzero(heights >= heights.max() - 2 * error)
+
+
+class Exact:
+    """A body on the lattice of a pair: its points are integers. scale: what they are times."""
+
+    def __init__(self, world: World, k: int) -> None:
+        self.world, self.k = world, k
+
+    @cached_property
+    def points(self) -> list[Vector]:
+        return integers(self.world.vertices, self.k)
+
+    def part(self, triangles: list[int]) -> Exact:
+        """A surface of some of the triangles, with the same points."""
+        world = World(self.world.vertices, self.world.triangles[triangles], solid=False)
+        return Exact(world, self.k)
+
+    def corners(self, t: int) -> tuple[Vector, Vector, Vector]:
+        i, j, k = self.world.triangles[t].tolist()
+        return self.points[i], self.points[j], self.points[k]
+
+    def farthest(self, normal: Sequence[Any]) -> tuple[int, Any]:
+        """A vertex that lies farthest along the normal, and normal . vertex, exactly."""
+        used = self.world.used
+        near = used[possibly_highest(normal, self.world.vertices[used])]
+        heights = [dot(normal, p) for p in integers(self.world.vertices[near], self.k)]
+        best = max(range(len(heights)), key=heights.__getitem__)
+        return int(near[best]), heights[best]
+
+    def extent(self, normal: Sequence[Any]) -> Any:
+        return self.farthest(normal)[1]
+
+    def winding(self, p: Point) -> int | None:
+        """How often the surface runs around p; None where p lies on it."""
+        found = self.ray(p, 0, None)
+        return None if found is None else found[0]
+
+    def beside(self, p: Point, normal: Vector) -> tuple[int, int] | None:
+        """Winding numbers in front of and behind a point of a plane, next to it; None where p also
+        lies on a triangle of another plane."""
+        axis = max(range(3), key=lambda k: abs(normal[k]))
+        found = self.ray(p, axis, normal)
+        if found is None:
+            return None
+        ahead, flush = found
+        return (ahead, ahead + flush) if normal[axis] > 0 else (ahead + flush, ahead)
+
+    def ray(self, p: Point, axis: int, plane: Vector | None) -> tuple[int, int] | None:
+        """Signed crossings of the ray from p along +axis: beyond p, and in p's own plane.
+
+        Ties are broken as if p were moved across the ray by (e, e^2), e > 0 and infinitely small.
+        A sum over a balanced surface does not depend on that.
+        """
+        x = homogeneous(p)
+        ahead = flush = 0
+        for t in self._in_the_way(p, axis):
+            a, b, c = self.corners(t)
+            normal = cross(sub(b, a), sub(c, a))
+            height = dot(normal, x) - dot(normal, a) * x[3]
+            in_plane = (
+                height == 0 and plane is not None and any(normal) and not any(cross(normal, plane))
+            )
+            if height == 0 and not in_plane and holds((a, b, c), normal, x):
+                return None
+            side = projected_side((a, b, c), x, axis)
+            if in_plane:
+                flush += side
+            elif height * side < 0:
+                ahead += side
+        return ahead, flush
+
+    def _in_the_way(self, p: Point, axis: int) -> list[int]:
+        """Triangles whose boxes meet the ray, and a few whose do not."""
+        at = [float(c / (1 << self.k)) for c in p]
+        down, up = np.nextafter(at, -np.inf), np.nextafter(at, np.inf)
+        low, high = self.world.low, self.world.high
+        hit = high[:, axis] >= down[axis]
+        for k in ((axis + 1) % 3, (axis + 2) % 3):
+            hit &= (low[:, k] <= up[k]) & (high[:, k] >= down[k])
+        return np.flatnonzero(hit).tolist()
+
+
+Corners = tuple[Vector, Vector, Vector]
+Homogeneous = tuple[int, int, int, int]
+
+
+def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:
+    """+1 or -1 where the point, moved a little, is in the triangle seen along the axis: the sign of
+    its normal there; else 0."""
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    w = x[3]
+    sides = set()
+    for k in range(3):
+        u, v = corners[k], corners[(k + 1) % 3]
+        along_i, along_j = v[i] - u[i], v[j] - u[j]
+        turn = along_i * (x[j] - u[j] * w) - along_j * (x[i] - u[i] * w)
+        sides.add(sign(turn or -along_j or along_i))
+    return sides.pop() if len(sides) == 1 else 0
+
+
+def holds(corners: Corners, normal: Vector, x: Homogeneous) -> bool:
+    """Whether a closed triangle holds a point of its plane; where it has no area, whether the
+    segment that it is does."""
+    w = x[3]
+    if any(normal):
+        turns = set()
+        for k in range(3):
+            u, v = corners[k], corners[(k + 1) % 3]
+            step = (x[0] - u[0] * w, x[1] - u[1] * w, x[2] - u[2] * w)
+            turns.add(sign(dot(normal, cross(sub(v, u), step))))
+        return not {1, -1} <= turns
+    for k in range(3):
+        u, v = corners[k], corners[(k + 1) % 3]
+        step = (x[0] - u[0] * w, x[1] - u[1] * w, x[2] - u[2] * w)
+        along = sub(v, u)
+        if not any(cross(along, step)) and 0 <= dot(along, step) <= dot(along, along) * w:
+            return True
+    return False
+
+
+def count_by_triangle(
+    vertices: Floats, triangles: Indices, wound: bool
+) -> Counter[tuple[tuple[float, ...], ...]]:
+    """The triangles by coordinates, from their least corner on; not wound: sorted."""
+    found: Counter[tuple[tuple[float, ...], ...]] = Counter()
+    for corners in vertices[triangles].tolist():
+        points = [tuple(c) for c in corners]
+        first = points.index(min(points))
+        found[(*points[first:], *points[:first]) if wound else tuple(sorted(points))] += 1
+    return found
