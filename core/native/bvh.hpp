@@ -18,9 +18,11 @@ struct BvhNode {
 struct Bvh {
   std::vector<BvhNode> nodes;        // nodes[0] is the root; empty for an empty mesh
   std::vector<std::uint32_t> order;  // triangle numbers, leaves hold ranges of them
+  std::vector<Aabb> boxes;           // of these triangles
 };
 
-Bvh build_bvh(const Mesh& mesh);
+// The same tree whatever the number of threads; 0 takes one per core.
+Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
 
 inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
   Aabb box;
@@ -28,13 +30,8 @@ inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
   return box;
 }
 
-inline void include(Aabb& box, const Aabb& other) {
-  box.include(other.min);
-  box.include(other.max);
-}
-
-// Calls visit(triangle) -> bool for the triangles of every leaf whose box meets `query`, until one
-// returns false. Returns whether all were visited.
+// Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.
+// Returns whether all were visited.
 template <class Visit>
 bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
   if (bvh.nodes.empty()) return true;
@@ -49,7 +46,7 @@ bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (!visit(bvh.order[i])) return false;
+      if (meet(bvh.boxes[i], query) && !visit(bvh.order[i])) return false;
     }
   }
   return true;

@@ -57,11 +57,10 @@ class DistanceSearch {
   void visit_leaves(const BvhNode& m, const BvhNode& n) {
     for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
       const std::uint32_t ta = a_.bvh.order[k];
-      const Aabb box = triangle_box(a_.mesh, ta);
       const Corners ca = corners(a_.mesh, ta);
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
+        if (!(box_distance_squared(a_.bvh.boxes[k], b_.bvh.boxes[l]) <= bound_)) continue;
         const std::uint32_t tb = b_.bvh.order[l];
-        if (!(box_distance_squared(box, triangle_box(b_.mesh, tb)) <= bound_)) continue;
         const Witnesses w = triangle_distance(ca, corners(b_.mesh, tb));
         const bool improves = w.distance_squared < bound_ ||
                               (w.distance_squared == bound_ && result_.triangle_a == kNoTriangle);

@@ -111,7 +111,7 @@ void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels,
     triangles.reserve(patch.triangles.size());
     for (const std::uint32_t t : patch.triangles) {
       triangles.push_back(mesh.triangles[t]);
-      include(patch.box, triangle_box(mesh, t));
+      patch.box.include(triangle_box(mesh, t));
     }
     if (patch.shell) patch.volume = signed_volume(mesh.vertices, triangles);
   }

@@ -185,6 +185,26 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
 
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return determinant_sign(a, b, a, c, a, d); }
 
+TrianglePlane::TrianglePlane(Vec3 a, Vec3 b, Vec3 c) : a(a), b(b), c(c) {
+  const Vec3 u = b - a, v = c - a;
+  const double yz = u.y * v.z, zy = u.z * v.y;
+  const double zx = u.z * v.x, xz = u.x * v.z;
+  const double xy = u.x * v.y, yx = u.y * v.x;
+  normal_ = {yz - zy, zx - xz, xy - yx};
+  permanent_ = {std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz), std::fabs(xy) + std::fabs(yx)};
+}
+
+int TrianglePlane::side(Vec3 d) const {
+  // As many roundings as in determinant_sign(), with the rows in another order.
+  const Vec3 w = d - a;
+  const double determinant = dot(normal_, w);
+  const double bound = kDeterminantBound *
+                       (permanent_.x * std::fabs(w.x) + permanent_.y * std::fabs(w.y) + permanent_.z * std::fabs(w.z));
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return orientation(a, b, c, d);
+}
+
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
   const int i = drop_axis == 2 ? 0 : drop_axis + 1;
   const int j = drop_axis == 0 ? 2 : drop_axis - 1;

@@ -17,6 +17,19 @@ namespace satcheck {
 // triangle a, b, c to which its counter-clockwise normal (b - a) x (c - a) points.
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
+// The plane of a triangle, for the sides of many points: side(d) == orientation(a, b, c, d).
+class TrianglePlane {
+ public:
+  TrianglePlane(Vec3 a, Vec3 b, Vec3 c);
+  int side(Vec3 d) const;
+
+  Vec3 a, b, c;
+
+ private:
+  Vec3 normal_;     // (b - a) x (c - a) in float64
+  Vec3 permanent_;  // the same with the magnitudes of its products added
+};
+
 // Sign of det[q1 - p1; q2 - p2; q3 - p3], rows being differences of the given points.
 // orientation(a, b, c, d) == determinant_sign(a, b, a, c, a, d).
 int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);

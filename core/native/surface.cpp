@@ -37,7 +37,7 @@ std::vector<SurfacePart> find_parts(const Mesh& welded) {
       part = static_cast<std::uint32_t>(parts.size());
       parts.push_back({t, {}});
     }
-    include(parts[part].box, triangle_box(welded, t));
+    parts[part].box.include(triangle_box(welded, t));
   }
   return parts;
 }

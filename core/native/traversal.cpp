@@ -41,15 +41,16 @@ class Traversal {
  private:
   void test_leaves(const BvhNode& m, const BvhNode& n) {
     for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
-      const std::uint32_t ta = a_.bvh.order[k];
-      const Aabb box = triangle_box(a_.mesh, ta);
+      const Aabb& box = a_.bvh.boxes[k];
       if (!meet(box, n.box)) continue;
+      const std::uint32_t ta = a_.bvh.order[k];
       const Corners ca = corners(a_.mesh, ta);
+      const TrianglePlane plane(ca[0], ca[1], ca[2]);
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
+        if (!meet(box, b_.bvh.boxes[l])) continue;
         const std::uint32_t tb = b_.bvh.order[l];
-        if (!meet(box, triangle_box(b_.mesh, tb))) continue;
         ++found_.triangle_tests;
-        const TriangleContact contact = classify(ca, corners(b_.mesh, tb));
+        const TriangleContact contact = classify(plane, corners(b_.mesh, tb));
         if (contact == TriangleContact::disjoint) continue;
         if (contact == TriangleContact::crossing) {
           found_.crossing = ContactPair{ta, tb};

@@ -7,7 +7,6 @@
 
 #include <utility>
 
-#include "predicates.hpp"
 #include "winding.hpp"
 
 namespace satcheck {
@@ -62,10 +61,11 @@ bool any_edge_meets(const Corners& edges_of, const Corners& t) {
 }
 
 // Signs of the corners of `t` with respect to the plane of `plane`.
+std::array<int, 3> sides(const TrianglePlane& plane, const Corners& t) {
+  return {plane.side(t[0]), plane.side(t[1]), plane.side(t[2])};
+}
 std::array<int, 3> sides(const Corners& plane, const Corners& t) {
-  return {orientation(plane[0], plane[1], plane[2], t[0]),
-          orientation(plane[0], plane[1], plane[2], t[1]),
-          orientation(plane[0], plane[1], plane[2], t[2])};
+  return sides(TrianglePlane(plane[0], plane[1], plane[2]), t);
 }
 
 bool all_strictly_on_one_side(const std::array<int, 3>& s) {
@@ -159,8 +159,13 @@ bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t) {
 }
 
 TriangleContact classify(const Corners& a, const Corners& b) {
-  const std::array<int, 3> sb = sides(a, b);
+  return classify(TrianglePlane(a[0], a[1], a[2]), b);
+}
+
+TriangleContact classify(const TrianglePlane& plane, const Corners& b) {
+  const std::array<int, 3> sb = sides(plane, b);
   if (all_strictly_on_one_side(sb)) return TriangleContact::disjoint;
+  const Corners a{plane.a, plane.b, plane.c};
   const std::array<int, 3> sa = sides(b, a);
   if (all_strictly_on_one_side(sa)) return TriangleContact::disjoint;
   if (all_zero(sa) || all_zero(sb)) {

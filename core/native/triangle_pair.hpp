@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "vec.hpp"
+#include "predicates.hpp"
 
 namespace satcheck {
 
@@ -18,6 +18,7 @@ enum class TriangleContact {
 
 // Any triangles, collinear and point-like ones included.
 TriangleContact classify(const Corners& a, const Corners& b);
+TriangleContact classify(const TrianglePlane& a, const Corners& b);
 
 enum class CoplanarOverlap {
   none,      // not coplanar, or no common area

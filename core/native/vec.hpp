@@ -61,10 +61,12 @@ struct Aabb {
   Vec3 min{INFINITY, INFINITY, INFINITY};
   Vec3 max{-INFINITY, -INFINITY, -INFINITY};
 
-  void include(Vec3 p) {
+  void include(Vec3 p) { include(Aabb{p, p}); }
+  void include(const Aabb& box) {  // an empty one changes nothing
     // Plain comparisons: one instruction each, where fmin() is a call.
-    min = {p.x < min.x ? p.x : min.x, p.y < min.y ? p.y : min.y, p.z < min.z ? p.z : min.z};
-    max = {p.x > max.x ? p.x : max.x, p.y > max.y ? p.y : max.y, p.z > max.z ? p.z : max.z};
+    const Vec3 &low = box.min, &high = box.max;
+    min = {low.x < min.x ? low.x : min.x, low.y < min.y ? low.y : min.y, low.z < min.z ? low.z : min.z};
+    max = {high.x > max.x ? high.x : max.x, high.y > max.y ? high.y : max.y, high.z > max.z ? high.z : max.z};
   }
 };
 

@@ -93,7 +93,7 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
   path.include(far);
   int winding = 0;
   const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
-    if (!counts(t) || !meet(path, triangle_box(mesh, t))) return true;
+    if (!counts(t)) return true;
     const Triangle& v = mesh.triangles[t];
     const auto crossing =
         segment_crossing(p, far, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]);
@@ -108,13 +108,9 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
 template <class Point>
 std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p) {
   std::vector<std::uint32_t> found;
-  const Aabb p_box = point_box(p);
-  visit_box(bvh, p_box, [&](std::uint32_t t) {
+  visit_box(bvh, point_box(p), [&](std::uint32_t t) {
     const Triangle& v = mesh.triangles[t];
-    if (meet(p_box, triangle_box(mesh, t)) &&
-        point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) {
-      found.push_back(t);
-    }
+    if (point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) found.push_back(t);
     return true;
   });
   return found;

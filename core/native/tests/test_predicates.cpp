@@ -27,6 +27,13 @@ Integer determinant(Lattice a, Lattice b, Lattice c, Lattice d) {
          w.z * (u.x * v.y - u.y * v.x);
 }
 
+// Both ways to ask for the side of a point.
+int side(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const int sign = orientation(a, b, c, d);
+  CHECK(TrianglePlane(a, b, c).side(d) == sign);
+  return sign;
+}
+
 void small_grid_matches_integer_truth() {
   std::mt19937 generator(1);
   std::uniform_int_distribution<int> coordinate(-3, 3);
@@ -35,8 +42,7 @@ void small_grid_matches_integer_truth() {
     const Lattice a = point(), b = point(), c = point(), d = point();
     const int truth = sign(determinant(a, b, c, d));
     for (const double unit : {1.0, 0x1p-300, 0x1p+300}) {
-      CHECK(orientation(scaled_point(a, unit), scaled_point(b, unit), scaled_point(c, unit),
-                        scaled_point(d, unit)) == truth);
+      CHECK(side(scaled_point(a, unit), scaled_point(b, unit), scaled_point(c, unit), scaled_point(d, unit)) == truth);
     }
   }
 }
@@ -54,8 +60,8 @@ void large_lattice_matches_integer_truth() {
     d.y += offset(generator);
     d.z += offset(generator);
     const int truth = sign(determinant(a, b, c, d));
-    CHECK(orientation(scaled_point(a, 0x1p-20), scaled_point(b, 0x1p-20), scaled_point(c, 0x1p-20),
-                      scaled_point(d, 0x1p-20)) == truth);
+    CHECK(side(scaled_point(a, 0x1p-20), scaled_point(b, 0x1p-20), scaled_point(c, 0x1p-20), scaled_point(d, 0x1p-20)) ==
+          truth);
   }
 }
 
@@ -63,14 +69,14 @@ void large_lattice_matches_integer_truth() {
 void one_ulp_off_a_plane() {
   const Vec3 a{0.1, 0.2, 0.3}, b{0.2, 0.3, 0.1}, c{0.3, 0.1, 0.2};
   for (const Vec3 on : {Vec3{0.1, 0.3, 0.2}, Vec3{0.2, 0.1, 0.3}, Vec3{0.3, 0.2, 0.1}}) {
-    CHECK(orientation(a, b, c, on) == 0);
+    CHECK(side(a, b, c, on) == 0);
     Vec3 above = on, below = on;
     above.z = std::nextafter(above.z, 1.0);
     below.z = std::nextafter(below.z, 0.0);
-    const int up = orientation(a, b, c, above);
+    const int up = side(a, b, c, above);
     CHECK(up != 0);
-    CHECK(orientation(a, b, c, below) == -up);
-    CHECK(orientation(b, a, c, above) == -up);
+    CHECK(side(a, b, c, below) == -up);
+    CHECK(side(b, a, c, above) == -up);
   }
 }
 
