@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from satcheck.core import Mesh
-from satcheck.decompose.blocks import pack_blocks, unpack_blocks
+from satcheck.core.blocks import pack_blocks, unpack_blocks
 from satcheck.decompose.settings import DecompositionSettings
 
 if TYPE_CHECKING:

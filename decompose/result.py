@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from satcheck.core import Mesh, Polytope
-from satcheck.decompose.blocks import pack_blocks, unpack_blocks
+from satcheck.core.blocks import pack_blocks, unpack_blocks
 from satcheck.decompose.settings import DecompositionSettings
 
 NOT_SOLID: Final = "decomposition-not-solid"

@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.worker import (
+    Worker,
     WorkerCrashed,
     WorkerError,
     WorkerFailed,
@@ -233,3 +234,52 @@ def wait_until(condition: object, seconds: float = 10.0) -> None:
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.02)
+
+
+def pid_of(worker: Worker) -> bytes:
+    return worker.ask(b"pid", seconds=20.0)
+
+
+def test_a_worker_keeps_its_child() -> None:
+    with Worker(SERVER, megabytes=512) as worker:
+        first = pid_of(worker)
+        assert worker.ask(b"echo " + b"x" * 5_000_000, seconds=20.0) == b"x" * 5_000_000
+        with pytest.raises(WorkerFailed):
+            worker.ask(b"raise no", seconds=20.0)
+        assert pid_of(worker) == first
+    assert pid_is_gone(int(first))
+
+
+@pytest.mark.parametrize("request_", [b"abort", b"exit 0", b"hang", b"eat_memory 4096"])
+def test_a_lost_child_is_replaced(request_: bytes) -> None:
+    with Worker(SERVER, megabytes=512) as worker:
+        first = pid_of(worker)
+        with pytest.raises(WorkerError):
+            worker.ask(request_, seconds=2.0)
+        assert pid_of(worker) != first
+
+
+def test_threads_take_turns() -> None:
+    with Worker(SERVER, megabytes=512) as worker:
+        replies: list[bytes] = []
+        threads = [
+            threading.Thread(
+                target=lambda k=k: replies.append(worker.ask(b"echo %d" % k, seconds=20.0))
+            )
+            for k in range(8)
+        ]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    assert sorted(replies) == [b"%d" % k for k in range(8)]
+
+
+def pid_is_gone(pid: int) -> bool:
+    if os.name != "posix":
+        return True
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return True
+    return False

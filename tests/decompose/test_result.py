@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.core import Mesh
-from satcheck.decompose.blocks import pack_blocks, unpack_blocks
+from satcheck.core.blocks import pack_blocks, unpack_blocks
 from satcheck.decompose.result import Decomposition, Note, decode, encode
 from satcheck.decompose.settings import DecompositionSettings
 

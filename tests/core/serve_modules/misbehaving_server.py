@@ -89,6 +89,10 @@ def _modules(_rest: bytes) -> bytes:
     return "\n".join(sys.modules).encode()
 
 
+def _pid(_rest: bytes) -> bytes:
+    return str(os.getpid()).encode()
+
+
 _COMMANDS = {
     b"echo": _echo,
     b"chatter": _chatter,
@@ -105,4 +109,5 @@ _COMMANDS = {
     b"environment": _environment,
     b"path": _path,
     b"modules": _modules,
+    b"pid": _pid,
 }

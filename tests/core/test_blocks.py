@@ -1,4 +1,4 @@
-"""decompose/blocks.py: what is unpacked is what was packed, and nothing else passes."""
+"""core/blocks.py: what is unpacked is what was packed, and nothing else passes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from satcheck.decompose.blocks import pack_blocks, unpack_blocks
+from satcheck.core.blocks import pack_blocks, unpack_blocks
 
 
 @given(st.lists(st.binary(max_size=40), max_size=8))

@@ -1,0 +1,114 @@
+"""The child's side of `core.worker`: `python -P -m satcheck.core.worker_child MODULE MEGABYTES`.
+
+Standard output moves to standard error before the module is imported, so whatever a native library
+prints never reaches the replies nor the parent's output. Requests are answered one after another;
+when their pipe closes (the parent is done, or was killed), the child ends itself, even at work.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from queue import SimpleQueue
+
+from satcheck.core.worker_frames import (
+    CHUNK_BYTES,
+    FAILED,
+    HEADER,
+    MEMORY_SIGNS,
+    OUT_OF_MEMORY,
+    REPLY,
+    frame_header,
+    frame_length,
+    parse_frame,
+)
+
+_BYTES_PER_MEGABYTE = 1 << 20
+_ORPHANED_EXIT_CODE = 3
+
+
+def main(module: str, megabytes: int) -> None:
+    """Never returns: exit handlers of native libraries must not run."""
+    import signal
+
+    # The terminal sends Ctrl-C to the child too; native code would not see a KeyboardInterrupt.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    reply_fd = os.dup(1)
+    os.dup2(2, 1)
+    _limit_resources(megabytes)
+    requests: SimpleQueue[bytes] = SimpleQueue()
+    threading.Thread(target=_read_requests, args=(requests,), daemon=True).start()
+    while True:
+        status, payload = _serve(module, requests.get())
+        frame = memoryview(frame_header(status, payload) + payload)
+        while frame:
+            frame = frame[os.write(reply_fd, frame) :]
+
+
+def _serve(module: str, request: bytes) -> tuple[bytes, bytes]:
+    import importlib
+
+    try:
+        reply = importlib.import_module(module).serve(request)
+        if not isinstance(reply, bytes):
+            raise TypeError(f"serve() returned {type(reply).__name__}, not bytes")
+    except MemoryError:
+        return OUT_OF_MEMORY, b""
+    except Exception as error:  # noqa: BLE001  (handed on to the parent, whatever it is)
+        kind = type(error)
+        name = kind.__qualname__
+        if kind.__module__ != "builtins":
+            name = f"{kind.__module__}.{name}"
+        if any(sign in str(error) for sign in MEMORY_SIGNS):
+            return OUT_OF_MEMORY, b""
+        return FAILED, f"{name}\n{error}".encode("utf-8", "replace")
+    return REPLY, reply
+
+
+def _read_requests(requests: SimpleQueue[bytes]) -> None:
+    while True:
+        header = _read_exactly(HEADER.size)
+        length = frame_length(header)
+        assert length is not None
+        frame = parse_frame(header + _read_exactly(length - HEADER.size))
+        if frame is None:
+            os._exit(_ORPHANED_EXIT_CODE)
+        requests.put(frame[1])
+
+
+def _read_exactly(length: int) -> bytes:
+    data = bytearray()
+    while len(data) < length:
+        chunk = os.read(0, min(length - len(data), CHUNK_BYTES))
+        if not chunk:
+            os._exit(_ORPHANED_EXIT_CODE)
+        data += chunk
+    return bytes(data)
+
+
+def _limit_resources(megabytes: int) -> None:
+    """No core dump, no crash dialog, no more than `megabytes` MiB of address space."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        msvcrt.SetErrorMode(msvcrt.SEM_FAILCRITICALERRORS | msvcrt.SEM_NOGPFAULTERRORBOX)
+        return
+    import resource
+
+    limits = {
+        resource.RLIMIT_CORE: 0,
+        resource.RLIMIT_AS: megabytes * _BYTES_PER_MEGABYTE,
+    }
+    for kind, wanted in limits.items():
+        _, hard = resource.getrlimit(kind)
+        ceiling = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+        try:
+            resource.setrlimit(kind, (ceiling, ceiling))
+        except (ValueError, OSError):
+            # macOS refuses address-space limits: said in core.worker, the time limit holds.
+            continue
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]))
