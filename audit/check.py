@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +19,7 @@ from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, su
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
@@ -102,13 +104,21 @@ def _close_pairs(roster: Roster, settings: Settings) -> list[tuple[int, int]]:
 def _examine_all(
     roster: Roster, close: list[tuple[int, int]], settings: Settings, progress: Progress | None
 ) -> list[Examined]:
-    pairs = [Pair(roster.placed[i], roster.placed[j], settings) for i, j in close]
     done = []
-    for one in _in_order(pairs, settings.jobs):
-        done.append(one)
-        if progress is not None:
-            progress(len(done), len(pairs))
+    with ExitStack() as stack:
+        meter = stack.enter_context(_volume_meter(settings)) if settings.volume else None
+        pairs = [Pair(roster.placed[i], roster.placed[j], settings, meter) for i, j in close]
+        for one in _in_order(pairs, settings.jobs):
+            done.append(one)
+            if progress is not None:
+                progress(len(done), len(pairs))
     return done
+
+
+def _volume_meter(settings: Settings) -> VolumeMeter:
+    from satcheck.core.overlap_volume import VolumeMeter
+
+    return VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
 
 
 def _in_order(pairs: list[Pair], jobs: int) -> Iterator[Examined]:

@@ -39,12 +39,26 @@ def examine(pair: Pair, plan: Plan) -> Finding:
         finding = _overlapping(pair, contact, plan)
     else:
         finding = _apart(pair, contact, measure_gap(pair, contact, plan), plan)
+    return _with_extras(finding, pair, contact, plan)
+
+
+def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> Finding:
+    """The finding with what only some ask for."""
+    if pair.settings.volume:
+        from satcheck.audit.volume import common_volume
+
+        volume = common_volume(pair, contact, plan)
+        finding = replace(
+            finding,
+            volume=volume.volume,
+            volume_error=volume.error,
+            reason=finding.reason or volume.refusal,
+        )
     if pair.settings.contacts:
         from satcheck.audit.contacts import find_contacts
 
-        contacts = find_contacts(pair, contact, plan)
-        finding = replace(finding, contacts=contacts, plan=tuple(plan.stages))
-    return finding
+        finding = replace(finding, contacts=find_contacts(pair, contact, plan))
+    return replace(finding, plan=tuple(plan.stages))
 
 
 def apart_by_boxes(pair: Pair) -> Finding:
@@ -61,6 +75,8 @@ def apart_by_boxes(pair: Pair) -> Finding:
         quality="exact",
         tolerance=pair.tolerance,
         contacts=Contacts() if pair.settings.contacts else None,
+        volume=0.0 if pair.settings.volume else None,
+        volume_error=0.0 if pair.settings.volume else None,
     )
 
 

@@ -1,13 +1,17 @@
-"""A question about two bodies: what is asked, how far the ladder may be climbed."""
+"""A question about two bodies: what is asked, how far to climb the ladder, with what tools."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from satcheck.audit.boxes import diagonal, largest_coordinate
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.tolerances import TOUCH_FRACTION
+
+if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,6 +19,7 @@ class Pair:
     a: PlacedBody
     b: PlacedBody
     settings: Settings
+    meter: VolumeMeter | None = None
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""

@@ -43,13 +43,15 @@ class SharedMesh:
 
     convex(): closed, consistently outward, and exactly convex. An affine map keeps that, up to the
     one rounding of each world coordinate: the body is then taken as the hull of its world vertices.
+    covers_once(): a solid that covers no point twice, so that its volume is that of its mesh.
     """
 
-    __slots__ = ("convex", "decomposition", "file", "shape")
+    __slots__ = ("convex", "covers_once", "decomposition", "file", "shape")
 
     def __init__(self, file: MeshFile, settings: Settings) -> None:
         self.file = file
         self.convex = Once(self._convex)
+        self.covers_once = Once(lambda: core.covers_once(core.Surface(file.mesh, True)))
         self.decomposition = Once(lambda: self._decomposition(settings))
         self.shape = Once(self._shape)
 

@@ -129,6 +129,8 @@ class Finding:
     open). tolerance: the touch band of this pair.
     quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
     is proven, the depth is a proven interval; estimate: not proven.
+    volume: what both have in common; volume_error: about how far off that is, not proven (0.0: the
+    volume is exactly 0.0). Neither weakens the quality.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
     as it had to be for the moved mesh to be verified free. certificate: JSON values that prove it
     (Settings.certificate), see the schema.
@@ -151,7 +153,8 @@ class Finding:
     mtv_moves: Literal["a"] | None = None
     mtv_verified: bool | None = None
     witness: Witness | None = None
-    volume: None = None
+    volume: float | None = None
+    volume_error: float | None = None
     contacts: Contacts | None = None
     certificate: Mapping[str, Any] | None = None
     reason: str | None = None
@@ -281,7 +284,8 @@ def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
         "mtv_moves": finding.mtv_moves,
         "mtv_verified": finding.mtv_verified,
         "witness": witness and {"a": _vector(witness.a), "b": _vector(witness.b)},
-        "volume": finding.volume,
+        "volume": _number(finding.volume),
+        "volume_error": _number(finding.volume_error),
         "contacts": finding.contacts and finding.contacts.to_dict(),
         "certificate": finding.certificate,
         "reason": finding.reason,

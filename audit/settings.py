@@ -24,6 +24,7 @@ class Settings:
     """Lengths are in the units of the files. None means "not asked for" unless said otherwise.
 
     depth: depth and MTV of overlapping pairs.
+    volume: the volume that bodies have in common; volume_*: what a pair may cost.
     contacts: where surfaces meet; contact_points: how many points a pair may list.
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
@@ -37,6 +38,9 @@ class Settings:
     """
 
     depth: bool = True
+    volume: bool = False
+    volume_seconds: float = 60.0
+    volume_megabytes: int = 4096
     contacts: bool = False
     contact_points: int = CONTACT_POINTS
     clearance: float | None = None
@@ -64,8 +68,9 @@ class Settings:
                 raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
         if self.accuracy not in ACCURACIES:
             raise _refused(f"accuracy must be one of {', '.join(ACCURACIES)}")
-        if self.contacts and self.accuracy != "exact":
-            raise _refused(f"contacts are found on triangles: not at accuracy {self.accuracy}")
+        for name in ("contacts", "volume"):
+            if getattr(self, name) and self.accuracy != "exact":
+                raise _refused(f"{name} is found on triangles: not at accuracy {self.accuracy}")
         if self.contact_points < 0:
             raise _refused(f"contact_points must be 0 or more, not {self.contact_points!r}")
         if not 0 < self.depth_width < 1:
@@ -77,6 +82,9 @@ class Settings:
         """Everything that can change an answer, and nothing that cannot."""
         return {
             "depth": self.depth,
+            "volume": self.volume,
+            "volume_seconds": self.volume_seconds,
+            "volume_megabytes": self.volume_megabytes,
             "contacts": self.contacts,
             "contact_points": self.contact_points,
             "clearance": self.clearance,

@@ -30,6 +30,11 @@ TOUCH_FRACTION = 1e-3
 # A depth interval this narrow, relatively, comes from rounding alone and is called exact.
 EXACT_WIDTH = 1e-9
 
+# The signed volume of a mesh is a sum of determinants from one of its corners: six products of the
+# edges of its box each, 9 roundings, as much again for the sum, a sixth of it. So many roundoffs of
+# the volume of the box for each triangle.
+VOLUME_ROUNDOFFS = 18
+
 
 def rounding_pad(largest_coordinate: float) -> float:
     """World units: what a short chain of operations on such coordinates can be off by."""

@@ -37,6 +37,7 @@ class Choices:
     explain: bool
     depth: bool
     contacts: bool
+    volume: bool
     clearance: Length | None
     tolerance: Length | None
     accuracy: str
@@ -135,6 +136,7 @@ def _settings(choices: Choices, scene: Scene) -> Any:
     return Settings(
         depth=choices.depth,
         contacts=choices.contacts,
+        volume=choices.volume,
         clearance=length(choices.clearance, "--clearance"),
         tolerance=length(choices.tolerance, "--tolerance"),
         accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it

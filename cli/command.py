@@ -128,6 +128,7 @@ def satcheck() -> None:
     is_flag=True,
     help="Find where surfaces meet: curves, patches of flush faces, points. JSON has their points.",
 )
+@click.option("--volume", is_flag=True, help="Measure the volume that overlapping solids share.")
 @click.option(
     "--clearance",
     type=length,
@@ -184,6 +185,7 @@ def check(
     explain: bool,
     depth: bool,
     contacts: bool,
+    volume: bool,
     clearance: Length | None,
     tolerance: Length | None,
     accuracy: str,
@@ -216,6 +218,7 @@ def check(
             explain=explain,
             depth=depth,
             contacts=contacts,
+            volume=volume,
             clearance=clearance,
             tolerance=tolerance,
             accuracy=accuracy,

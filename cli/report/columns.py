@@ -77,6 +77,7 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column(f"gap{unit}", _gap, right=True, folds=True),
         column(f"depth{unit}", depth, right=True, folds=True),
         column(f"move A by{unit}", _mtv, folds=True),
+        column(f"volume ({known}^3)" if known else "volume", _volume, right=True),
         column("contact", contacts, folds=True),
         column("quality", lambda finding: finding.quality or ""),
     ]
@@ -144,6 +145,10 @@ def _broken_names(columns: Sequence[Column], width: int) -> Layout:
 
 def _gap(finding: Finding) -> str:
     return "" if finding.distance is None or finding.distance <= 0 else number(finding.distance)
+
+
+def _volume(finding: Finding) -> str:
+    return "" if finding.volume is None else number(finding.volume)
 
 
 def _mtv(finding: Finding) -> str:

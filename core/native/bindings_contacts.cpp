@@ -1,4 +1,4 @@
-// The Python face of surface intersections. Nothing but conversions.
+// The Python face of surfaces that meet, each other or themselves. Nothing but conversions.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "covers_once.hpp"
 #include "surface_intersection.hpp"
 
 namespace nb = nanobind;
@@ -69,6 +70,9 @@ triangle_pairs: all that meet. complete: False when more met than allowed, and n
         nb::call_guard<nb::gil_scoped_release>(),
         R"(All common points of two placed surfaces. Which triangles meet and how the pieces join is decided by exact
 predicates; points are exact intersections, each coordinate rounded once. Solid or not makes no difference.)");
+  m.def("covers_once", &covers_once, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
+        R"(Whether winding numbers with respect to the solid are 0 and 1 only, so that its signed volume is that of what it
+covers. Crossing triangles are found exactly, nested shells and contact with itself by samples.)");
 }
 
 }  // namespace satcheck

@@ -54,6 +54,7 @@ FINDING_KEYS = [
     "mtv_verified",
     "witness",
     "volume",
+    "volume_error",
     "contacts",
     "certificate",
     "reason",

@@ -119,7 +119,14 @@ CONTACTS = Contacts(
     triangle_pairs=((3, 4), (3, 5)),
     totals=ContactTotals(1, 4.0, 1, 1.0, 1, 2),
 )
-CROSSING = replace(PENETRATING, id="block|crossing", b="crossing", contacts=CONTACTS)
+CROSSING = replace(
+    PENETRATING,
+    id="block|crossing",
+    b="crossing",
+    volume=0.328125,
+    volume_error=1e-12,
+    contacts=CONTACTS,
+)
 BLOCK = BodyReport(
     id="block",
     name="block",

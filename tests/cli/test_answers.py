@@ -74,6 +74,14 @@ def test_contacts_are_there_when_asked_for() -> None:
     assert loop["length"] == 8.5
 
 
+def test_a_volume_is_there_when_asked_for() -> None:
+    without, asked = (satcheck("--format", "json", *more, *PUSHED) for more in ((), ("--volume",)))
+    assert without.document["findings"][0]["volume"] is None
+    VALIDATOR.validate(asked.document)
+    finding = asked.document["findings"][0]
+    assert abs(finding["volume"] - 2.625) <= finding["volume_error"] < 1e-8
+
+
 def test_clearance_finds_the_near() -> None:
     ran = satcheck("--clearance", "0.75", *APART)
     assert ran.code == 1

@@ -58,6 +58,7 @@ def test_vectors_take_one_line() -> None:
         (["findings", 0, "mtv"], [1.0, 0.0]),
         (["findings", 0, "depth"], -1.0),
         (["findings", 0, "extra"], None),
+        (["findings", 5, "volume"], -1.0),
         (["findings", 5, "contacts", "curves", 0, "points"], [[1.0, 0.0, 0.0]]),
         (["summary", "pairs", "total"], 1.5),
         (["issues", 0, "code"], "Not Kebab"),

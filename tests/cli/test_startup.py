@@ -19,6 +19,7 @@ HEAVY = {
     "importlib.metadata",
     "jsonschema",
     "lxml",
+    "manifold3d",
     "msgspec",
     "multiprocessing",
     "networkx",
@@ -45,6 +46,17 @@ def test_two_small_convex_meshes(form: str) -> None:
     names = imported("--format", form, "box.obj", "box_pushed.stl", code=1)
     assert names & HEAVY == set()
     assert not {name for name in names if name.startswith(("rich.progress", "rich.live"))}
+
+
+@pytest.mark.parametrize("option", ["--contacts", "--volume"])
+def test_what_was_not_asked_for_is_not_there(option: str) -> None:
+    """Nor does asking load manifold3d or numpy here: they work in the child."""
+    stages = {"--contacts": "satcheck.audit.contacts", "--volume": "satcheck.audit.volume"}
+    arguments = ("--format", "json", "box.obj", "box_pushed.stl")
+    without, asked = imported(*arguments, code=1), imported(option, *arguments, code=1)
+    assert without & set(stages.values()) == set()
+    assert stages[option] in asked
+    assert {"manifold3d", "numpy"} & asked == set()
 
 
 def test_json_needs_no_table() -> None:

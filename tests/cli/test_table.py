@@ -58,6 +58,13 @@ def test_contacts_in_a_few_words() -> None:
     assert "contact" not in shown(PENETRATING)
 
 
+def test_a_volume_that_was_asked_for() -> None:
+    text = shown(CROSSING, SEPARATED)
+    assert "volume" in text
+    assert "0.328125" in text
+    assert "volume" not in shown(SEPARATED)
+
+
 def test_bounds_are_shown_outward() -> None:
     assert "1.24123 .. 1.25001" in shown(BOUNDED)
 

@@ -19,7 +19,7 @@ Quad = tuple[Cell, Cell, Cell, Cell]
 Matrix = tuple[tuple[int, int, int], tuple[int, int, int], tuple[int, int, int]]
 
 IDENTITY: Matrix = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-SHEAR: Matrix = ((2, 1, 0), (-1, 3, 1), (1, -1, 2))  # determinant 18
+SHEAR: Matrix = ((2, 1, 0), (-1, 3, 1), (1, -1, 2))  # determinant 17
 
 # Each face of the cell [0, 1]^3, counter-clockwise seen from outside, and the way to the neighbour.
 FACES: tuple[tuple[Cell, Quad], ...] = (

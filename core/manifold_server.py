@@ -1,0 +1,79 @@
+"""manifold3d behind core.worker: the only module that imports it, and only ever in a child process.
+
+Emmett Lalish's library: Booleans of triangle meshes in float64 that always end in a manifold.
+Vertices nearer than its tolerance, about 1e-12 of the extent, may be merged, and thinner parts be
+lost.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, Final
+
+from satcheck.core.blocks import unpack_blocks
+
+if TYPE_CHECKING:
+    import manifold3d
+    import numpy as np
+    from numpy.typing import NDArray
+
+# How far a volume may be from what it is before the Boolean, in the same tolerance.
+_SAME: Final = 4.0
+
+
+def serve(request: bytes) -> bytes:
+    """Two meshes as four blocks; JSON with `volume` and `error`, or with `refused` and `which`.
+
+    The pair is moved to the origin and scaled by a power of two to unit size, which makes the
+    tolerance as small as it can be: true lengths are those of the answer times 2^exponent.
+    """
+    import numpy as np
+
+    blocks = unpack_blocks(request)
+    vertices = [np.frombuffer(block, dtype="<f8").reshape(-1, 3) for block in blocks[0::2]]
+    triangles = [np.frombuffer(block, dtype="<u4").reshape(-1, 3) for block in blocks[1::2]]
+    centre, exponent = _frame(vertices)
+    solids, areas = [], []
+    for which, (points, corners) in enumerate(zip(vertices, triangles, strict=True)):
+        placed = np.ldexp(points - centre, -exponent)
+        solid = _solid(placed, corners)
+        if isinstance(solid, str):
+            return _json(refused=solid, which=which)
+        solids.append(solid)
+        areas.append(solid.surface_area())
+    common = solids[0] ^ solids[1]
+    if common.status().name != "NoError":
+        return _json(refused=common.status().name, which=None)
+    tolerance = max(common.get_tolerance(), *(solid.get_tolerance() for solid in solids))
+    return _json(volume=common.volume(), error=tolerance * sum(areas), exponent=exponent)
+
+
+def _frame(vertices: list[NDArray[np.float64]]) -> tuple[NDArray[Any], int]:
+    """(centre, e): of all points, (p - centre) / 2^e has its largest coordinate in [1/2, 1]."""
+    import numpy as np
+
+    low = np.min([points.min(axis=0) for points in vertices], axis=0) / 2.0
+    high = np.max([points.max(axis=0) for points in vertices], axis=0) / 2.0
+    return low + high, int(np.frexp((high - low).max())[1])
+
+
+def _solid(points: NDArray[Any], corners: NDArray[Any]) -> manifold3d.Manifold | str:
+    """The mesh as it is, or why it cannot be used."""
+    import manifold3d
+    import numpy as np
+
+    solid = manifold3d.Manifold(manifold3d.Mesh64(points, corners.astype(np.uint64)))
+    if solid.status().name != "NoError":
+        return str(solid.status().name)
+    p, q, r = (points[corners[:, k]] for k in range(3))
+    volume = float(np.einsum("ij,ij->i", p, np.cross(q, r)).sum()) / 6.0
+    if not volume > 0.0:
+        return "InsideOut"
+    # What manifold3d changes about a mesh while it reads it must be no more than its tolerance.
+    if abs(solid.volume() - volume) > _SAME * solid.get_tolerance() * solid.surface_area():
+        return "Changed"
+    return solid
+
+
+def _json(**answer: object) -> bytes:
+    return json.dumps(answer).encode()

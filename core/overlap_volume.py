@@ -1,0 +1,70 @@
+"""The volume that two solids have in common, by manifold3d in a child process."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Final
+
+from satcheck.core._native import Mesh
+from satcheck.core.blocks import pack_blocks
+from satcheck.core.errors import SatcheckError
+from satcheck.core.worker import Worker, WorkerError
+
+_SERVER: Final = "satcheck.core.manifold_server"
+
+
+@dataclass(frozen=True, slots=True)
+class OverlapVolume:
+    """volume: in float64. error: what moving both surfaces by the tolerance of the Boolean changes
+    at most; an estimate of how far off it is, not a proof."""
+
+    volume: float
+    error: float
+
+
+class VolumeMeter:
+    """Measures common volumes, one pair after another in one child; to be used in a `with`.
+
+    seconds: for one pair. megabytes: of the child. Nothing starts before the first pair.
+    """
+
+    def __init__(self, *, seconds: float, megabytes: int) -> None:
+        self._seconds = seconds
+        self._worker = Worker(_SERVER, megabytes=megabytes)
+
+    def __enter__(self) -> VolumeMeter:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self._worker.close()
+
+    def measure(self, a: Mesh, b: Mesh) -> OverlapVolume:
+        """Of two solids whose winding numbers are 0 and 1 only.
+
+        Raises SatcheckError: `volume-refused` when manifold3d cannot use one of the meshes,
+        `volume-out-of-range` when it is no float64, `volume-failed` when the child gave no answer.
+        """
+        try:
+            reply = self._worker.ask(
+                pack_blocks([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
+            )
+        except WorkerError as error:
+            raise SatcheckError("volume-failed", f"no volume: {error.message}") from error
+        answer = json.loads(reply)
+        if "refused" in answer:
+            which = {0: "A: ", 1: "B: "}.get(answer["which"], "")
+            raise SatcheckError("volume-refused", f"manifold3d says {which}{answer['refused']}")
+        scale = 3 * answer["exponent"]
+        try:
+            volume = math.ldexp(answer["volume"], scale)
+            return OverlapVolume(volume, math.ldexp(answer["error"], scale))
+        except OverflowError as error:
+            raise SatcheckError("volume-out-of-range", "the volume is no float64") from error

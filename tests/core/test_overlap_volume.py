@@ -1,0 +1,118 @@
+"""The common volume: within its stated error of what is known exactly, or refused."""
+
+from __future__ import annotations
+
+import subprocess
+from collections import Counter
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from satcheck.core import Mesh
+from satcheck.core.errors import SatcheckError
+from satcheck.core.overlap_volume import VolumeMeter
+from tests.core.test_mesh_relation import CELL, CUBE, HOLLOW, random_pair
+from tests.core.voxel_solids import IDENTITY, SHEAR, mesh_of_soup
+
+DETERMINANT = 17  # of SHEAR
+
+
+@pytest.fixture(scope="module")
+def meter() -> Iterator[VolumeMeter]:
+    with VolumeMeter(seconds=60.0, megabytes=4096) as one:
+        yield one
+
+
+def test_lattice_solids_against_their_cells(meter: VolumeMeter) -> None:
+    """Every contact is degenerate; some solids touch themselves in an edge or a corner."""
+    seen = Counter[bool]()
+    for seed in range(120):
+        a, b = random_pair(seed)
+        matrix, unit = (SHEAR, DETERMINANT) if seed % 2 else (IDENTITY, 1)
+        truth = unit * len(a.unit_cells() & b.unit_cells())
+        found = meter.measure(a.mesh(matrix, seed), b.mesh(matrix, seed + 1))
+        assert abs(found.volume - truth) <= found.error, seed
+        assert found.error < 1e-8 * unit
+        seen[truth > 0] += 1
+    assert min(seen.values()) > 20
+
+
+@pytest.mark.parametrize("thickness", [1.0, 1e-3, 1e-6, 1e-9, 1e-11, 1e-12, 1e-13, 2.0**-50])
+@pytest.mark.parametrize("far", [0.0, 1e3, 1e6])
+def test_thin_overlaps_are_within_the_error(
+    meter: VolumeMeter, thickness: float, far: float
+) -> None:
+    a = CUBE.mesh().translated((far, far, far))
+    b = CUBE.mesh().translated((far + 4.0 - thickness, far + 1.0, far + 2.0))
+    lengths = (Fraction(a.bounds[1][k]) - Fraction(b.bounds[0][k]) for k in range(3))
+    truth = Fraction(1)
+    for length in lengths:
+        truth *= length
+    found = meter.measure(a, b)
+    assert abs(Fraction(found.volume) - truth) <= Fraction(found.error)
+    assert found.error < 1e-9
+
+
+@pytest.mark.parametrize("exponent", [-140, -60, 60, 100])
+def test_powers_of_two_change_no_digit(meter: VolumeMeter, exponent: int) -> None:
+    a, b = CUBE.mesh(), CUBE.mesh().translated((1.25, 0.5, 0.75))
+    scale = 2.0**exponent
+    matrix = [scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1]
+    plain, scaled = meter.measure(a, b), meter.measure(a.transformed(matrix), b.transformed(matrix))
+    assert scaled.volume == plain.volume * scale**3
+    assert scaled.error == plain.error * scale**3
+
+
+def refusal(meter: VolumeMeter, a: Mesh, b: Mesh) -> SatcheckError:
+    with pytest.raises(SatcheckError) as caught:
+        meter.measure(a, b)
+    return caught.value
+
+
+def opened(mesh: Mesh) -> Mesh:
+    vertices, triangles = mesh.to_bytes()
+    return Mesh.from_bytes(vertices, triangles[:-24])
+
+
+def inside_out(mesh: Mesh) -> Mesh:
+    return mesh_of_soup(
+        corner for t in range(mesh.triangle_count) for corner in reversed(mesh.corners(t))
+    )
+
+
+@pytest.mark.parametrize("spoil", [opened, inside_out])
+def test_what_is_no_solid_is_refused_whichever_it_is(meter: VolumeMeter, spoil: Any) -> None:
+    """manifold3d itself would say 0, or a negative volume."""
+    a, b = CUBE.mesh(), CUBE.mesh().translated((1.0, 1.0, 1.0))
+    first, second = refusal(meter, spoil(a), b), refusal(meter, a, spoil(b))
+    assert first.code == second.code == "volume-refused"
+    assert " A: " in first.message
+    assert " B: " in second.message
+
+
+def test_a_limit_that_is_met_is_a_failure_and_the_next_pair_goes_on() -> None:
+    a, b = HOLLOW.mesh(), CELL.mesh().translated((0.5, 0.5, 0.5))
+    with VolumeMeter(seconds=0.0, megabytes=4096) as hurried:
+        assert refusal(hurried, a, b).code == "volume-failed"
+        assert refusal(hurried, a, b).code == "volume-failed"
+    with VolumeMeter(seconds=60.0, megabytes=16) as narrow:
+        assert refusal(narrow, a, b).code == "volume-failed"
+
+
+def test_one_child_for_all_pairs(monkeypatch: pytest.MonkeyPatch) -> None:
+    started = []
+    popen = subprocess.Popen
+
+    def counted(*arguments: Any, **options: Any) -> Any:
+        started.append(arguments)
+        return popen(*arguments, **options)
+
+    monkeypatch.setattr(subprocess, "Popen", counted)
+    with VolumeMeter(seconds=60.0, megabytes=4096) as meter:
+        assert started == []
+        for shift in (1.0, 2.0, 3.0):
+            moved = CUBE.mesh().translated((shift, 0.0, 0.0))
+            assert meter.measure(CUBE.mesh(), moved).volume == pytest.approx(16 * (4 - shift))
+    assert len(started) == 1
