@@ -4,7 +4,8 @@
 //
 // * Coplanar polygons become one patch where they share a side; the sides left over are its border.
 // * Segments that are a side of a patch belong to it. The others join into curves.
-// * A collinear triangle gives one point several names; these become one node.
+// * Collinear triangles are flipped away first, for they hide that an edge ends at a vertex. One that
+//   cannot go gives points several names; these become one node.
 #include "surface_intersection.hpp"
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "incidence.hpp"
 #include "patches.hpp"
 #include "predicates.hpp"
+#include "slivers.hpp"
 
 namespace satcheck {
 namespace {
@@ -58,16 +60,17 @@ struct Piece {
 
 class Assembly {
  public:
-  Assembly(const Surface& a, const Surface& b) : a_(a.mesh), b_(b.mesh) {}
+  Assembly(const Mesh& a, const Mesh& b) : a_(a), b_(b) {}
 
-  void add(ContactPair pair, const TriangleMeeting& meeting) {
+  // pair: as it is reported; triangle_a: of the mesh given here.
+  void add(ContactPair pair, const TriangleMeeting& meeting, std::uint32_t triangle_a) {
     if (meeting.kind == MeetingKind::none) return;
     result_.triangle_pairs.push_back(pair);
     for (const Incidence& node : meeting.nodes) number(node);
     if (meeting.kind == MeetingKind::segment) {
       segments_.emplace_back(number(meeting.nodes[0]), number(meeting.nodes[1]));
     } else if (meeting.kind == MeetingKind::patch) {
-      Piece& piece = pieces_.emplace_back(Piece{pair.a, meeting.opposed, {}});
+      Piece& piece = pieces_.emplace_back(Piece{triangle_a, meeting.opposed, {}});
       for (const Side& side : meeting.sides) piece.sides.emplace_back(number(side.from), number(side.to));
     } else {
       for (const Incidence& node : meeting.nodes) joined_.emplace_back(number(meeting.nodes[0]), number(node));
@@ -236,8 +239,12 @@ class Assembly {
     std::sort(result_.patches.begin(), result_.patches.end(), [](const auto& p, const auto& q) {
       return p.area != q.area ? p.area > q.area : points_less(p.outlines[0], q.outlines[0]);
     });
-    std::sort(result_.triangle_pairs.begin(), result_.triangle_pairs.end(),
+    std::vector<ContactPair>& pairs = result_.triangle_pairs;
+    std::sort(pairs.begin(), pairs.end(),
               [](ContactPair p, ContactPair q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+    const auto last = std::unique(pairs.begin(), pairs.end(),
+                                  [](ContactPair p, ContactPair q) { return p.a == q.a && p.b == q.b; });
+    pairs.erase(last, pairs.end());
   }
 
   const Mesh &a_, &b_;
@@ -254,12 +261,16 @@ class Assembly {
 }  // namespace
 
 SurfaceIntersection surface_intersection(const Surface& a, const Surface& b, std::size_t max_pairs) {
-  Assembly assembly(a, b);
-  for (std::uint32_t ta = 0; ta < a.mesh.triangles.size(); ++ta) {
-    const Aabb box = triangle_box(a.mesh, ta);
-    const bool complete = visit_box(b.bvh, box, [&](std::uint32_t tb) {
-      if (meet(box, triangle_box(b.mesh, tb))) {
-        assembly.add({ta, tb}, meet_triangles(a.mesh, ta, b.mesh, tb));
+  const Sliverless from = without_slivers(a.mesh), to = without_slivers(b.mesh);
+  const Mesh &mesh_a = from.mesh, &mesh_b = to.mesh;
+  const Bvh rebuilt = to.changed ? build_bvh(mesh_b) : Bvh{};
+  const Bvh& bvh = to.changed ? rebuilt : b.bvh;
+  Assembly assembly(mesh_a, mesh_b);
+  for (std::uint32_t ta = 0; ta < mesh_a.triangles.size(); ++ta) {
+    const Aabb box = triangle_box(mesh_a, ta);
+    const bool complete = visit_box(bvh, box, [&](std::uint32_t tb) {
+      if (meet(box, triangle_box(mesh_b, tb))) {
+        assembly.add({from.source[ta], to.source[tb]}, meet_triangles(mesh_a, ta, mesh_b, tb), ta);
       }
       return assembly.pairs() <= max_pairs;
     });

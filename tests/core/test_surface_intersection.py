@@ -310,6 +310,32 @@ def test_a_sliver_without_area_does_not_break_the_curve() -> None:
     assert curve.points == [(2.5, 0.0, 0.0), (2.5, 2.0, 2.0), (2.5, 4.0, 0.0)]
 
 
+def with_slivers(mesh: Mesh, rng: random.Random, count: int) -> Mesh:
+    """Splits one of the two triangles at an edge, and closes the gap without area, so many times.
+
+    Slivers are split too. Midpoints are exact: lattice points have few bits.
+    """
+    soup = [mesh.corners(t) for t in range(mesh.triangle_count)]
+    for _ in range(count):
+        k, turn = rng.randrange(len(soup)), rng.randrange(3)
+        u, v, x = (soup[k][(turn + i) % 3] for i in range(3))
+        m = ((u[0] + v[0]) / 2, (u[1] + v[1]) / 2, (u[2] + v[2]) / 2)
+        soup[k : k + 1] = [(u, m, x), (m, v, x), (u, v, m)]
+    return mesh_of_soup(corner for triangle in soup for corner in triangle)
+
+
+def test_slivers_leave_no_trace() -> None:
+    """A split sliver may be split so that its halves overlap; all that goes too."""
+    for seed in range(60):
+        a, b = random_pair(seed)
+        rng = random.Random(seed)
+        plain = meet(a.mesh(seed=seed), b.mesh(seed=seed + 1))
+        split = meet(
+            with_slivers(a.mesh(seed=seed), rng, 12), with_slivers(b.mesh(seed=seed + 1), rng, 12)
+        )
+        assert shape_of(plain) == shape_of(split), seed
+
+
 def test_too_many_pairs_are_not_listed() -> None:
     a = Surface(CUBE.mesh(), True)
     found = surface_intersection(a, a, 10)
