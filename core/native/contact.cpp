@@ -1,221 +1,179 @@
-// Interiors of two solids overlap when somewhere beside a point of a surface both winding numbers
-// differ from 0. When no two triangles cross, that is decided by finitely many points:
+// The planes of all triangles cut space into cells; in each both winding numbers are constant, and the
+// relation of two solids depends on which combinations of (in A?, in B?) occur, and on whether the
+// boundaries meet. A cell is bounded by pieces of triangles, so the combinations beside one exact
+// generic point of every piece tell all of them. Not every piece needs a look:
 //
 // * Triangles without contact: each region of them lies on one side of the other surface, so one
-//   winding number per region tells.
+//   winding number of the other solid per region tells, with those of its own solid.
 // * Triangles in contact: what cuts one into pieces are edges of the other mesh that lie in its
-//   plane, for anything else would cross it. Each piece lies in the other surface, inside or
-//   outside of it as a whole, so one exact sample point per piece tells, with the winding numbers
-//   of both meshes on both sides.
-// * If no piece of one surface shows an overlap, the interior of the other solid can only be inside
-//   the first one as a whole; one sample per region and per contact triangle of it tells.
+//   plane, triangles that cross it, and where its own mesh meets itself, those of its own. One sample a
+//   piece tells, with the winding numbers of both meshes on both sides.
+// * When the pieces of one surface, S, are known, triangles of the other that do not meet their own mesh
+//   need no cuts by S: from one cell of the other solid, or of its outside, to the next the way leads
+//   past no piece of S, or past one that has already shown both combinations.
 #include "contact.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
-#include "flat_cells.hpp"
-#include "mesh_pair.hpp"
-#include "patches.hpp"
+#include "boundary_contact.hpp"
+#include "cuts.hpp"
+#include "free_regions.hpp"
 #include "predicates.hpp"
+#include "self_contact.hpp"
 #include "triangle_pair.hpp"
-#include "winding.hpp"
 
 namespace satcheck {
 namespace {
 
-// Samples that land on an isolated contact point tell nothing; another one is taken.
-constexpr int kSampleAttempts = 8;
-
-// Pieces are visited once per bordering segment piece, and finding those takes time quadratic in the
-// cuts: beyond this many pairs of segments in all, pieces are sampled at the centroid only and the
-// verdict is not called proven.
-constexpr std::size_t kMaxSegmentPairs = 4'000'000;
-
-enum class Sample { overlap, clear, unclear };
+// Other triangles may pass through points of a crossing segment; they pass through all of this many only
+// where they contain all of it.
+constexpr int kCrossingSamples = 4;
 
 struct ContactTriangle {
   std::uint32_t triangle;
   std::vector<std::uint32_t> partners;  // of the other mesh
+  std::vector<std::uint32_t> own;       // irregular ones of its own
   std::vector<PlaneSegment> cuts;
 };
 
-std::vector<ContactTriangle> group(std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) {
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<ContactTriangle> groups;
-  for (const auto& [triangle, partner] : pairs) {
-    if (groups.empty() || groups.back().triangle != triangle) groups.push_back({triangle, {}, {}});
-    groups.back().partners.push_back(partner);
-  }
-  return groups;
-}
-
-// The edges of the partners that lie in the plane of the triangle. Edges between two partners that
-// continue each other in the plane cut nothing: the other surface is the same on both sides.
-std::vector<PlaneSegment> find_cuts(const Mesh& mesh, const Mesh& other, const ContactTriangle& c) {
-  struct Use {
-    int flat_up = 0, flat_down = 0, others = 0;
-    bool front = false, back = false;  // which way the flat ones face
-  };
-  const Corners t = corners(mesh, c.triangle);
-  const Vec3 normal = rounded_normal(t[0], t[1], t[2]);
-  const int axis = projection_axis(normal);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Use> edges;
-  for (const std::uint32_t partner : c.partners) {
-    const Triangle& corner = other.triangles[partner];
-    const Corners p = corners(other, partner);
-    bool in_plane[3];
-    for (int i = 0; i < 3; ++i) in_plane[i] = orientation(t[0], t[1], t[2], p[i]) == 0;
-    const int turn = in_plane[0] && in_plane[1] && in_plane[2] ? orientation_2d(p[0], p[1], p[2], axis) : 0;
-    for (int i = 0; i < 3; ++i) {
-      const int k = (i + 1) % 3;
-      if (!in_plane[i] || !in_plane[k] || corner[i] == corner[k]) continue;
-      Use& use = edges[std::minmax(corner[i], corner[k])];
-      if (turn == 0) {
-        ++use.others;
-      } else {
-        ++(corner[i] < corner[k] ? use.flat_up : use.flat_down);
-        (turn > 0 ? use.front : use.back) = true;
-      }
-    }
-  }
-  std::vector<PlaneSegment> cuts;
-  for (const auto& [edge, use] : edges) {
-    const bool continues = use.flat_up == 1 && use.flat_down == 1 && use.others == 0 && use.front != use.back;
-    if (!continues) cuts.push_back({other.vertices[edge.first], other.vertices[edge.second]});
-  }
-  return cuts;
-}
-
-// One surface in contact, seen against the other one, which is solid.
-class Side {
+class ContactSide {
  public:
-  Side(const Surface& self, const Surface& other, std::vector<ContactTriangle> contacts)
-      : self_(self), other_(other), contacts_(std::move(contacts)) {}
+  ContactSide(const Side& side, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) : side_(side) {
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [triangle, partner] : pairs) {
+      if (contacts_.empty() || contacts_.back().triangle != triangle) contacts_.push_back({triangle, {}, {}, {}});
+      contacts_.back().partners.push_back(partner);
+    }
+  }
 
-  // A point of a triangle without contact that is inside the other solid.
-  std::optional<Overlap> free_region_inside() const {
-    const Mesh& mesh = self_.mesh;
-    std::vector<bool> in_contact(mesh.triangles.size(), false);
+  FreeRegions free_regions() const {
+    if (contacts_.empty()) return {side_, {}};
+    std::vector<bool> in_contact(side_.self.mesh.triangles.size(), false);
     for (const ContactTriangle& c : contacts_) in_contact[c.triangle] = true;
-    DisjointSets sets(mesh.vertices.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (in_contact[t]) continue;
-      sets.unite(mesh.triangles[t][0], mesh.triangles[t][1]);
-      sets.unite(mesh.triangles[t][0], mesh.triangles[t][2]);
-    }
-    std::vector<bool> asked(mesh.vertices.size(), false);
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (in_contact[t]) continue;
-      const std::uint32_t region = sets.find(mesh.triangles[t][0]);
-      if (asked[region]) continue;
-      asked[region] = true;
-      const Vec3 point = mesh.vertices[mesh.triangles[t][0]];
-      if (winding_number(other_, point).value_or(0) != 0) return Overlap{t, kNoTriangle, point};
-    }
-    return std::nullopt;
+    return {side_, std::move(in_contact)};
   }
 
+  // Returns how many stretches the cut triangles are bordered by, about.
   std::size_t prepare_cuts() {
-    std::size_t segment_pairs = 0;
+    const Mesh& mesh = side_.self.mesh;
+    std::size_t stretches = 0;
+    std::erase_if(contacts_, [&](const ContactTriangle& c) {
+      const Corners t = corners(mesh, c.triangle);
+      return collinear(t[0], t[1], t[2]);
+    });
     for (ContactTriangle& c : contacts_) {
-      const Corners t = corners(self_.mesh, c.triangle);
-      if (collinear(t[0], t[1], t[2])) continue;
-      c.cuts = find_cuts(self_.mesh, other_.mesh, c);
-      segment_pairs += (3 + c.cuts.size()) * (3 + c.cuts.size());
+      if (side_.self.solid) c.own = irregular_partners(side_.self, c.triangle);
+      c.cuts = find_cuts(mesh, c.triangle, side_.other.mesh, c.partners, Touching::left_out);
+      const auto own_cuts = find_cuts(mesh, c.triangle, mesh, c.own, Touching::left_out);
+      c.cuts.insert(c.cuts.end(), own_cuts.begin(), own_cuts.end());
+      stretches += c.cuts.empty() ? 1 : 3 + c.cuts.size();
     }
-    return segment_pairs;
+    return stretches;
   }
 
-  // Samples every piece of every contact triangle, or only the middle of each.
-  ContactVerdict sample(bool every_piece) const {
-    ContactVerdict verdict;
+  enum class Cut { all, self_meeting };
+
+  void sample(Cut cut, Samples& samples) const {
     for (const ContactTriangle& c : contacts_) {
-      const Corners t = corners(self_.mesh, c.triangle);
-      if (collinear(t[0], t[1], t[2])) continue;
-      visit_pieces(t, every_piece ? c.cuts : std::vector<PlaneSegment>{}, [&](const PieceSampler& at) {
-        Sample result = Sample::unclear;
-        for (int k = 0; k < kSampleAttempts && result == Sample::unclear; ++k) {
-          const ExactPoint point = at(k);
-          result = judge(t, point, every_piece);
-          if (result == Sample::overlap) {
-            verdict.overlap = Overlap{c.triangle, c.partners[0], point.rounded};
-          }
-        }
-        if (result == Sample::unclear) verdict.proven = false;
-        return !verdict.overlap.has_value();
-      });
-      if (verdict.overlap) return {verdict.overlap, true};
+      const bool whole = cut == Cut::self_meeting && c.own.empty();
+      const bool goes_on = visit_pieces(
+          corners(side_.self.mesh, c.triangle), whole ? std::vector<PlaneSegment>{} : c.cuts,
+          Touching::left_out, [&](const Piece& piece) {
+            const bool known = sample_piece(piece, c.partners.size() + c.own.size(), [&](const ExactPoint& p) {
+              return samples.note_at(side_, c.triangle, c.partners[0], p);
+            });
+            if (!known) samples.fail();
+            return !samples.settled();
+          });
+      if (!goes_on) return;
     }
-    return verdict;
   }
 
  private:
-  Sample judge(const Corners& t, const ExactPoint& p, bool must_be_generic) const {
-    const auto beside = [&](const Surface& s, int side) {
-      return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2], side);
-    };
-    const std::optional<int> inside = winding_number(other_.mesh, other_.bvh, p);
-    if (inside == 0) return Sample::clear;
-    if (!self_.solid) return inside ? Sample::overlap : Sample::clear;
-    bool unclear = !inside && must_be_generic && meets_another_plane(t, p);
-    for (const int side : {1, -1}) {
-      const std::optional<int> mine = beside(self_, side);
-      if (mine == 0) continue;
-      const std::optional<int> theirs = inside ? inside : beside(other_, side);
-      if (!mine || !theirs) unclear = true;
-      if (mine && theirs && *theirs != 0) return Sample::overlap;
-    }
-    return unclear ? Sample::unclear : Sample::clear;
-  }
-
-  // Does the point lie on a triangle of the other mesh that is not in the plane of t?
-  bool meets_another_plane(const Corners& t, const ExactPoint& p) const {
-    return !visit_box(other_.bvh, point_box(p), [&](std::uint32_t u) {
-      const Corners c = corners(other_.mesh, u);
-      const bool same_plane = std::all_of(c.begin(), c.end(), [&](Vec3 v) {
-        return orientation(t[0], t[1], t[2], v) == 0;
-      });
-      return same_plane || !point_in_triangle(p, c[0], c[1], c[2]);
-    });
-  }
-
-  const Surface& self_;
-  const Surface& other_;
+  Side side_;
   std::vector<ContactTriangle> contacts_;
 };
 
-ContactVerdict swapped(ContactVerdict verdict) {
-  if (verdict.overlap) std::swap(verdict.overlap->triangle_a, verdict.overlap->triangle_b);
-  return verdict;
+// Where the edges of one triangle go through the other, in its border or inside.
+void append_passages(const Corners& through, const Corners& edges, std::vector<ExactPoint>& points) {
+  const auto side = [&](Vec3 p) { return orientation(through[0], through[1], through[2], p); };
+  const auto append = [&](ExactPoint p) {
+    if (!plane_point_in_triangle(p, through[0], through[1], through[2])) return;
+    if (std::find(points.begin(), points.end(), p) == points.end()) points.push_back(std::move(p));
+  };
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 p = edges[i], q = edges[(i + 1) % 3];
+    if (side(p) == 0) append(make_exact_point(p));
+    if (side(p) * side(q) < 0) append(plane_meeting_point(through[0], through[1], through[2], p, q));
+  }
+}
+
+// A generic point of a crossing: each body has one winding number on either side of its triangle.
+bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const ExactPoint& p, Samples& samples) {
+  const Beside sheet{1, 1, true};
+  const auto of_a = a.solid ? beside(a, p, corners(a.mesh, crossing.a)) : sheet;
+  const auto of_b = b.solid ? beside(b, p, corners(b.mesh, crossing.b)) : sheet;
+  if (!of_a || !of_b) return false;
+  const Evidence where{crossing.a, crossing.b, p.rounded};
+  const Side side{a, b, true};
+  for (const int in_a : {of_a->front, of_a->back}) {
+    for (const int in_b : {of_b->front, of_b->back}) samples.note(side, in_a, in_b, where);
+  }
+  const bool ends_a = !a.solid || of_a->is_boundary(), ends_b = !b.solid || of_b->is_boundary();
+  if (ends_a && ends_b) samples.note_contact(where);
+  return true;
+}
+
+void sample_pieces(ContactSide& a, ContactSide& b, Samples& samples) {
+  const bool a_first = a.prepare_cuts() <= b.prepare_cuts();
+  (a_first ? a : b).sample(ContactSide::Cut::all, samples);
+  if (!samples.settled()) (a_first ? b : a).sample(ContactSide::Cut::self_meeting, samples);
 }
 
 }  // namespace
 
-ContactVerdict judge_contact(const Surface& a, const Surface& b,
-                             const std::vector<ContactPair>& contacts) {
+PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing) {
+  const Corners ca = corners(a.mesh, crossing.a), cb = corners(b.mesh, crossing.b);
+  std::vector<ExactPoint> ends;
+  append_passages(cb, ca, ends);
+  append_passages(ca, cb, ends);
+  Samples samples(a, b);
+  if (ends.size() < 2) return samples.facts();
+  for (int k = 1; k <= kCrossingSamples; ++k) {
+    const ExactPoint p = between(ends[0], ends[1], 1.0, 1.0 * k);
+    if (note_crossing(a, b, crossing, p, samples)) break;
+  }
+  return samples.facts();
+}
+
+PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> from_a, from_b;
   for (const ContactPair& c : contacts) {
     from_a.emplace_back(c.a, c.b);
     from_b.emplace_back(c.b, c.a);
   }
-  Side side_a(a, b, group(std::move(from_a))), side_b(b, a, group(std::move(from_b)));
-  if (b.solid) {
-    if (const auto overlap = side_a.free_region_inside()) return {overlap, true};
+  ContactSide side_a({a, b, true}, std::move(from_a)), side_b({b, a, false}, std::move(from_b));
+  Samples samples(a, b);
+  std::vector<FreeRegions> free;
+  if (b.solid) free.push_back(side_a.free_regions());
+  if (a.solid) free.push_back(side_b.free_regions());
+  const bool apart = contacts.empty() && std::none_of(free.begin(), free.end(), [](const FreeRegions& f) { return f.any_inside(); });
+  if (apart) return samples.facts();
+  find_plain_contact(a, b, contacts, samples);
+  for (const FreeRegions& f : free) {
+    if (!samples.settled()) f.sample(samples);
   }
-  if (a.solid) {
-    if (const auto overlap = side_b.free_region_inside()) return swapped({overlap, true});
+  if (samples.settled()) return samples.facts();
+  if (a.solid && b.solid) {
+    sample_pieces(side_a, side_b, samples);
+  } else {
+    ContactSide& sheet = a.solid ? side_b : side_a;
+    sheet.prepare_cuts();
+    sheet.sample(ContactSide::Cut::all, samples);
   }
-  const std::size_t work_a = side_a.prepare_cuts(), work_b = side_b.prepare_cuts();
-  const bool a_first = !a.solid || (b.solid && work_a <= work_b);
-  const bool affordable = (a_first ? work_a : work_b) <= kMaxSegmentPairs;
-  ContactVerdict first = a_first ? side_a.sample(affordable) : swapped(side_b.sample(affordable));
-  first.proven = first.overlap.has_value() || (first.proven && affordable);
-  if (first.overlap || !a.solid || !b.solid) return first;
-  ContactVerdict second = a_first ? swapped(side_b.sample(false)) : side_a.sample(false);
-  if (second.overlap) return second;
-  return {std::nullopt, first.proven && second.proven};
+  if (samples.contact_matters()) find_any_contact(a, b, contacts, samples);
+  return samples.facts();
 }
 
 }  // namespace satcheck

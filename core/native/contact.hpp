@@ -1,9 +1,9 @@
-// What a contact without a transversal crossing means: overlap or mere touching.
+// The relation of two surfaces, at least one of them a solid, from the pairs of triangles that meet.
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "pair_facts.hpp"
 #include "surface.hpp"
 
 namespace satcheck {
@@ -12,18 +12,10 @@ struct ContactPair {
   std::uint32_t a, b;  // triangles with a common point
 };
 
-struct Overlap {
-  std::uint32_t triangle_a, triangle_b;  // kNoTriangle where unknown
-  Vec3 point;                            // where the interiors meet, rounded
-};
+// What a generic point shows at which two triangles cross. Usually that settles the relation.
+PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing);
 
-struct ContactVerdict {
-  std::optional<Overlap> overlap;
-  bool proven = true;
-};
-
-// `contacts` holds every touching pair, and no pair crosses; at least one side is solid.
-ContactVerdict judge_contact(const Surface& a, const Surface& b,
-                             const std::vector<ContactPair>& contacts);
+// Settled or complete facts. `contacts` holds every pair with a common point.
+PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts);
 
 }  // namespace satcheck

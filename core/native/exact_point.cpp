@@ -3,6 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "predicates.hpp"
+
 namespace satcheck {
 namespace {
 
@@ -17,11 +19,15 @@ constexpr double kDeterminantBound = 9 * kRoundoff;
 // Covers the roundings of the error term itself.
 constexpr double kSlack = 1.001;
 
+bool is_float64(const ExactPoint& p) { return p.error == Vec3{}; }
+
 Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d) {
   return a * d - b * c;
 }
 
 }  // namespace
+
+ExactPoint make_exact_point(Vec3 p) { return {p.x, p.y, p.z, 1.0, p, {}}; }
 
 ExactPoint make_exact_point(Dyadic x, Dyadic y, Dyadic z, Dyadic w) {
   ExactPoint p;
@@ -49,6 +55,31 @@ ExactPoint weighted_point(Vec3 a, Vec3 b, Vec3 c, const Dyadic& wa, const Dyadic
                           wa * a.z + wb * b.z + wc * c.z, wa + wb + wc);
 }
 
+ExactPoint between(const ExactPoint& p, const ExactPoint& q, const Dyadic& wp, const Dyadic& wq) {
+  const Dyadic sp = wp * q.w, sq = wq * p.w;
+  return make_exact_point(p.x * sp + q.x * sq, p.y * sp + q.y * sq, p.z * sp + q.z * sq,
+                          (wp + wq) * p.w * q.w);
+}
+
+Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Dyadic ax = a.x, ay = a.y, az = a.z;
+  const Dyadic ux = b.x - ax, uy = b.y - ay, uz = b.z - az;
+  const Dyadic vx = c.x - ax, vy = c.y - ay, vz = c.z - az;
+  return minor(uy, uz, vy, vz) * (d.x - ax) + minor(uz, ux, vz, vx) * (d.y - ay) +
+         minor(ux, uy, vx, vy) * (d.z - az);
+}
+
+ExactPoint plane_meeting_point(Vec3 a, Vec3 b, Vec3 c, Vec3 p, Vec3 q) {
+  const Dyadic wp = orientation_value(a, b, c, q), wq = -orientation_value(a, b, c, p);
+  return make_exact_point(wp * p.x + wq * q.x, wp * p.y + wq * q.y, wp * p.z + wq * q.z, wp + wq);
+}
+
+bool operator==(const ExactPoint& p, const ExactPoint& q) {
+  if (!meet(point_box(p), point_box(q))) return false;
+  return (p.x * q.w - q.x * p.w).sign() == 0 && (p.y * q.w - q.y * p.w).sign() == 0 &&
+         (p.z * q.w - q.z * p.w).sign() == 0;
+}
+
 int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
   const Vec3 u = b - a, v = c - a, p = d.rounded - a;
   const double yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y,
@@ -61,6 +92,7 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
 
+  if (is_float64(d)) return orientation(a, b, c, d.rounded);
   const Dyadic ax = a.x, ay = a.y, az = a.z;
   const Dyadic ux = b.x - ax, uy = b.y - ay, uz = b.z - az;
   const Dyadic vx = c.x - ax, vy = c.y - ay, vz = c.z - az;
@@ -70,13 +102,34 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
 }
 
 int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis) {
-  const int i = drop_axis == 2 ? 0 : drop_axis + 1;
-  const int j = drop_axis == 0 ? 2 : drop_axis - 1;
-  const auto coordinate = [&](int axis) -> const Dyadic& {
-    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  return orientation_2d_at(make_exact_point(a), make_exact_point(b), p, drop_axis);
+}
+
+int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
+  if (is_float64(a) && is_float64(b) && is_float64(c)) {
+    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis);
+  }
+  const auto [i, j] = plane_axes(drop_axis);
+  const Vec3 u = b.rounded - a.rounded, v = c.rounded - a.rounded;
+  const Vec3 eu = a.error + b.error, ev = a.error + c.error;
+  const double left = u[i] * v[j], right = u[j] * v[i];
+  const auto product_error = [](double x, double ex, double y, double ey) {
+    return std::fabs(x) * ey + std::fabs(y) * ex + ex * ey;
   };
-  const Dyadic ai = a[i], aj = a[j];
-  return minor(b[i] - ai, b[j] - aj, coordinate(i) - ai * p.w, coordinate(j) - aj * p.w).sign();
+  const double bound =
+      kSlack * (kDeterminantBound * (std::fabs(left) + std::fabs(right)) +
+                product_error(u[i], eu[i], v[j], ev[j]) + product_error(u[j], eu[j], v[i], ev[i]));
+  if (left - right > bound) return 1;
+  if (left - right < -bound) return -1;
+  return area_value(a, b, c, drop_axis).sign();
+}
+
+Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
+  const auto [i, j] = plane_axes(drop_axis);
+  const auto difference = [&](const ExactPoint& p, int axis) {
+    return coordinate(p, axis) * a.w - coordinate(a, axis) * p.w;
+  };
+  return minor(difference(b, i), difference(b, j), difference(c, i), difference(c, j));
 }
 
 }  // namespace satcheck

@@ -11,48 +11,6 @@
 namespace satcheck {
 namespace {
 
-// The first part of `inner` inside `solid`, and whether all are. There is no contact.
-struct Containment {
-  bool any = false, all = false;
-  std::uint32_t triangle = kNoTriangle;
-  Vec3 point;
-};
-
-Containment find_contained(const Surface& solid, const Surface& inner) {
-  Containment result;
-  if (!solid.solid || inner.parts.empty()) return result;
-  result.all = true;
-  for (const SurfacePart& part : inner.parts) {
-    const Vec3 point = inner.mesh.vertices[inner.mesh.triangles[part.triangle][0]];
-    // The winding number exists: without contact no vertex is on the other surface.
-    if (winding_number(solid, point).value_or(0) == 0) {
-      result.all = false;
-    } else if (!result.any) {
-      result.any = true;
-      result.triangle = part.triangle;
-      result.point = point;
-    }
-  }
-  return result;
-}
-
-MeshRelation relation_without_contact(const Surface& a, const Surface& b) {
-  const Containment b_in_a = find_contained(a, b), a_in_b = find_contained(b, a);
-  MeshRelation result;
-  if (!b_in_a.any && !a_in_b.any) return result;
-  if (b_in_a.any) {
-    result.triangle_b = b_in_a.triangle;
-    result.point = b_in_a.point;
-  } else {
-    result.triangle_a = a_in_b.triangle;
-    result.point = a_in_b.point;
-  }
-  const bool nested = b_in_a.any != a_in_b.any && (b_in_a.all || a_in_b.all);
-  result.relation = !nested ? Relation::penetrating
-                            : (b_in_a.any ? Relation::contains : Relation::inside);
-  return result;
-}
-
 // The triangles by coordinates, each rotated to start at its least corner.
 std::vector<Corners> canonical_triangles(const Mesh& mesh, bool keep_winding) {
   const auto less = [](Vec3 p, Vec3 q) {
@@ -82,40 +40,56 @@ bool same_geometry(const Surface& a, const Surface& b) {
   return canonical_triangles(a.mesh, a.solid) == canonical_triangles(b.mesh, b.solid);
 }
 
+MeshRelation make_relation(Relation relation, const std::optional<Evidence>& where) {
+  MeshRelation result;
+  result.relation = relation;
+  if (where) {
+    result.triangle_a = where->triangle_a;
+    result.triangle_b = where->triangle_b;
+    result.point = where->point;
+  }
+  return result;
+}
+
+MeshRelation make_relation(const PairFacts& facts) {
+  MeshRelation result = make_relation(facts.relation(), facts.common ? facts.overlap : facts.touch);
+  result.proven = facts.proven || facts.settled();
+  return result;
+}
+
+MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair crossing) {
+  const Vec3 point = crossing_point(corners(a.mesh, crossing.a), corners(b.mesh, crossing.b));
+  return make_relation(Relation::penetrating, Evidence{crossing.a, crossing.b, point});
+}
+
+MeshRelation relation_of_solids(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+  if (!found.crossing) return make_relation(judge_contact(a, b, found.contacts));
+  const PairFacts facts = facts_at_crossing(a, b, *found.crossing);
+  if (facts.settled()) return crossing_relation(a, b, *found.crossing);
+  return make_relation(judge_contact(a, b, find_contacts(a, b, AtCrossing::go_on).contacts));
+}
+
+MeshRelation relation_of_sheets(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+  if (found.crossing) return crossing_relation(a, b, *found.crossing);
+  if (found.contacts.empty()) return {};
+  const ContactPair& first = found.contacts[0];
+  const ContactVerdict verdict = judge_sheet_contact(a, b, found.contacts);
+  const Vec3 point = contact_point(corners(a.mesh, first.a), corners(b.mesh, first.b));
+  MeshRelation result = verdict.crossing ? make_relation(Relation::penetrating, verdict.crossing)
+                                         : make_relation(Relation::touching, Evidence{first.a, first.b, point});
+  result.proven = verdict.proven;
+  return result;
+}
+
 }  // namespace
 
 MeshRelation mesh_relation(const Surface& a, const Surface& b) {
   if (same_geometry(a, b)) {
-    MeshRelation result;
-    result.relation = Relation::coincident;
-    result.triangle_a = 0;
-    result.point = a.mesh.vertices[a.mesh.triangles[0][0]];
-    return result;
+    const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
+    return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
-  const SurfaceContacts found = find_contacts(a, b);
-  MeshRelation result;
-  if (found.crossing) {
-    result.relation = Relation::penetrating;
-    result.triangle_a = found.crossing->a;
-    result.triangle_b = found.crossing->b;
-    result.point = crossing_point(corners(a.mesh, result.triangle_a), corners(b.mesh, result.triangle_b));
-  } else if (found.contacts.empty()) {
-    result = relation_without_contact(a, b);
-  } else {
-    result.relation = Relation::touching;
-    result.triangle_a = found.contacts[0].a;
-    result.triangle_b = found.contacts[0].b;
-    result.point = contact_point(corners(a.mesh, result.triangle_a), corners(b.mesh, result.triangle_b));
-    const ContactVerdict verdict = a.solid || b.solid ? judge_contact(a, b, found.contacts)
-                                                      : judge_sheet_contact(a, b, found.contacts);
-    result.proven = verdict.proven;
-    if (verdict.overlap) {
-      result.relation = Relation::penetrating;
-      result.triangle_a = verdict.overlap->triangle_a;
-      result.triangle_b = verdict.overlap->triangle_b;
-      result.point = verdict.overlap->point;
-    }
-  }
+  const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
+  MeshRelation result = a.solid || b.solid ? relation_of_solids(a, b, found) : relation_of_sheets(a, b, found);
   result.box_tests = found.box_tests;
   result.triangle_tests = found.triangle_tests;
   return result;

@@ -132,15 +132,15 @@ ContactVerdict judge_sheet_contact(const Surface& a, const Surface& b,
     const Corners ta = corners(a.mesh, c.a), tb = corners(b.mesh, c.b);
     if (coplanar_overlap(ta, tb) != CoplanarOverlap::none) verdict.proven = false;
     for (const Hinge& h : hinges_a.of(c.a)) {
-      if (crosses_triangle(h, tb)) return {Overlap{c.a, c.b, contact_point(ta, tb)}, true};
+      if (crosses_triangle(h, tb)) return {Evidence{c.a, c.b, contact_point(ta, tb)}, true};
       for (const Hinge& k : hinges_b.of(c.b)) {
         if (share_length(h, k) && alternate(h, k)) {
-          return {Overlap{c.a, c.b, contact_point(ta, tb)}, true};
+          return {Evidence{c.a, c.b, contact_point(ta, tb)}, true};
         }
       }
     }
     for (const Hinge& k : hinges_b.of(c.b)) {
-      if (crosses_triangle(k, ta)) return {Overlap{c.a, c.b, contact_point(ta, tb)}, true};
+      if (crosses_triangle(k, ta)) return {Evidence{c.a, c.b, contact_point(ta, tb)}, true};
     }
   }
   return verdict;

@@ -5,8 +5,14 @@
 #include <vector>
 
 #include "contact.hpp"
+#include "pair_facts.hpp"
 
 namespace satcheck {
+
+struct ContactVerdict {
+  std::optional<Evidence> crossing;
+  bool proven = true;
+};
 
 // A crossing through edges: along a shared segment each surface has points strictly on both sides of
 // the other. Proven when true; when there is none, `proven` tells that no coplanar patch hides one.

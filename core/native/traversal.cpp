@@ -14,12 +14,13 @@ double half_area(const Aabb& box) {
 
 class Traversal {
  public:
-  Traversal(const Surface& a, const Surface& b) : a_(a), b_(b) {}
+  Traversal(const Surface& a, const Surface& b, AtCrossing at_crossing)
+      : a_(a), b_(b), at_crossing_(at_crossing) {}
 
   SurfaceContacts run() {
     if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return {};
     std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
-    while (!stack.empty() && !found_.crossing) {
+    while (!stack.empty() && !ended()) {
       const auto [i, j] = stack.back();
       stack.pop_back();
       const BvhNode &m = a_.bvh.nodes[i], &n = b_.bvh.nodes[j];
@@ -39,6 +40,8 @@ class Traversal {
   }
 
  private:
+  bool ended() const { return found_.crossing && at_crossing_ == AtCrossing::stop; }
+
   void test_leaves(const BvhNode& m, const BvhNode& n) {
     for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
       const Aabb& box = a_.bvh.boxes[k];
@@ -52,10 +55,8 @@ class Traversal {
         ++found_.triangle_tests;
         const TriangleContact contact = classify(plane, corners(b_.mesh, tb));
         if (contact == TriangleContact::disjoint) continue;
-        if (contact == TriangleContact::crossing) {
-          found_.crossing = ContactPair{ta, tb};
-          return;
-        }
+        if (contact == TriangleContact::crossing && !found_.crossing) found_.crossing = ContactPair{ta, tb};
+        if (ended()) return;
         found_.contacts.push_back({ta, tb});
       }
     }
@@ -63,11 +64,14 @@ class Traversal {
 
   const Surface& a_;
   const Surface& b_;
+  AtCrossing at_crossing_;
   SurfaceContacts found_;
 };
 
 }  // namespace
 
-SurfaceContacts find_contacts(const Surface& a, const Surface& b) { return Traversal(a, b).run(); }
+SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing) {
+  return Traversal(a, b, at_crossing).run();
+}
 
 }  // namespace satcheck

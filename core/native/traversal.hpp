@@ -10,11 +10,13 @@
 namespace satcheck {
 
 struct SurfaceContacts {
-  std::optional<ContactPair> crossing;  // the walk ends at the first one
-  std::vector<ContactPair> contacts;    // every touching pair, where there is no crossing
+  std::optional<ContactPair> crossing;  // the first one
+  std::vector<ContactPair> contacts;    // every pair with a common point, unless the walk ended early
   std::size_t box_tests = 0, triangle_tests = 0;
 };
 
-SurfaceContacts find_contacts(const Surface& a, const Surface& b);
+enum class AtCrossing { stop, go_on };
+
+SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing);
 
 }  // namespace satcheck

@@ -138,30 +138,53 @@ std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point&
   return winding_number(mesh, bvh, p, [](std::uint32_t) { return true; });
 }
 
-// Winding number just beside a point of a surface, on the front (side = 1) or back (-1) of the
-// triangle a, b, c through it: triangles that contain p do not count. Exact when p lies on no
-// triangle of another plane.
+// Winding numbers just beside a point, in front of and behind a triangle through it.
+struct Beside {
+  int front = 0, back = 0;
+  bool on_surface = false;  // the point lies on the mesh itself
+
+  // Does the solid, {winding number != 0}, end here?
+  bool is_boundary() const { return on_surface && (front == 0) != (back == 0); }
+};
+
+// Of a mesh, just beside the point p of the triangle a, b, c, which need not belong to it. Nothing when p
+// lies on a triangle of the mesh that is in another plane.
 template <class Point>
-std::optional<int> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
-                                  Vec3 c, int side) {
-  if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return 0;
+std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
+                                     Vec3 c) {
+  if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return Beside{};
   const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p);
+  const Vec3 normal = rounded_normal(a, b, c);
+  const int axis = projection_axis(normal);
+  const int turn = orientation_2d(a, b, c, axis);
+  int step = 0;               // on the way from the front to the back
+  bool on_an_edge = false;    // then several triangles make up one step
+  for (const std::uint32_t t : here) {
+    const Triangle& v = mesh.triangles[t];
+    const Vec3 u[3] = {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
+    for (int i = 0; i < 3; ++i) {
+      if (orientation(a, b, c, u[i]) != 0) return std::nullopt;
+      on_an_edge = on_an_edge || orientation_2d_at(u[i], u[(i + 1) % 3], p, axis) == 0;
+    }
+    step += turn * orientation_2d(u[0], u[1], u[2], axis);
+  }
   const auto elsewhere = [&](std::uint32_t t) {
     return std::find(here.begin(), here.end(), t) == here.end();
   };
   const Aabb& bounds = bvh.nodes[0].box;
-  const Vec3 normal = rounded_normal(a, b, c);
-  const int axis = projection_axis(normal);
-  const Heading first{axis, normal[axis] * side > 0};
+  const Vec3 from = rounded_point(p);
+  const bool upward = bounds.max[axis] - from[axis] <= from[axis] - bounds.min[axis];
+  const Heading first = here.empty() ? nearest_wall(bounds, from) : Heading{axis, upward};
+  std::optional<int> front, back;
   for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
-    const Vec3 far = outside_point(bounds, rounded_point(p), first, attempt);
-    if (orientation(a, b, c, far) != side) continue;
-    const bool leaves_all = std::all_of(here.begin(), here.end(), [&](std::uint32_t t) {
-      const Triangle& v = mesh.triangles[t];
-      return orientation(mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]], far) != 0;
-    });
-    if (!leaves_all) continue;
-    if (const auto winding = sum_crossings(mesh, bvh, p, far, elsewhere)) return winding;
+    const Vec3 far = outside_point(bounds, from, first, attempt);
+    const int side = here.empty() ? 1 : orientation(a, b, c, far);
+    if (side == 0 || (side > 0 ? front : back)) continue;
+    const auto winding = sum_crossings(mesh, bvh, p, far, elsewhere);
+    if (!winding) continue;
+    (side > 0 ? front : back) = winding;
+    if (!on_an_edge) (side > 0 ? back : front) = side > 0 ? *winding + step : *winding - step;
+    if (front && back) return Beside{*front, *back, !here.empty()};
   }
   return std::nullopt;
 }

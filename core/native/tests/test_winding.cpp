@@ -65,8 +65,10 @@ void both_sides_of_every_triangle() {
     const auto c = corners(s.mesh, t);
     const ExactPoint p = weighted_point(c[0], c[1], c[2], 1, 1, 1);
     CHECK(!winding_number(s.mesh, s.bvh, p).has_value());
-    CHECK(winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2], 1) == 0);
-    CHECK(winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2], -1) == 1);
+    const auto beside = winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2]);
+    CHECK(beside && beside->front == 0 && beside->back == 1 && beside->on_surface);
+    const auto reversed = winding_beside(s.mesh, s.bvh, p, c[0], c[2], c[1]);
+    CHECK(reversed && reversed->front == 1 && reversed->back == 0 && reversed->is_boundary());
   }
 }
 

@@ -1,0 +1,19 @@
+// Do the boundaries of two bodies meet?
+#pragma once
+
+#include <vector>
+
+#include "contact.hpp"
+#include "samples.hpp"
+
+namespace satcheck {
+
+// By two triangles that meet and are boundary all over. Finds one as a rule, but not always.
+void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
+                        Samples& samples);
+
+// By every corner of every piece; settles whether there is contact.
+void find_any_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
+                      Samples& samples);
+
+}  // namespace satcheck
