@@ -2,7 +2,7 @@
 
 The hulls of the whole meshes are an upper bound, and so is every translation that was found to free
 the meshes. Convex bodies proven inside the meshes are a lower bound, and so is a crossing pair of
-triangles, because a free A has no crossing triangles either.
+triangles on which both bodies end, because a free A has none.
 """
 
 from __future__ import annotations

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "boundary_contact.hpp"
 #include "convexity.hpp"
 #include "deviation.hpp"
 #include "mesh_checks.hpp"
@@ -209,6 +210,13 @@ void bind_surface(nb::module_& m) {
              return winding_number(s, finite_point(point));
            },
            "point"_a, ReleaseGil())
+      .def("is_boundary",
+           [](const Surface& s, std::size_t triangle) {
+             if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
+             return is_plain_boundary(s, static_cast<std::uint32_t>(triangle));
+           },
+           "triangle"_a, ReleaseGil(), R"(Whether the body ends on all of the triangle: it is no wall without thickness, no face inside the material, and
+meets no other triangle of the surface but at shared corners and edges.)")
       .def("nearest",
            [](const Surface& s, const Tuple3& point) {
              const NearestPoint nearest = nearest_point(s, finite_point(point));
@@ -248,7 +256,8 @@ void bind_mesh_relation(nb::module_& m) {
   m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
         R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
 "touching", "penetrating" (interiors overlap, or surfaces cross where a side is not solid), "contains" (b strictly
-inside a), "inside" (a strictly inside b), "coincident". The inside of a hollow solid is not material.)");
+inside a), "inside" (a strictly inside b), "coincident" (the same solid, however triangulated). A solid is where its
+winding number is not 0: the inside of a hollow one is no material, nor is a wall without thickness.)");
 }
 
 void bind_mesh_distance(nb::module_& m) {

@@ -26,7 +26,7 @@ class Boundary {
   // Is the whole triangle boundary?
   bool is_plain(std::uint32_t t) {
     const auto [entry, is_new] = plain_.try_emplace(t, false);
-    if (is_new) entry->second = find_plain(t);
+    if (is_new) entry->second = is_plain_boundary(surface_, t);
     return entry->second;
   }
 
@@ -37,14 +37,6 @@ class Boundary {
   }
 
  private:
-  bool find_plain(std::uint32_t t) const {
-    if (!surface_.solid) return true;
-    const Corners c = corners(surface_.mesh, t);
-    if (is_collinear(c) || !irregular_partners(surface_, t).empty()) return false;
-    const auto sides = beside(surface_, weighted_point(c[0], c[1], c[2], 1, 1, 1), c);
-    return sides && sides->is_boundary();
-  }
-
   // Does a boundary piece of triangle t end at its point x?
   bool reaches(std::uint32_t t, const ExactPoint& x) const {
     if (!surface_.solid) return true;
@@ -71,6 +63,15 @@ class Boundary {
 };
 
 }  // namespace
+
+bool is_plain_boundary(const Surface& surface, std::uint32_t t) {
+  const Corners c = corners(surface.mesh, t);
+  if (is_collinear(c)) return false;
+  if (!surface.solid) return true;
+  if (!irregular_partners(surface, t).empty()) return false;
+  const auto sides = beside(surface, weighted_point(c[0], c[1], c[2], 1, 1, 1), c);
+  return sides && sides->is_boundary();
+}
 
 void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
                         Samples& samples) {

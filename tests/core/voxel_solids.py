@@ -11,10 +11,12 @@ import random
 import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Protocol
 
 from satcheck.core import Mesh
 
 Cell = tuple[int, int, int]
+Point = tuple[float, float, float]
 Quad = tuple[Cell, Cell, Cell, Cell]
 Matrix = tuple[tuple[int, int, int], tuple[int, int, int], tuple[int, int, int]]
 
@@ -91,12 +93,12 @@ class VoxelSolid:
         return frozenset(points)
 
 
-def apply(matrix: Matrix, p: Cell) -> tuple[float, float, float]:
+def apply(matrix: Matrix, p: Cell | Point) -> Point:
     x, y, z = (float(sum(r * c for r, c in zip(row, p, strict=True))) for row in matrix)
     return (x, y, z)
 
 
-def mesh_of_soup(corners: Iterable[tuple[float, float, float]]) -> Mesh:
+def mesh_of_soup(corners: Iterable[Point]) -> Mesh:
     """Three corners to a triangle, welded."""
     flat = [c for corner in corners for c in corner]
     count = len(flat) // 3
@@ -117,11 +119,19 @@ def box(low: Cell, high: Cell) -> VoxelSolid:
     )
 
 
-def true_relation(a: VoxelSolid, b: VoxelSolid) -> str:
-    """The relation by set operations; identical solids are ``same``, however triangulated."""
+class Cells(Protocol):
+    """A union of unit cells; ``surface_points`` are the lattice points on its boundary."""
+
+    def unit_cells(self) -> frozenset[Cell]: ...
+    def surface_points(self) -> frozenset[Cell]: ...
+    def mesh(self, matrix: Matrix = ..., seed: int = ...) -> Mesh: ...
+
+
+def true_relation(a: Cells, b: Cells) -> str:
+    """The relation by set operations."""
     cells_a, cells_b = a.unit_cells(), b.unit_cells()
     if cells_a == cells_b:
-        return "same"
+        return "coincident"
     contact = not a.surface_points().isdisjoint(b.surface_points())
     if cells_a.isdisjoint(cells_b):
         return "touching" if contact else "separated"
