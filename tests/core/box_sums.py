@@ -1,8 +1,9 @@
-"""Solids made of boxes that overlap, cancel and touch in every way: the surface is no boundary everywhere.
+"""Solids made of boxes that overlap, cancel and touch: not all of the surface is boundary.
 
-A solid is a sum of lattice boxes with a sign: the winding number of a cell is the sum of the signs of the
-boxes that hold it, and the solid is where that is not 0. Its mesh is the boxes' faces, one after another:
-faces inside the material, walls of no thickness and pockets behind them come about by themselves.
+A solid is a sum of lattice boxes with a sign: the winding number of a cell is the sum of the signs
+of the boxes that hold it, and the solid is where that is not 0. Its mesh is the boxes' faces, one
+after another: faces inside the material, walls of no thickness and pockets behind them come about
+by themselves.
 """
 
 from __future__ import annotations
