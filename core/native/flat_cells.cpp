@@ -35,7 +35,7 @@ Ratio make_ratio(Dyadic numerator, Dyadic denominator) {
 
 Aabb segment_box(const PlaneSegment& s) {
   Aabb box = point_box(s.p);
-  include(box, point_box(s.q));
+  box.include(point_box(s.q));
   return box;
 }
 
@@ -57,7 +57,7 @@ class Pieces {
       boxes.vertices.push_back(box.max);
       boxes.triangles.push_back({first, first + 1, first + 1});
     }
-    tree_ = build_bvh(boxes);
+    tree_ = build_bvh(boxes, 1);
   }
 
   bool visit(const std::function<bool(const Piece&)>& visitor) const {
@@ -214,7 +214,7 @@ class Pieces {
       return m.error[k] + kRoundingError * (std::fabs(m.rounded[k]) + std::fabs(v.rounded[k]));
     };
     const Vec3 slack{error(0), error(1), error(2)};
-    include(box, {end - slack, end + slack});
+    box.include(Aabb{end - slack, end + slack});
     return box;
   }
 
