@@ -58,11 +58,9 @@ SelfContact self_contact(const Mesh& mesh, std::uint32_t t, std::uint32_t u) {
 bool is_once_beside(const Surface& solid, std::uint32_t t) {
   const Corners c = corners(solid.mesh, t);
   const ExactPoint p = weighted_point(c[0], c[1], c[2], 3.0, 4.0, 5.0);
-  for (const int side : {1, -1}) {
-    const auto winding = winding_beside(solid.mesh, solid.bvh, p, c[0], c[1], c[2], side);
-    if (!winding || *winding < 0 || *winding > 1) return false;
-  }
-  return true;
+  const auto once = [](int winding) { return winding == 0 || winding == 1; };
+  const auto beside = winding_beside(solid.mesh, solid.bvh, p, c[0], c[1], c[2]);
+  return beside && once(beside->front) && once(beside->back);
 }
 
 }  // namespace
