@@ -1,0 +1,84 @@
+"""What a finding says besides its relation: depth, way out, touch band, severity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from tests.verify.reports import Json, forged, report_of, verified
+
+
+def proven(name: str) -> tuple[bool, bool]:
+    finding = verified(report_of(name, depth=True)).findings[0]
+    assert finding.outcome == "accepted", finding.reason
+    return finding.depth, finding.mtv
+
+
+def test_what_is_proven() -> None:
+    assert proven("boxes-overlap") == (True, True)
+    assert proven("box-in-arm") == (False, True)  # the interval of a concave pair is not
+    assert proven("boxes-apart") == (False, False)
+
+
+def depth(finding: Json, low: float, high: float) -> None:
+    finding.update(depth=high, depth_bounds=[low, high])
+
+
+def moved(finding: Json, *move: float) -> None:
+    finding.update(mtv=list(move))
+
+
+def up(value: float) -> float:
+    return math.nextafter(value, math.inf)
+
+
+# The boxes overlap by 0.5 along x.
+FORGED: dict[str, Callable[[Json], Any]] = {
+    "lower bound": lambda f: depth(f, up(0.5), 1.0),
+    "upper bound": lambda f: depth(f, 0.25, math.nextafter(0.5, 0.0)),
+    "bounds swapped": lambda f: depth(f, 0.5, 0.25),
+    "no bounds": lambda f: f.update(depth_bounds=None),
+    "bounds of text": lambda f: f.update(depth_bounds=["0.5", "0.5"]),
+    "lower faces": lambda f: f["certificate"]["depth"]["lower"]["faces"].pop(),
+    "upper axis": lambda f: f["certificate"]["depth"].update(upper=[0, 1, 0]),
+    "no way out": lambda f: moved(f, 0.5, 0.0, 0.0),
+    "short way out": lambda f: moved(f, -0.5 + 2.0**-50, 0.0, 0.0),
+    "long way out": lambda f: moved(f, -0.75, 0.0, 0.0),
+    "way out of text": lambda f: f.update(mtv=["x", "y", "z"]),
+    "way out of infinity": lambda f: f.update(mtv=[-math.inf, 0.0, 0.0]),
+    "way out unproven": lambda f: f["certificate"].pop("mtv"),
+    "way out by nothing": lambda f: f["certificate"].update(mtv={"kind": "same"}),
+    "touching": lambda f: f.update(relation="touching", severity="note"),
+    "touching by a band": lambda f: (
+        f.update(relation="touching", severity="note"),
+        f["certificate"].update(band={"axis": [1, 0, 0]}),
+    ),
+    "touching by a move": lambda f: (
+        f.update(relation="touching", severity="note"),
+        f["certificate"].update(band={"move": [-0.5, 0, 0], "free": {"kind": "surfaces"}}),
+    ),
+    "no warning": lambda f: f.update(severity="note"),
+    "tolerance": lambda f: f.update(tolerance=0.5),
+    "certificate of a list": lambda f: f.update(certificate=[1]),
+}
+
+
+@pytest.mark.parametrize("lie", FORGED)
+def test_a_lie_about_a_figure_is_found(lie: str) -> None:
+    found = forged("boxes-overlap", FORGED[lie], depth=True).findings[0]
+    assert found.outcome == "rejected"
+    assert "cannot be checked" not in (found.reason or "")
+
+
+def test_a_concave_way_out_is_checked_too() -> None:
+    short = forged("box-in-arm", lambda f: moved(f, 0.25, 0.0, 0.0), depth=True)
+    assert short.findings[0].outcome == "rejected"
+
+
+def test_what_was_not_seen_is_no_pass() -> None:
+    """Inside an open box nobody looked: the finding has to say so."""
+    hidden = forged("open-box", lambda f: f.update(severity="none"))
+    assert hidden.findings[0].outcome == "rejected"
