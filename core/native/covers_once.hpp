@@ -5,9 +5,8 @@
 
 namespace satcheck {
 
-// Are winding numbers with respect to the solid 0 and 1 only? True only where no two triangles cross
-// and no faces lie in each other facing the same way; what then is left to tell, nested shells and
-// surfaces that touch themselves, is told by samples, one a shell and one a triangle that touches.
+// Are winding numbers with respect to the solid 0 and 1 only? Told by samples beside every piece of the
+// surface; false also where one of them gives no answer.
 bool covers_once(const Surface& solid);
 
 }  // namespace satcheck

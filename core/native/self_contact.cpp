@@ -32,18 +32,18 @@ bool has_more_in_common(const Mesh& mesh, std::uint32_t t, std::uint32_t u) {
   const Triangle i = shared_first(mesh.triangles[t], mesh.triangles[u], shared);
   const Triangle k = shared_first(mesh.triangles[u], mesh.triangles[t], shared);
   const Corners ct = corners(mesh, t), cu = corners(mesh, u);
-  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
+  if (shared == 0) return classify(ct, cu) != TriangleContact::disjoint;
   if (shared == 3) return true;
+  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
+  const int last = orientation(ct[0], ct[1], ct[2], at(k[2]));
   if (shared == 2) {
-    if (orientation(ct[0], ct[1], ct[2], at(k[2])) != 0) return false;
+    if (last != 0) return false;
     const int axis = projection_axis(rounded_normal(ct[0], ct[1], ct[2]));
     return orientation_2d(at(i[0]), at(i[1]), at(i[2]), axis) == orientation_2d(at(i[0]), at(i[1]), at(k[2]), axis);
   }
-  if (shared == 1) {
-    // What they have in common is convex: beyond the corner it ends on an edge across from it.
-    return segment_meets_triangle(at(i[1]), at(i[2]), cu) || segment_meets_triangle(at(k[1]), at(k[2]), ct);
-  }
-  return classify(ct, cu) != TriangleContact::disjoint;
+  if (last * orientation(ct[0], ct[1], ct[2], at(k[1])) > 0) return false;
+  // What they have in common is convex: beyond the corner it ends on an edge across from it.
+  return segment_meets_triangle(at(i[1]), at(i[2]), cu) || segment_meets_triangle(at(k[1]), at(k[2]), ct);
 }
 
 // Across each edge of a triangle the one neighbour there, if there is exactly one.
