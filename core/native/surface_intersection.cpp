@@ -174,9 +174,9 @@ class Assembly {
       }
     }
     const auto t = corners(a_, pieces_[members[0]].triangle_a);
-    const Vec3 normal = rounded_normal(t[0], t[1], t[2]);
+    const Vec3 normal = rounded_normal(t[0], t[1], t[2]), scaled = normal * (1 / max_abs(normal));
     ContactPatch patch;
-    patch.normal = normal * (1 / norm(normal));
+    patch.normal = scaled * (1 / norm(scaled));
     patch.opposed = pieces_[members[0]].opposed;
     std::vector<std::pair<double, std::vector<Vec3>>> outlines;  // with signed areas
     for (const auto& loop : join_loops(std::move(border))) {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import subprocess
 from collections import Counter
 from collections.abc import Iterator
@@ -15,6 +16,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
 from tests.core.test_mesh_relation import CELL, CUBE, HOLLOW, random_pair
 from tests.core.voxel_solids import IDENTITY, SHEAR, mesh_of_soup
+from tests.oracles.tetrahedra import common_volume
 
 DETERMINANT = 17  # of SHEAR
 
@@ -37,6 +39,26 @@ def test_lattice_solids_against_their_cells(meter: VolumeMeter) -> None:
         assert found.error < 1e-8 * unit
         seen[truth > 0] += 1
     assert min(seen.values()) > 20
+
+
+def tetrahedron(corners: list[tuple[float, float, float]]) -> Mesh:
+    a, b, c, d = corners
+    mesh = mesh_of_soup([*(a, c, b), *(a, b, d), *(b, c, d), *(c, a, d)])
+    return mesh if mesh.topology().volume > 0 else inside_out(mesh)
+
+
+def test_tetrahedra_in_general_position_against_exact_cuts(meter: VolumeMeter) -> None:
+    rng, seen = random.Random(3), 0
+    for _ in range(60):
+        a, b = (
+            [(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-2, 2)) for _ in range(4)]
+            for _ in range(2)
+        )
+        truth = common_volume(a, b)
+        found = meter.measure(tetrahedron(a), tetrahedron(b))
+        assert abs(Fraction(found.volume) - truth) <= Fraction(found.error)
+        seen += truth > 0
+    assert seen > 20
 
 
 @pytest.mark.parametrize("thickness", [1.0, 1e-3, 1e-6, 1e-9, 1e-11, 1e-12, 1e-13, 2.0**-50])
