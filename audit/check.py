@@ -19,6 +19,7 @@ from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, su
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
+    from satcheck.audit.cross_check.peers import Peers
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Scene
 
@@ -48,8 +49,8 @@ def check(
     do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
     bodies (Settings.list_pruned).
 
-    Raises SatcheckError (`too-few-bodies`; from loading: what the scene room raises). A file that
-    cannot be used and a pair that fails are results, not errors.
+    Raises SatcheckError (`too-few-bodies`, `cross-check-missing`; from loading: what the scene
+    room raises). A file that cannot be used and a pair that fails are results, not errors.
     """
     scene = _loaded(scene, settings)
     if len(scene.bodies) + len(scene.unreadable) < 2:
@@ -107,7 +108,8 @@ def _examine_all(
     done = []
     with ExitStack() as stack:
         meter = stack.enter_context(_volume_meter(settings)) if settings.volume else None
-        pairs = [Pair(roster.placed[i], roster.placed[j], settings, meter) for i, j in close]
+        peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
+        pairs = [Pair(roster.placed[i], roster.placed[j], settings, meter, peers) for i, j in close]
         for one in _in_order(pairs, settings.jobs):
             done.append(one)
             if progress is not None:
@@ -119,6 +121,12 @@ def _volume_meter(settings: Settings) -> VolumeMeter:
     from satcheck.core.overlap_volume import VolumeMeter
 
     return VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)
+
+
+def _peers(settings: Settings) -> Peers:
+    from satcheck.audit.cross_check.peers import Peers
+
+    return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
 
 
 def _in_order(pairs: list[Pair], jobs: int) -> Iterator[Examined]:

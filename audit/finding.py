@@ -58,6 +58,10 @@ def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> 
         from satcheck.audit.contacts import find_contacts
 
         finding = replace(finding, contacts=find_contacts(pair, contact, plan))
+    if pair.peers is not None:
+        from satcheck.audit.cross_check.opinions import say
+
+        say(pair, contact, pair.peers, plan)
     return replace(finding, plan=tuple(plan.stages))
 
 

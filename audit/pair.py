@@ -11,6 +11,7 @@ from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.tolerances import TOUCH_FRACTION
 
 if TYPE_CHECKING:
+    from satcheck.audit.cross_check.peers import Peers
     from satcheck.core.overlap_volume import VolumeMeter
 
 
@@ -20,6 +21,7 @@ class Pair:
     b: PlacedBody
     settings: Settings
     meter: VolumeMeter | None = None
+    peers: Peers | None = None
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""

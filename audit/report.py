@@ -31,6 +31,8 @@ Quality = Literal["exact", "bounded", "estimate"]
 Severity = Literal["error", "warning", "note", "none"]
 Verdict = Literal["pass", "fail", "incomplete"]
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
+# The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
+CROSS_CHECK = "cross-check"
 # Relations with a common interior, the ones that have a depth.
 OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
 

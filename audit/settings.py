@@ -30,6 +30,7 @@ class Settings:
     tolerance: half width of the touch band; None: the input precision of each pair.
     accuracy: the highest rung of the ladder that may be climbed.
     allow_open: a body that may lie in another one without an inside is a note, not a warning.
+    cross_check: other libraries are asked too; cross_check_*: what one question may cost.
     certificate: every proven finding carries evidence that `satcheck verify` checks.
     list_pruned: findings for pairs that the broad phase settled; None: up to 16 bodies.
     depth_width: relative width of a depth interval that is narrow enough.
@@ -47,6 +48,9 @@ class Settings:
     tolerance: float | None = None
     accuracy: Accuracy = "exact"
     allow_open: bool = False
+    cross_check: bool = False
+    cross_check_seconds: float = 30.0
+    cross_check_megabytes: int = 4096
     certificate: bool = False
     list_pruned: bool | None = None
     depth_width: float = DEPTH_WIDTH
@@ -91,6 +95,7 @@ class Settings:
             "tolerance": "input-precision" if self.tolerance is None else self.tolerance,
             "accuracy": self.accuracy,
             "allow_open": self.allow_open,
+            "cross_check": self.cross_check,
             "list_pruned": self.list_pruned,
             "depth_width": self.depth_width,
             "part_threshold": self.part_threshold,

@@ -42,6 +42,7 @@ class Choices:
     tolerance: Length | None
     accuracy: str
     allow_open: bool
+    cross_check: bool
     certificate: bool
     jobs: int
     cache: bool
@@ -141,6 +142,7 @@ def _settings(choices: Choices, scene: Scene) -> Any:
         tolerance=length(choices.tolerance, "--tolerance"),
         accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it
         allow_open=choices.allow_open,
+        cross_check=choices.cross_check,
         certificate=choices.certificate,
         jobs=choices.jobs,
         cache=choices.cache,

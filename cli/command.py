@@ -154,6 +154,11 @@ def satcheck() -> None:
     help="A mesh that is not closed has no inside: do not report that as incomplete.",
 )
 @click.option(
+    "--cross-check",
+    is_flag=True,
+    help="Ask python-fcl and manifold3d too, and warn where they disagree.",
+)
+@click.option(
     "--certificate",
     is_flag=True,
     help="Give every proven verdict evidence, in the JSON report, that satcheck verify checks.",
@@ -190,6 +195,7 @@ def check(
     tolerance: Length | None,
     accuracy: str,
     allow_open: bool,
+    cross_check: bool,
     certificate: bool,
     jobs: int,
     no_cache: bool,
@@ -223,6 +229,7 @@ def check(
             tolerance=tolerance,
             accuracy=accuracy,
             allow_open=allow_open,
+            cross_check=cross_check,
             certificate=certificate,
             jobs=jobs,
             cache=not no_cache,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report import OVERLAPS, RELATIONS
+from satcheck.audit.report import CROSS_CHECK, OVERLAPS, RELATIONS
 from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.words import by_surfaces, counted, depth
 
@@ -27,7 +27,9 @@ def summary_line(report: Report) -> str:
     if pairs.allowed:
         found.append(f"{pairs.allowed:,} allowed by the scene")
     line = f"{bodies}, {counted(pairs.total, 'pair')}: {', '.join(found)}."
-    return " ".join([line, *_worst(report), *_left_open(report), *_errors(report)])
+    return " ".join(
+        [line, *_worst(report), *_left_open(report), *_cross_check(report), *_errors(report)]
+    )
 
 
 def _found(report: Report) -> list[str]:
@@ -75,6 +77,27 @@ def _left_open(report: Report) -> list[str]:
             f"{counted(undecided, 'pair')} {'is' if undecided == 1 else 'are'} indeterminate"
         )
     return [f"No collision found, but {' and '.join(limits)}." if limits else "No collision."]
+
+
+def _cross_check(report: Report) -> list[str]:
+    """`Cross-check: 5 answers agree, 1 disagrees.`, an answer being that of one library on a pair.
+
+    Pairs that nobody could be asked about count as unanswered."""
+    if not report.settings.get("cross_check"):
+        return []
+    standings = Counter(
+        stage.result
+        for finding in report.findings
+        for stage in finding.plan
+        if stage.stage == CROSS_CHECK
+    )
+    agree, disagree = standings["agrees"], standings["disagrees"]
+    parts = [f"{counted(agree, 'answer')} {'agrees' if agree == 1 else 'agree'}"]
+    if disagree:
+        parts.append(f"{disagree:,} {'disagrees' if disagree == 1 else 'disagree'}")
+    if missing := standings["no answer"]:
+        parts.append(f"{missing:,} could not be compared")
+    return [f"Cross-check: {', '.join(parts)}."]
 
 
 def _errors(report: Report) -> list[str]:

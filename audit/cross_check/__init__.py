@@ -1,0 +1,1 @@
+"""`--cross-check`: what other libraries say about a pair that was decided here."""

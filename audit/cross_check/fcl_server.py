@@ -1,0 +1,29 @@
+"""python-fcl behind core.worker: the only module that imports it, only ever in a child process.
+
+Jia Pan, Sachin Chitta, Dinesh Manocha, "FCL: A General Purpose Library for Collision and Proximity
+Queries" (2012). It tells whether triangles meet, in float64 without exact predicates. Of its
+contacts only the count is used; it does not see a body inside another.
+"""
+
+from __future__ import annotations
+
+from satcheck.core.blocks import unpack_blocks
+
+
+def serve(request: bytes) -> bytes:
+    """Two meshes as four blocks; b"meet" or b"apart" of their surfaces."""
+    import fcl
+    import numpy as np
+
+    blocks = unpack_blocks(request)
+    bodies = []
+    for points, corners in zip(blocks[0::2], blocks[1::2], strict=True):
+        vertices = np.frombuffer(points, dtype="<f8").reshape(-1, 3)
+        triangles = np.frombuffer(corners, dtype="<u4").reshape(-1, 3).astype(np.int64)
+        model = fcl.BVHModel()
+        model.beginModel(len(vertices), len(triangles))
+        model.addSubModel(vertices, triangles)
+        model.endModel()
+        bodies.append(fcl.CollisionObject(model, fcl.Transform()))
+    met = fcl.collide(bodies[0], bodies[1], fcl.CollisionRequest(), fcl.CollisionResult())
+    return b"meet" if met else b"apart"

@@ -1,0 +1,88 @@
+"""What a peer can say about a pair, and whether that agrees with the proven relation.
+
+Each is only asked what it can tell. python-fcl: do the surfaces meet? It sees no body inside
+another, and surfaces that only touch are a matter of rounding to it, so it is held against the
+exact answer to the same question: crossing or apart. manifold3d: is there a common volume? It
+needs two closed manifolds that cover no point twice, and volumes within its tolerance tell
+nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from satcheck import core
+from satcheck.audit.cross_check.peers import Peers
+from satcheck.audit.ladder import Contact
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import CROSS_CHECK, OVERLAPS
+from satcheck.core.errors import SatcheckError
+
+DISAGREEMENT = "cross-check-disagreement"
+
+Standing = Literal["agrees", "disagrees", "no answer"]
+
+
+@dataclass(frozen=True, slots=True)
+class Opinion:
+    """theirs: what the peer answered, or why it gave no answer that counts. ours: the same, proven;
+    empty where there is nothing to compare."""
+
+    peer: str
+    standing: Standing
+    theirs: str
+    ours: str = ""
+
+
+def say(pair: Pair, contact: Contact, peers: Peers, plan: Plan) -> None:
+    """Records one stage a peer; a disagreement becomes a warning as well."""
+    if not contact.proven:
+        plan.record(CROSS_CHECK, "no answer", "the relation is not proven: nothing to hold against")
+        return
+    for opinion in (_by_fcl(pair, peers), _by_manifold(pair, contact, peers)):
+        detail = f"{opinion.peer}: {opinion.theirs}"
+        plan.record(CROSS_CHECK, opinion.standing, detail)
+        if opinion.standing == "disagrees":
+            plan.complain(
+                DISAGREEMENT,
+                None,
+                f"{pair.a.id} and {pair.b.id}: {opinion.peer} says {opinion.theirs}, satcheck "
+                f"{opinion.ours} ({contact.relation}), which is decided by exact predicates; "
+                f"{opinion.peer} rounds",
+            )
+
+
+def _by_fcl(pair: Pair, peers: Peers) -> Opinion:
+    name = "python-fcl"
+    exact = core.mesh_relation(*(core.Surface(body.mesh, False) for body in (pair.a, pair.b)))
+    if exact.relation not in ("separated", "penetrating") or not exact.proven:
+        return Opinion(name, "no answer", "not asked: the surfaces touch without crossing")
+    try:
+        theirs = peers.surfaces_meet(pair.a.mesh, pair.b.mesh)
+    except SatcheckError as error:
+        return Opinion(name, "no answer", error.message)
+    ours = exact.relation == "penetrating"
+    return _compared(name, theirs, ours, ("surfaces that meet", "surfaces that are apart"))
+
+
+def _by_manifold(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
+    name = "manifold3d"
+    if not pair.both_solid:
+        return Opinion(name, "no answer", "not asked: a mesh is no solid")
+    if not all(body.shared.covers_once() for body in (pair.a, pair.b)):
+        return Opinion(name, "no answer", "not asked: a mesh may overlap itself")
+    try:
+        common = peers.common_volume(pair.a.mesh, pair.b.mesh)
+    except SatcheckError as error:
+        return Opinion(name, "no answer", error.message)
+    if 0 < abs(common.volume) <= common.error:
+        return Opinion(name, "no answer", "a common volume within its tolerance")
+    overlap, ours = common.volume > 0, contact.relation in OVERLAPS
+    return _compared(name, overlap, ours, ("a common volume", "no common volume"))
+
+
+def _compared(peer: str, theirs: bool, ours: bool, words: tuple[str, str]) -> Opinion:
+    standing: Standing = "agrees" if theirs == ours else "disagrees"
+    return Opinion(peer, standing, words[0 if theirs else 1], words[0 if ours else 1])

@@ -1,0 +1,65 @@
+"""The other libraries, each asked in a child process: they may abort, hang or lie."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from typing import Final
+
+from satcheck.core import Mesh
+from satcheck.core.blocks import pack_blocks
+from satcheck.core.errors import SatcheckError
+from satcheck.core.overlap_volume import OverlapVolume, VolumeMeter
+from satcheck.core.worker import Worker, WorkerError
+
+MISSING: Final = "cross-check-missing"
+_MODULES: Final = ("fcl", "manifold3d")
+_FCL_SERVER: Final = "satcheck.audit.cross_check.fcl_server"
+
+
+class Peers:
+    """python-fcl and manifold3d; to be used in a `with`. A child starts with its first question.
+
+    seconds: for one question. megabytes: of each child. Raises SatcheckError
+    (`cross-check-missing`) where a library is not installed.
+    """
+
+    def __init__(self, *, seconds: float, megabytes: int, fcl_server: str = _FCL_SERVER) -> None:
+        self._seconds = seconds
+        self._fcl = Worker(fcl_server, megabytes=megabytes)
+        self._meter = VolumeMeter(seconds=seconds, megabytes=megabytes)
+        self._open = ExitStack()
+        _require_installed()
+
+    def __enter__(self) -> Peers:
+        self._open.enter_context(self._fcl)
+        self._open.enter_context(self._meter)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._open.close()
+
+    def surfaces_meet(self, a: Mesh, b: Mesh) -> bool:
+        """By python-fcl. Raises SatcheckError (`cross-check-failed`) when it gives no answer."""
+        try:
+            reply = self._fcl.ask(
+                pack_blocks([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
+            )
+        except WorkerError as error:
+            raise SatcheckError("cross-check-failed", error.message) from error
+        return reply == b"meet"
+
+    def common_volume(self, a: Mesh, b: Mesh) -> OverlapVolume:
+        """By manifold3d. Raises SatcheckError when it cannot use a mesh or gives no answer."""
+        return self._meter.measure(a, b)
+
+
+def _require_installed() -> None:
+    from importlib.util import find_spec
+
+    missing = [name for name in _MODULES if find_spec(name) is None]
+    if missing:
+        raise SatcheckError(
+            MISSING,
+            f"cannot cross-check without {' and '.join(missing)}: "
+            "pip install 'satcheck[cross-check]'",
+        )

@@ -1,0 +1,102 @@
+"""Second opinions: the real libraries, one that lies, one that dies, one that is not there."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+from satcheck.audit import Settings, check
+from satcheck.audit.cross_check.opinions import DISAGREEMENT, say
+from satcheck.audit.cross_check.peers import MISSING, Peers
+from satcheck.audit.ladder import settle
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.roster import place
+from satcheck.cli.report.summary import summary_line
+from satcheck.core import Mesh
+from satcheck.core.errors import SatcheckError
+from satcheck.core.overlap_volume import OverlapVolume
+from satcheck.scene import load_scene
+from tests.audit.shapes import write
+from tests.core.test_mesh_relation import CELL, CUBE, L_SHAPE, SMALL, moved
+
+APART = moved(CELL, 9, 0, 0).mesh()
+CROSSING = L_SHAPE.mesh().translated((0.25, 0.125, 0.5))
+WITHIN = CELL.mesh().translated((1.5, 1.5, 1.5))
+
+
+class Liar(Peers):
+    """Says the opposite of what is true of crossing bodies."""
+
+    def __init__(self) -> None:
+        super().__init__(seconds=60, megabytes=1024)
+
+    def surfaces_meet(self, *_: Mesh) -> bool:
+        return False
+
+    def common_volume(self, *_: Mesh) -> OverlapVolume:
+        return OverlapVolume(0.0, 1e-12)
+
+
+def pair_of(folder: Path, *meshes: Mesh) -> Pair:
+    faces = (([tuple(p) for p in m.vertices], [list(t) for t in m.triangles]) for m in meshes)
+    scene = load_scene(write(folder, **dict(zip("ab", faces, strict=True))))
+    settings = Settings()
+    a, b = place(scene, settings).placed.values()
+    return Pair(a, b, settings)
+
+
+def standings(pair: Pair, peers: Peers) -> tuple[list[str], Plan]:
+    plan = Plan()
+    contact = settle(pair, plan)
+    first = len(plan.stages)
+    say(pair, contact, peers, plan)
+    return [stage.result for stage in plan.stages[first:]], plan
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "expected"),
+    [
+        (L_SHAPE.mesh(), CROSSING, ["agrees", "agrees"]),
+        (L_SHAPE.mesh(), APART, ["agrees", "agrees"]),
+        (CUBE.mesh(), WITHIN, ["agrees", "agrees"]),  # apart to the one, a volume to the other
+        (SMALL.mesh(), moved(SMALL, 2, 0, 0).mesh(), ["no answer", "agrees"]),  # flush
+    ],
+    ids=["crossing", "apart", "within", "flush"],
+)
+def test_the_libraries_agree(tmp_path: Path, a: Mesh, b: Mesh, expected: list[str]) -> None:
+    with Peers(seconds=60, megabytes=4096) as peers:
+        found, plan = standings(pair_of(tmp_path, a, b), peers)
+    assert (found, plan.issues) == (expected, [])
+
+
+def test_a_lie_is_a_warning_of_its_own(tmp_path: Path) -> None:
+    with Liar() as peers:
+        found, plan = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
+    assert found == ["disagrees", "disagrees"]
+    assert {(issue.code, issue.severity) for issue in plan.issues} == {(DISAGREEMENT, "warning")}
+    assert "python-fcl says surfaces that are apart" in plan.issues[0].message
+    assert "decided by exact predicates" in plan.issues[0].message
+
+
+def test_a_peer_that_dies_gives_no_answer(tmp_path: Path) -> None:
+    with Peers(seconds=60, megabytes=4096, fcl_server="satcheck.no_such_module") as peers:
+        found, plan = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
+    assert (found, plan.issues) == (["no answer", "agrees"], [])
+
+
+def test_what_is_not_installed_is_said_before_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
+    with pytest.raises(SatcheckError, match="pip install") as refused:
+        Peers(seconds=1, megabytes=64)
+    assert refused.value.code == MISSING
+
+
+def test_the_report_counts_the_answers() -> None:
+    samples = Path(__file__).resolve().parents[2] / "sample_meshes"
+    paths = [samples / "box.obj", samples / "box_pushed.stl"]
+    report = check(paths, Settings(cross_check=True))
+    assert "Cross-check: 2 answers agree." in summary_line(report)
+    assert "Cross-check" not in summary_line(check(paths))
