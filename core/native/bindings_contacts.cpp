@@ -72,7 +72,7 @@ triangle_pairs: all that meet. complete: False when more met than allowed, and n
 predicates; points are exact intersections, each coordinate rounded once. Solid or not makes no difference.)");
   m.def("covers_once", &covers_once, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(Whether winding numbers with respect to the solid are 0 and 1 only, so that its signed volume is that of what it
-covers. Crossing triangles are found exactly, nested shells and contact with itself by samples.)");
+covers. Told by exact samples beside every piece of the surface.)");
 }
 
 }  // namespace satcheck

@@ -248,8 +248,8 @@ ExactPoint cross_edges(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
 
 TriangleMeeting meet_triangles(const Mesh& mesh_a, std::uint32_t triangle_a, const Mesh& mesh_b,
                                std::uint32_t triangle_b) {
+  if (classify(corners(mesh_a, triangle_a), corners(mesh_b, triangle_b)) == TriangleContact::disjoint) return {};
   const Facet a(mesh_a, triangle_a), b(mesh_b, triangle_b);
-  if (classify(a.corner, b.corner) == TriangleContact::disjoint) return {};
   if (a.is_collinear && b.is_collinear) return {};
   if (a.is_collinear) return meet_collinear(a, b, true);
   if (b.is_collinear) return meet_collinear(b, a, false);

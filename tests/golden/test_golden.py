@@ -96,6 +96,13 @@ def test_distance_is_true(name: str) -> None:
     assert finding(name)["distance"] == pytest.approx(PAIRS[name]["distance"], abs=ROUNDING)
 
 
+@pytest.mark.parametrize("name", [name for name in NAMES if "contact_length" in PAIRS[name]])
+def test_contacts_are_true(name: str) -> None:
+    totals = finding(name)["contacts"]["totals"]
+    assert totals["length"] == pytest.approx(PAIRS[name]["contact_length"], abs=ROUNDING)
+    assert totals["area"] == pytest.approx(PAIRS[name]["contact_area"], abs=ROUNDING)
+
+
 @pytest.mark.parametrize("name", ["fin", "open", "inside_out"])
 def test_unhealthy_meshes_come_with_a_warning(name: str) -> None:
     issues = json.loads(answer(name)[1])["issues"]
