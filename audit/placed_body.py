@@ -9,9 +9,9 @@ from threading import RLock
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
-from satcheck.audit.boxes import Box, diagonal
+from satcheck.audit.boxes import Box
 from satcheck.audit.settings import Settings
-from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, NEARLY_CONVEX, UNIT_ROUNDOFF
+from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition, DecompositionError
@@ -84,17 +84,12 @@ class SharedMesh:
 
 
 class PlacedBody:
-    """World frame. bounds: ((x, y, z), (x, y, z)); resolution: the input precision, world units.
-
-    defect(): a proven upper bound of how far the surface lies below its hull, inf when it is more
-    than a small fraction of the size or the mesh is not closed.
-    """
+    """World frame. bounds: ((x, y, z), (x, y, z)); resolution: the input precision, world units."""
 
     __slots__ = (
         "body",
         "bounds",
         "checked",
-        "defect",
         "hull",
         "hull_shape",
         "id",
@@ -117,9 +112,6 @@ class PlacedBody:
         self.hull = Once(lambda: self.mesh.convex_hull())
         self.hull_shape = Once(lambda: core.Hull(self.hull()))
         self.checked = Once(self._checked)
-        self.defect = Once(
-            lambda: self.mesh.convexity_defect(NEARLY_CONVEX * diagonal(self.bounds))
-        )
 
     def _checked(self) -> Placed:
         from satcheck.verify.bodies import place_shape

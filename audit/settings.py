@@ -13,6 +13,9 @@ ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
 
 # Relative width of the depth interval of a concave pair below which nothing finer is asked for.
 DEPTH_WIDTH = 0.01
+# Seconds, in work units of a slow machine, that narrowing the interval of one pair may take.
+DEPTH_BUDGET = 2.0
+MOST_BUDGET = 86400.0
 # Up to this many bodies the pairs that the broad phase settled are listed as findings too.
 LIST_PRUNED_BODIES = 16
 # Points that the contacts of a pair may list: some 5 MB of JSON.
@@ -34,6 +37,8 @@ class Settings:
     certificate: every proven finding carries evidence that `satcheck verify` checks.
     list_pruned: findings for pairs that the broad phase settled; None: up to 16 bodies.
     depth_width: relative width of a depth interval that is narrow enough.
+    depth_budget: what may be spent on one such interval, in seconds of a slow machine: it buys a
+    number of steps, not a time, so that the same input gives the same answer everywhere.
     part_*: how concave meshes are split into convex parts, and what that may cost.
     jobs: threads over pairs, 0 for one per core. Changes no answer, nor does cache or timings.
     """
@@ -54,6 +59,7 @@ class Settings:
     certificate: bool = False
     list_pruned: bool | None = None
     depth_width: float = DEPTH_WIDTH
+    depth_budget: float = DEPTH_BUDGET
     part_threshold: float = 0.05
     part_seed: int = 0
     part_seconds: float = 120.0
@@ -79,6 +85,10 @@ class Settings:
             raise _refused(f"contact_points must be 0 or more, not {self.contact_points!r}")
         if not 0 < self.depth_width < 1:
             raise _refused(f"depth_width must lie between 0 and 1, not {self.depth_width!r}")
+        if not 0 < self.depth_budget <= MOST_BUDGET:
+            raise _refused(
+                f"depth_budget must lie between 0 and {MOST_BUDGET:g} s, not {self.depth_budget!r}"
+            )
         if self.jobs < 0:
             raise _refused(f"jobs must be 0 (one per core) or more, not {self.jobs!r}")
 
@@ -98,6 +108,7 @@ class Settings:
             "cross_check": self.cross_check,
             "list_pruned": self.list_pruned,
             "depth_width": self.depth_width,
+            "depth_budget": self.depth_budget,
             "part_threshold": self.part_threshold,
             "part_seed": self.part_seed,
             "part_seconds": self.part_seconds,

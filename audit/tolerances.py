@@ -19,10 +19,6 @@ ORTHOGONALITY = 1e-12
 # rounding; each next one is four times longer. The last is about 1e-9 of the size.
 LENGTHENING_ULPS = (4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304)
 
-# A mesh whose surface lies within this fraction of its box diagonal below its hull is nearly
-# convex: its shrunken hull is worth trying as an inner body before it is decomposed.
-NEARLY_CONVEX = 0.02
-
 # The default touch band is at most this fraction of the smaller body's box diagonal. The float32
 # coordinates of a part that is 1/4000 of the assembly it sits in still keep their full precision.
 TOUCH_FRACTION = 1e-3

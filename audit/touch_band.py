@@ -25,6 +25,8 @@ from satcheck.audit.vectors import added, scaled
 from satcheck.audit.verify import FREE, relation_after
 
 WALLS = 3
+# A band narrower than this share of the way out of the hulls.
+NARROW_BAND = 1 / 64
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 
@@ -57,7 +59,7 @@ def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
     if move is None and nudges.deepest > pair.tolerance:
         plan.record("touch-band", "deeper", f"{_band(pair)}: at least {nudges.deepest:.3g} deep")
         return None
-    move = move or _searched(pair, contact, hulls, lower, plan)
+    move = move or _searched(pair, hulls, lower, plan)
     if move is None:
         plan.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
     else:
@@ -78,16 +80,14 @@ def _out_of_hulls(pair: Pair, hulls: WayOut) -> Vector | None:
     return None
 
 
-def _searched(
-    pair: Pair, contact: Contact, hulls: WayOut, lower: float, plan: Plan
-) -> Vector | None:
-    """By the search for the depth, with or without a depth asked for; not for a narrow band."""
-    from satcheck.audit.concave_depth import is_fine
-    from satcheck.audit.escape_search import escape_on_meshes
+def _searched(pair: Pair, hulls: WayOut, lower: float, plan: Plan) -> Vector | None:
+    """By the search for the depth, with or without a depth asked for; not for a narrow band, which
+    nudges can walk through."""
+    from satcheck.audit.concave_depth import search
 
-    if is_fine(pair, hulls.upper):
+    if pair.tolerance < NARROW_BAND * hulls.upper:
         return None
-    found = escape_on_meshes(pair, contact, hulls.upper, hulls.normal, lower, plan)
+    found = search(pair, lower, hulls.upper, plan).way_out
     return found if found is not None and math.hypot(*found) <= pair.tolerance else None
 
 

@@ -41,6 +41,8 @@ class Choices:
     clearance: Length | None
     tolerance: Length | None
     accuracy: str
+    depth_width: float
+    depth_budget: float
     allow_open: bool
     cross_check: bool
     certificate: bool
@@ -141,6 +143,8 @@ def _settings(choices: Choices, scene: Scene) -> Any:
         clearance=length(choices.clearance, "--clearance"),
         tolerance=length(choices.tolerance, "--tolerance"),
         accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it
+        depth_width=choices.depth_width,
+        depth_budget=choices.depth_budget,
         allow_open=choices.allow_open,
         cross_check=choices.cross_check,
         certificate=choices.certificate,

@@ -149,6 +149,22 @@ def satcheck() -> None:
     "All but exact may report overlaps that are none, and say so.",
 )
 @click.option(
+    "--depth-width",
+    type=click.FloatRange(0, 1, min_open=True, max_open=True),
+    default=0.01,
+    show_default=True,
+    help="Narrow the depth of concave pairs until its interval is this wide, relative to its end.",
+)
+@click.option(
+    "--depth-budget",
+    type=click.FloatRange(0, 86400, min_open=True),
+    metavar="SECONDS",
+    default=2.0,
+    show_default=True,
+    help="Stop narrowing after so much work a pair: seconds of a slow machine, the same steps on "
+    "every one.",
+)
+@click.option(
     "--allow-open",
     is_flag=True,
     help="A mesh that is not closed has no inside: do not report that as incomplete.",
@@ -194,6 +210,8 @@ def check(
     clearance: Length | None,
     tolerance: Length | None,
     accuracy: str,
+    depth_width: float,
+    depth_budget: float,
     allow_open: bool,
     cross_check: bool,
     certificate: bool,
@@ -228,6 +246,8 @@ def check(
             clearance=clearance,
             tolerance=tolerance,
             accuracy=accuracy,
+            depth_width=depth_width,
+            depth_budget=depth_budget,
             allow_open=allow_open,
             cross_check=cross_check,
             certificate=certificate,

@@ -10,6 +10,7 @@ from satcheck.core._native import (
     ContactCurve,
     ContactPatch,
     Cylinder,
+    DepthInterval,
     Ellipsoid,
     Hull,
     Mesh,
@@ -31,6 +32,7 @@ from satcheck.core._native import (
     mesh_distance,
     mesh_relation,
     sat_polygons,
+    search_depth,
     surface_intersection,
 )
 from satcheck.core.conventions import OUTCOMES
@@ -43,6 +45,7 @@ __all__ = [
     "ContactCurve",
     "ContactPatch",
     "Cylinder",
+    "DepthInterval",
     "Ellipsoid",
     "Hull",
     "Mesh",
@@ -64,5 +67,6 @@ __all__ = [
     "mesh_distance",
     "mesh_relation",
     "sat_polygons",
+    "search_depth",
     "surface_intersection",
 ]

@@ -18,6 +18,7 @@ using namespace satcheck;
 
 namespace satcheck {
 void bind_contacts(nb::module_& m);
+void bind_depth(nb::module_& m);
 void bind_mesh(nb::module_& m);
 }
 
@@ -294,6 +295,7 @@ NB_MODULE(_native, m) {
   nb::set_leak_warnings(false);
   bind_mesh(m);
   bind_contacts(m);
+  bind_depth(m);
   bind_shapes(m);
   bind_pair_result(m);
   bind_pair_results(m);

@@ -88,7 +88,7 @@ def test_concave_overlap_without_depth_asks_for_no_parts(tmp_path):
     report = check(scene, Settings(depth=False))
     finding = only(report)
     assert finding.relation == "penetrating"
-    assert not {"parts", "depth", "mtv-search", "verify", "distance"} & set(stages(finding))
+    assert not {"parts", "depth", "search", "verify", "distance"} & set(stages(finding))
     assert all(body.parts is None for body in report.bodies)
 
 

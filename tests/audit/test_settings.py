@@ -16,6 +16,8 @@ from satcheck.core.errors import SatcheckError
         {"tolerance": float("inf")},
         {"accuracy": "best"},
         {"depth_width": 0.0},
+        {"depth_budget": 0.0},
+        {"depth_budget": float("nan")},
         {"jobs": -1},
     ],
 )

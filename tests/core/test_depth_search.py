@@ -1,0 +1,190 @@
+"""Depth intervals against closed forms, against sampling, under maps that must change nothing."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+
+import numpy as np
+import pytest
+
+from satcheck.core import DepthInterval, Mesh, Surface, mesh_relation, search_depth
+from tests.core.voxel_solids import Cell, VoxelSolid, box
+from tests.oracles.free_directions import along, directions, is_free, sampled_depth
+
+WORK = 200_000_000
+
+
+def search(a: Mesh, b: Mesh, upper: float, width: float = 0.01, work: int = WORK) -> DepthInterval:
+    return search_depth(
+        Surface(a, True), Surface(b, True), upper=upper, lower=0.0, width=width, work=work
+    )
+
+
+def voxel_depth(a: VoxelSolid, b: VoxelSolid) -> float:
+    """Two unit cells share no interior when their corners differ by 1 along some axis. The nearest
+    translation that frees all pairs has whole coordinates, then, and is no difference of two cells.
+    """
+    forbidden = {
+        (q[0] - p[0], q[1] - p[1], q[2] - p[2]) for p in a.unit_cells() for q in b.unit_cells()
+    }
+    reach = range(-12, 13)
+    free = (t for t in itertools.product(reach, reach, reach) if t not in forbidden)
+    return min(math.hypot(*t) for t in free)
+
+
+def random_solid(rng: random.Random) -> VoxelSolid:
+    """A connected blob of cells with notches, holes and branches."""
+    cells: set[Cell] = {(0, 0, 0)}
+    while len(cells) < 14:
+        x, y, z = rng.choice(sorted(cells))
+        step = rng.choice([(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)])
+        cells.add((x + step[0], y + step[1], z + step[2]))
+    return VoxelSolid(frozenset(cells))
+
+
+@pytest.mark.parametrize("seed", range(24))
+def test_voxel_solids_have_their_depth(seed: int) -> None:
+    rng = random.Random(seed)
+    a, b = random_solid(rng), random_solid(rng)
+    truth = voxel_depth(a, b)
+    found = search(a.mesh(seed=seed), b.mesh(seed=seed + 1), upper=14.0)
+    assert found.lower <= truth * (1 + 1e-9)
+    assert truth * (1 - 1e-12) <= found.upper
+    assert found.stop == "narrow"
+    assert found.upper - found.lower <= 0.01 * found.upper
+    assert found.way_out is not None
+    assert is_free(a.mesh(seed=seed), Surface(b.mesh(seed=seed + 1), True), found.way_out)
+
+
+def test_out_through_the_wall_of_a_box_with_a_cavity() -> None:
+    """A cube in the cavity of a hollow box, pushed 1 into a wall: back is nearer than out."""
+    hollow = VoxelSolid(box((0, 0, 0), (7, 7, 7)).cells - box((2, 2, 2), (5, 5, 5)).cells)
+    cube = box((4, 3, 3), (6, 4, 4))
+    assert voxel_depth(cube, hollow) == 1.0
+    found = search(cube.mesh(), hollow.mesh(), upper=8.0)
+    assert found.lower == pytest.approx(1.0)
+    assert found.way_out == pytest.approx((-1.0, 0.0, 0.0))
+
+
+def torus(turns: int, sides: int, radius: float = 2.0, tube: float = 0.75) -> Mesh:
+    points, faces = [], []
+    for i in range(turns):
+        u = 2 * math.pi * i / turns
+        for j in range(sides):
+            v = 2 * math.pi * j / sides
+            r = radius + tube * math.cos(v)
+            points.append((r * math.cos(u), r * math.sin(u), tube * math.sin(v)))
+            k, m = (i + 1) % turns, (j + 1) % sides
+            here, along_u = i * sides + j, k * sides + j
+            faces += [(here, along_u, k * sides + m), (here, k * sides + m, i * sides + m)]
+    return Mesh(np.array(points), np.array(faces, dtype=np.uint32))
+
+
+CROSSED = (0.4, 0.9, 1.1)  # where the second torus lies: it leans into the tube of the first
+
+
+def test_no_shorter_translation_frees_interlocked_rings() -> None:
+    a = torus(24, 12)
+    b = torus(20, 10).transformed((1, 0, 0, 1.5, 0, 0, -1, 0.3, 0, 1, 0, 0.2, 0, 0, 0, 1))
+    found = search(a, b, upper=6.0)
+    assert found.stop == "narrow"
+    surface = Surface(b, True)
+    assert found.way_out is not None
+    assert is_free(a, surface, found.way_out)
+    for way in directions(400):
+        for share in (0.5, 0.9, 0.999):
+            t = along(way, share * found.lower)
+            assert not is_free(a, surface, t)
+    assert found.lower <= sampled_depth(a, surface, found.upper * 1.01, 60)
+
+
+def test_a_finer_tessellation_changes_the_depth_by_no_more_than_the_width() -> None:
+    """Triangles in four, by the middles of their edges: the same solid up to one rounding."""
+    a, b = torus(16, 8), torus(16, 8).translated(CROSSED)
+    coarse = search(a, b, upper=6.0)
+    fine = search(subdivided(a), subdivided(b), upper=6.0)
+    assert max(coarse.lower, fine.lower) <= min(coarse.upper, fine.upper)
+    assert abs(fine.upper - coarse.upper) <= 0.01 * coarse.upper
+
+
+def subdivided(mesh: Mesh) -> Mesh:
+    """Every triangle in four, by the middles of its edges, which are rounded."""
+    points = [tuple(p) for p in mesh.vertices.tolist()]
+    middles: dict[tuple[int, int], int] = {}
+
+    def middle(i: int, j: int) -> int:
+        key = (min(i, j), max(i, j))
+        if key not in middles:
+            middles[key] = len(points)
+            points.append(tuple(0.5 * (p + q) for p, q in zip(points[i], points[j], strict=True)))
+        return middles[key]
+
+    faces = []
+    for i, j, k in mesh.triangles.tolist():
+        a, b, c = middle(i, j), middle(j, k), middle(k, i)
+        faces += [(i, a, c), (a, j, b), (c, b, k), (a, b, c)]
+    return Mesh(np.array(points), np.array(faces, dtype=np.uint32))
+
+
+def test_swapping_the_meshes_negates_the_way_out() -> None:
+    a, b = torus(16, 8), torus(14, 9).translated(CROSSED)
+    there, back = search(a, b, upper=6.0), search(b, a, upper=6.0)
+    assert (there.lower, there.upper, there.work) == (back.lower, back.upper, back.work)
+    assert there.way_out is not None
+    assert back.way_out == tuple(0.0 - c for c in there.way_out)
+
+
+def test_scaling_by_a_power_of_two_scales_the_interval() -> None:
+    a, b = torus(16, 8), torus(14, 9).translated(CROSSED)
+    plain = search(a, b, upper=6.0)
+    for scale in (2.0**-40, 2.0**30):
+        matrix = (scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1)
+        scaled = search(a.transformed(matrix), b.transformed(matrix), upper=6.0 * scale)
+        assert (scaled.lower, scaled.upper) == (plain.lower * scale, plain.upper * scale)
+
+
+def test_an_interval_that_ran_out_of_work_is_wide_but_right() -> None:
+    a, b = torus(16, 8), torus(14, 9).translated(CROSSED)
+    full = search(a, b, upper=6.0)
+    assert full.stop == "narrow"
+    for work in (1, full.work // 8, full.work // 2):
+        part = search(a, b, upper=6.0, work=work)
+        assert part.stop == "work spent"
+        assert part.upper - part.lower > 0.01 * part.upper
+        assert part.lower <= full.upper
+        assert full.lower <= part.upper
+
+
+def test_open_surfaces_are_parted_where_triangles_no_longer_cross() -> None:
+    sheet = Mesh(
+        np.array([(0.0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]),
+        np.array([(0, 1, 2), (0, 2, 3)], dtype=np.uint32),
+    )
+    fin = Mesh(
+        np.array([(1.0, 1, -0.5), (3, 1, -0.5), (2, 1, 3.0)]),
+        np.array([(0, 1, 2)], dtype=np.uint32),
+    )
+    a, b = Surface(fin, False), Surface(sheet, False)
+    found = search_depth(a, b, upper=4.0, lower=0.0, width=0.01, work=WORK)
+    assert found.lower == pytest.approx(0.5, rel=0.01)
+    assert found.upper == pytest.approx(0.5, rel=0.01)
+    assert mesh_relation(a, b).relation == "penetrating"
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"upper": -1.0},
+        {"upper": math.inf},
+        {"lower": math.nan},
+        {"width": 1.0},
+        {"width": -0.1},
+    ],
+)
+def test_what_is_no_goal_is_refused(wrong: dict[str, float]) -> None:
+    cube = Surface(box((0, 0, 0), (1, 1, 1)).mesh(), True)
+    goal = {"upper": 1.0, "lower": 0.0, "width": 0.01} | wrong
+    with pytest.raises(ValueError, match="must"):
+        search_depth(cube, cube, work=1, **goal)
