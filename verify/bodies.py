@@ -12,7 +12,7 @@ import numpy as np
 from satcheck.scene import Body, MeshFile, MeshFileError
 from satcheck.scene.loading import load_mesh_file
 from satcheck.verify.exact import Floats, Rejected
-from satcheck.verify.world import Indices, World, is_convex, placed
+from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
 
 SECONDS_PER_FILE = 60.0
 MEGABYTES_PER_FILE = 2048
@@ -20,7 +20,7 @@ MEGABYTES_PER_FILE = 2048
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A mesh file. convex: exactly, in its own coordinates."""
+    """A mesh file. convex: exactly, in its own coordinates. A solid is balanced."""
 
     file: MeshFile
     vertices: Floats
@@ -79,7 +79,7 @@ class Bodies:
                     file, self._root / file, seconds=SECONDS_PER_FILE, megabytes=MEGABYTES_PER_FILE
                 )
             )
-        except MeshFileError as error:
+        except (MeshFileError, Rejected) as error:
             return str(error)
 
     def _placed(self, name: str, group: str | None, shape: Shape, entry: dict[str, Any]) -> Placed:
@@ -92,7 +92,10 @@ class Bodies:
 def shape_of(file: MeshFile) -> Shape:
     vertices = np.array(file.mesh.vertices)
     triangles = np.array(file.mesh.triangles, dtype=np.int64)
-    return Shape(file, vertices, triangles, file.health.solid and is_convex(vertices, triangles))
+    solid = file.health.solid
+    if solid and not is_balanced(vertices, triangles):
+        raise Rejected("said to be solid, but its surface is not closed or not evenly wound")
+    return Shape(file, vertices, triangles, solid and is_convex(vertices, triangles))
 
 
 def place_shape(

@@ -9,13 +9,12 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-
 from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.exact import Rejected
 from satcheck.verify.findings import Asked, Proven, check_finding, default_tolerance, number
 
 SCHEMA = "satcheck.report/1"
+CERTAINLY = 1 + 1e-12  # far more than a difference of two numbers can be off by
 Outcome = Literal["accepted", "rejected", "not certified", "open"]
 
 
@@ -231,11 +230,14 @@ def _boxes_apart(a: Placed, b: Placed, asked: Asked) -> bool:
     if a.world is None or b.world is None:
         return False
     (low_a, high_a), (low_b, high_b) = a.world.bounds, b.world.bounds
+    most = a.resolution + b.resolution if asked.tolerance is None else asked.tolerance
+    widest = max((low_b - high_a).max(), (low_a - high_b).max())
+    if widest <= 0:
+        return False
+    if widest > max(most, asked.clearance or 0.0) * CERTAINLY:
+        return True
     tolerance = default_tolerance(a, b) if asked.tolerance is None else asked.tolerance
     beyond = Fraction(max(tolerance, asked.clearance or 0.0))
-    steps = np.maximum(low_b - high_a, low_a - high_b)
-    if steps.max() <= 0:
-        return False
     exact = [
         max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s), Fraction(0))
         for p, q, r, s in zip(*(c.tolist() for c in (low_b, high_a, low_a, high_b)), strict=True)

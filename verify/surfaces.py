@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,12 +148,12 @@ def common(a: Corners, b: Corners) -> list[Point]:
     """
     if not any(_normal(a)):
         a, b = b, a
-    region: list[Point] = [tuple(map(Fraction, p)) for p in b]  # type: ignore[misc]
+    region: list[Any] = list(b)  # integers, and rationals only where something is cut off
     for normal, limit in half_spaces(a):
         region = clipped(region, normal, limit)
         if not region:
             break
-    return region
+    return [(Fraction(p[0]), Fraction(p[1]), Fraction(p[2])) for p in region]
 
 
 def _normal(t: Corners) -> Vector:
@@ -181,14 +182,14 @@ def _negated(v: Vector) -> Vector:
     return -v[0], -v[1], -v[2]
 
 
-def clipped(region: list[Point], normal: Vector, limit: int) -> list[Point]:
+def clipped(region: list[Any], normal: Vector, limit: int) -> list[Any]:
     """The part of a convex polygon, segment or point in the half-space normal . x <= limit."""
     heights = [dot(normal, p) - limit for p in region]
-    kept: list[Point] = []
+    kept: list[Any] = []
     for k, (p, h) in enumerate(zip(region, heights, strict=True)):
         q, g = region[k - 1], heights[k - 1]
         if g * h < 0:
-            s = g / (g - h)
+            s = Fraction(g) / (g - h)
             kept.append(tuple(c + s * (d - c) for c, d in zip(q, p, strict=True)))
         if h <= 0:
             kept.append(p)

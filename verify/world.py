@@ -30,20 +30,17 @@ SPLITTER = 2.0**27 + 1  # T. J. Dekker (1971): halves of 26 bits
 
 
 class World:
-    """vertices: (n, 3) float64, triangles: (m, 3). solid: said to bound material; checked.
+    """vertices: (n, 3) float64, triangles: (m, 3). solid: bounds material.
 
     Where a solid's material is, winding numbers say: of a point, how often the surface runs around
-    it. That means something because every directed edge is run as often as its reverse.
+    it. That means something because every directed edge is run as often as its reverse: `Shape`
+    has checked that in the file, and equal points stay equal wherever they are moved.
     """
 
-    def __init__(
-        self, vertices: Floats, triangles: Indices, solid: bool, *, balanced: bool = False
-    ) -> None:
+    def __init__(self, vertices: Floats, triangles: Indices, solid: bool) -> None:
         self.vertices, self.triangles, self.solid = vertices, triangles, solid
         if not np.isfinite(vertices).all():
             raise Rejected("a coordinate is not finite")
-        if solid and not (balanced or is_balanced(vertices, triangles)):
-            raise Rejected("said to be solid, but its surface is not closed or not evenly wound")
         corners = vertices[triangles]
         self.low, self.high = corners.min(axis=1), corners.max(axis=1)
 
@@ -91,9 +88,8 @@ class World:
         return normal is None or all(dot(normal, v) == 0 for v in spokes)
 
     def moved(self, offset: Sequence[float]) -> World:
-        """Each coordinate rounded once; what is balanced stays so, for equal points stay equal."""
-        moved = self.vertices + np.array(offset)
-        return World(moved, self.triangles, self.solid, balanced=True)
+        """Each coordinate rounded once."""
+        return World(self.vertices + np.array(offset), self.triangles, self.solid)
 
 
 def placed(

@@ -16,6 +16,7 @@ from satcheck.verify.world import Exact
 # A step from the surface is halved so often before it is given up: 2^-100 of the triangle's size.
 HALVINGS = 100
 MOST_CANDIDATES = 200
+SETTLED = 12  # after so many halvings two equal answers are believed
 
 Json = dict[str, Any]
 
@@ -36,6 +37,10 @@ def on_surface(body: Exact, triangle: int, weights: list[Fraction]) -> Json:
 def nearest_points(pair: Pair, s: int, t: int) -> Json:
     """The points of two triangles next to each other; the same one where they meet."""
     corners = pair.a.corners(s), pair.b.corners(t)
+    shared = common(*corners)
+    if shared and all(any(_normal(c)) for c in corners):
+        a, b = (_weights(c, _normal(c), shared[0]) for c in corners)
+        return {"a": on_surface(pair.a, s, a), "b": on_surface(pair.b, t, b)}
     ends = [(i, j) for i in range(3) for j in range(3)]
     _, weights = nearest_to_origin([sub(corners[0][i], corners[1][j]) for i, j in ends])
     shares = [[Fraction(0)] * 3, [Fraction(0)] * 3]
@@ -66,7 +71,8 @@ def overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
     for s, t in islice(contacts(pair, hint), MOST_CANDIDATES):
         meet = meet or nearest_points(pair, s, t)
         for start, way in _quadrants(pair.a.corners(s), pair.b.corners(t)):
-            _look(pair, start, way, found)
+            if len(found) < 2:
+                _look(pair, start, way, found)
         if len(found) == 2:
             break
     if meet is None:
@@ -97,8 +103,8 @@ def _quadrants(a: Any, b: Any) -> Iterator[tuple[Point, Vector]]:
     up_a = tuple(dot(m, m) * x - dot(n, m) * y for x, y in zip(n, m, strict=True))
     up_b = tuple(dot(n, n) * y - dot(n, m) * x for x, y in zip(n, m, strict=True))
     size_a, size_b = (max(abs(c) for c in v).bit_length() for v in (up_a, up_b))
-    for side_a in (1, -1):
-        for side_b in (1, -1):
+    for side_a in (-1, 1):  # behind both first: inside, as a rule
+        for side_b in (-1, 1):
             way = tuple(
                 side_a * (x << max(0, size_b - size_a)) + side_b * (y << max(0, size_a - size_b))
                 for x, y in zip(up_a, up_b, strict=True)
@@ -124,7 +130,7 @@ def _look(pair: Pair, start: Point, way: Any, found: dict[str, Point]) -> None:
             continue
         inside = [w != 0 for w in windings]
         found.setdefault("both" if all(inside) else "one" if any(inside) else "none", p)
-        if inside == before and k > 20:
+        if len(found.keys() - {"none"}) == 2 or (inside == before and k > SETTLED):
             break
         before = inside
     found.pop("none", None)
@@ -145,11 +151,15 @@ def _search_cells(pair: Pair, found: dict[str, Point]) -> None:
 
 def sheet_overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
     """For a solid and an open surface: a point of that inside the solid, and a common one."""
-    meeting = list(contacts(pair, hint))
-    if not meeting:
-        return None
     a_is_sheet = pair.b.world.solid
     sheet, solid = (pair.a, pair.b) if a_is_sheet else (pair.b, pair.a)
+    for named in islice(contacts(pair, hint), MOST_CANDIDATES):
+        triangle = named[0 if a_is_sheet else 1]
+        for corner, p in enumerate(sheet.corners(triangle)):
+            if solid.winding((Fraction(p[0]), Fraction(p[1]), Fraction(p[2]))):
+                both = on_surface(sheet, triangle, [Fraction(k == corner) for k in range(3)])
+                return {"kind": "overlap", "both": both, "meet": nearest_points(pair, *named)}
+    meeting = list(contacts(pair, hint))
     pairs = meeting if a_is_sheet else [(t, s) for s, t in meeting]
     for sides in sides_of(sheet, solid, pairs):
         if sides.front[1] and sides.back[1]:
