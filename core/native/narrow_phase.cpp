@@ -5,6 +5,8 @@
 #include "contact_region.hpp"
 #include "curved_axis.hpp"
 #include "epa.hpp"
+#include "exact_depth.hpp"
+#include "exact_distance.hpp"
 #include "exact_pair.hpp"
 #include "tolerances.hpp"
 
@@ -182,21 +184,34 @@ void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const 
   result.witness_b = to_world * (core.witness.b - core.axis * m.b.margin);
 }
 
-void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
-                    PairResult& result) {
-  result.outcome = decide_exactly(world_hull(a, pose_a), world_hull(b, pose_b), noise);
+// The outcome is known, and not touching: its figure without float64's error.
+void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
+  const ExactDifference difference(a.vertices, b.vertices);
+  const bool apart = result.outcome == Outcome::separated;
+  const ExactFigure figure = apart ? exact_distance(difference) : exact_depth(difference);
+  result.distance = apart ? figure.value : -figure.value;
+  result.lower = apart ? figure.lower : -figure.upper;
+  result.upper = apart ? figure.upper : -figure.lower;
+  result.normal = figure.normal;
+  result.witness_a = figure.witness_a;
+  result.witness_b = figure.witness_b;
   result.method = Method::exact;
-  result.reason = Reason::none;
-  if (!result.has_distance) return;
-  if (result.outcome == Outcome::touching) result.distance = result.lower = result.upper = 0;
-  // Where float64 had the sign wrong, the proven bound on the right side is the figure that is left.
-  if (result.outcome == Outcome::separated) {
-    if (!(result.distance > 0)) result.distance = result.upper;
-    result.lower = std::fmax(result.lower, 0.0);
+}
+
+// What float64 left open about two polytopes: the sign, or a figure with bounds too far apart.
+void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt,
+                    double noise, PairResult& result) {
+  const Polytope hull_a = world_hull(a, pose_a), hull_b = world_hull(b, pose_b);
+  if (in_doubt) {
+    result.outcome = decide_exactly(hull_a, hull_b, 2 * noise);
+    result.method = Method::exact;
+    result.reason = Reason::none;
   }
-  if (result.outcome == Outcome::penetrating) {
-    if (!(result.distance < 0)) result.distance = result.lower;
-    result.upper = std::fmin(result.upper, 0.0);
+  if (!result.has_distance) return;
+  if (result.outcome == Outcome::touching) {
+    result.distance = result.lower = result.upper = 0;
+  } else {
+    measure_exactly(hull_a, hull_b, result);
   }
 }
 
@@ -227,7 +242,10 @@ PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const 
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
   const double confirmed_below = core.method == Method::sat ? kShallow * m.scale : noise;
   const bool in_doubt = result.outcome != Outcome::separated && core.lower + margin <= confirmed_below;
-  if (in_doubt && a.is_polytope() && b.is_polytope()) settle_exactly(a, pose_a, b, pose_b, 2 * noise, result);
+  const bool too_wide = result.has_distance && !(result.upper - result.lower <= kWidestInterval * m.scale);
+  if ((in_doubt || too_wide) && a.is_polytope() && b.is_polytope()) {
+    settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
+  }
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
   return result;
 }

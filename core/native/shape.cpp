@@ -14,18 +14,14 @@ void require_positive(double value, const char* what) {
   }
 }
 
-// True when p - origin is representable for every vertex: then the shift loses nothing.
-bool shift_is_exact(const std::vector<Vec3>& points, Vec3 origin) {
-  for (Vec3 p : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double shifted = p[axis] - origin[axis];
-      // Knuth's two-sum: the rounding error of the subtraction, without error itself.
-      const double back = p[axis] - shifted;
-      const double error = (p[axis] - (shifted + back)) + (back - origin[axis]);
-      if (error != 0) return false;
-    }
-  }
-  return true;
+// The middle along the axes on which the shape is far from 0, by more than 1.5 sizes: its coordinates lie
+// within a third of it there, so that subtracting it rounds nothing (P. H. Sterbenz, "Floating-Point
+// Computation", 1974). 0 along the others.
+Vec3 exact_centre(const Aabb& bounds) {
+  const Vec3 size = bounds.max - bounds.min, middle = bounds.min + size * 0.5;
+  const double far = 1.5 * max_abs(size);
+  const auto taken = [&](double coordinate) { return std::fabs(coordinate) > far ? coordinate : 0.0; };
+  return {taken(middle.x), taken(middle.y), taken(middle.z)};
 }
 
 double largest_coordinate(const std::vector<Vec3>& points) {
@@ -52,12 +48,8 @@ Shape make_hull(Polytope polytope) {
   shape.kind = ShapeKind::hull;
   Aabb bounds;
   for (Vec3 p : polytope.vertices) bounds.include(p);
-  const Vec3 centre = bounds.min + (bounds.max - bounds.min) * 0.5;
-  const double far = max_abs(centre), size = max_abs(bounds.max - bounds.min);
-  if (far > size && shift_is_exact(polytope.vertices, centre)) {
-    shape.origin = centre;
-    for (Vec3& p : polytope.vertices) p = p - centre;
-  }
+  shape.origin = exact_centre(bounds);
+  for (Vec3& p : polytope.vertices) p = p - shape.origin;
   shape.polytope = std::move(polytope);
   shape.arcs = arcs_of(shape.polytope);
   shape.lanes = VertexLanes(shape.polytope.vertices);

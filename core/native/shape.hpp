@@ -29,8 +29,8 @@ struct Shape {
   // in z. Sphere: radius in x. The axis is the local z; the cone's apex is at +z.
   Vec3 size;
   double margin = 0;  // radius of the ball around the core: sphere and capsule
-  // Hull and box. Hull: coordinates are relative to `origin`, which moves a hull far from the
-  // world's origin to its own without any rounding (0 where that would round).
+  // Hull and box. Hull: coordinates are relative to `origin`, which brings a hull far from the world's
+  // origin to its own without any rounding.
   Polytope polytope;
   VertexLanes lanes;
   std::vector<EdgeArc> arcs;  // of a solid hull

@@ -55,6 +55,10 @@ inline constexpr double kTrustedAxis = 1e-6;
 // the stored normal of a sliver face carries more error than a support value does.
 inline constexpr double kShallow = 1e-7;
 
+// Where the proven bounds of two polytopes are further apart than this fraction of the scale, the exact
+// stage takes over. On facets of ordinary shape float64 leaves 1e-14 to 1e-13; slivers cost it more.
+inline constexpr double kWidestInterval = 1e-12;
+
 // Vertices this close to a support plane, as a fraction of the scale, belong to the contact feature.
 inline constexpr double kSameFeature = 1e-10;
 

@@ -1,7 +1,7 @@
 """The narrow phase on convex pairs, judged by exact truth: every query, every method, no tolerance.
 
 The derived bound of a figure is the interval that the core reports with it: it has to hold the true
-signed distance, compared in rationals.
+signed distance, compared in rationals, and it is never wider than WIDEST.
 """
 
 from __future__ import annotations
@@ -21,6 +21,11 @@ from tests.oracles.exact_distance import Truth
 Method = Literal["auto", "sat", "gjk"]
 Query = Literal["overlap", "depth", "distance"]
 QUERIES: tuple[Query, ...] = ("overlap", "depth", "distance")
+
+# `kWidestInterval` of core/native/tolerances.hpp, a fraction of the scale: the sum of the largest
+# coordinates of A and B, each in its own frame, and of the offset of these. A frame lies in the
+# middle of its shape, or up to 2 sizes from its far end: the sum is at most 6 sizes of the pair.
+WIDEST = 6e-12
 
 # SAT looks at every pair of edges: beyond this many vertices a pair takes it seconds.
 SAT_VERTICES = 64
@@ -65,6 +70,8 @@ def judge_result(
         ordered and Fraction(result.lower) <= truth.low and truth.high <= Fraction(result.upper)
     ):
         score.fail("outside", f"{what}: {interval}, in truth {float(truth.low)!r}")
+    if result.upper - result.lower > WIDEST * pair.size:
+        score.fail("outside", f"{what}: {interval} is too wide an interval")
     error = truth.error_of(result.distance)
     if error > 0:
         granted = max(result.upper - result.distance, result.distance - result.lower)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
+from pathlib import Path
 
 import pytest
 
 from tests.hard_cases.families import FAMILIES
-from tests.hard_cases.score import Score
+from tests.hard_cases.score import HEAD, Score, row
 from tests.hard_cases.suite import convex_scores
 
+README = Path(__file__).resolve().parent.parent.parent / "README.md"
 SHOWN = 20
 
 
@@ -33,3 +36,18 @@ def test_names_are_unique() -> None:
 def test_a_seed_fixes_the_cases() -> None:
     for family in FAMILIES:
         assert list(family.cases(3)) == list(family.cases(3))
+
+
+def printed_rows() -> dict[str, list[str]]:
+    """The table of the README by category; the columns of this suite alone."""
+    lines = [re.split(r"\s*\|\s*", line.strip("| ")) for line in README.read_text().splitlines()]
+    return {cells[0]: cells for cells in lines if len(cells) >= len(HEAD) and cells[0] in scores()}
+
+
+@pytest.mark.parametrize("category", [family.CATEGORY for family in FAMILIES])
+def test_the_readme_shows_these_figures(category: str) -> None:
+    """The counts are the same; no error is larger than the one printed."""
+    printed, measured = printed_rows()[category], row(scores()[category])
+    assert printed[1:4] == list(measured[1:4])
+    for shown, found in zip(printed[4:], measured[4:], strict=True):
+        assert float(found) <= float(shown)
