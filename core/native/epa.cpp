@@ -331,7 +331,8 @@ EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
       return result;
     }
     if (facet_of_difference) {
-      result.lower = polytope.least_proven_distance();
+      // On curved shapes the last facets are splinters: what was proven before may be more.
+      result.lower = std::max(m.curved ? result.lower : -INFINITY, polytope.least_proven_distance());
       result.facet = weighted_facet(polytope, face);
       result.status = EpaResult::Status::depth;
       return result;
