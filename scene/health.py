@@ -66,8 +66,10 @@ def examine(mesh: Mesh) -> Examined:
     repaired = welded.oriented() if topology.closed else welded
     turned = repaired.to_bytes() != welded.to_bytes()
     after = repaired.topology() if turned else topology
-    # An even number of triangles at every edge and each face in pairs: front and back of a sheet.
-    double_sided = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
+    # An even number of triangles at every edge, each face in pairs, and nothing enclosed: front and
+    # back of a sheet. A solid whose faces come twice encloses its volume twice.
+    in_pairs = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
+    double_sided = in_pairs and topology.volume == 0
     health = MeshHealth(
         vertices=topology.vertices,
         triangles=topology.triangles,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from tests.hard_cases import curved, mesh_families
+from tests.hard_cases import curved, defects, mesh_families
 from tests.hard_cases.families import FAMILIES
 from tests.hard_cases.judge_convex import judge, judge_batch
 from tests.hard_cases.judge_mesh import judge_mesh
@@ -14,13 +14,14 @@ CATEGORIES = (
     *(family.CATEGORY for family in FAMILIES),
     curved.CATEGORY,
     *(family.CATEGORY for family in mesh_families.FAMILIES),
+    defects.CATEGORY,
 )
 
 
 def all_scores(seeds: Iterable[int]) -> list[Score]:
     """Each category over all seeds, in the order of CATEGORIES."""
     seeds = list(seeds)
-    return [*convex_scores(seeds), curved_score(seeds), *mesh_scores(seeds)]
+    return [*convex_scores(seeds), curved_score(seeds), *mesh_scores(seeds), defects_score()]
 
 
 def convex_scores(seeds: list[int]) -> list[Score]:
@@ -53,3 +54,10 @@ def mesh_scores(seeds: list[int]) -> list[Score]:
                 judge_mesh(pair, score)
         scores.append(score)
     return scores
+
+
+def defects_score() -> Score:
+    """The same files whatever the seed."""
+    score = Score(defects.CATEGORY)
+    defects.judge_defects(score)
+    return score

@@ -75,6 +75,13 @@ def test_a_double_sided_mesh_has_no_inside(tmp_path):
     assert not health.flat
 
 
+def test_a_solid_with_each_face_twice_is_no_sheet(tmp_path):
+    file = loaded(tmp_path, "a.obj", files.obj(faces=[*files.CUBE, *files.CUBE]))
+    assert not file.health.double_sided
+    assert file.health.solid
+    assert {issue.code for issue in file.issues} == {"duplicate-triangles", "not-manifold"}
+
+
 def test_a_tilted_sheet_is_flat(tmp_path):
     points = [(0, 0, 0), (1, 0, 1), (0, 1, 1), (1, 1, 2)]
     health = loaded(tmp_path, "a.obj", files.obj(points, [(0, 1, 2), (1, 3, 2)])).health
