@@ -95,6 +95,15 @@ def test_what_is_left_out_is_said(tmp_path, limit):
     assert not whole.truncated
 
 
+def test_too_many_are_a_warning_not_a_list(tmp_path, monkeypatch):
+    monkeypatch.setattr("satcheck.audit.contacts.MAX_TRIANGLE_PAIRS", 11)
+    report = check(scene_of(tmp_path, a=unit_box(), b=unit_box(0.5, 0.25, 0.125)), ASKED)
+    finding = only(report)
+    assert (finding.relation, finding.contacts) == ("penetrating", None)
+    assert [stage.result for stage in finding.plan if stage.stage == "contacts"] == ["too many"]
+    assert [issue.code for issue in report.issues] == ["too-many-contacts"]
+
+
 def test_contacts_need_triangles():
     with pytest.raises(SatcheckError, match="triangles") as caught:
         Settings(contacts=True, accuracy="hull")
