@@ -12,8 +12,8 @@ from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 
-# Pairs of triangles that may meet: a report about more is nothing that anybody could use. Each takes
-# 0.2 kB on its way, 0.7 kB where it shares a patch: 2 GB at most.
+# Pairs of triangles that may meet: a report about more is nothing that anybody could use. Each
+# takes 0.2 kB on its way, 0.7 kB where it shares a patch: 2 GB at most.
 MAX_TRIANGLE_PAIRS = 3_000_000
 # Surfaces without a common point.
 APART = frozenset({"separated", "contains", "inside"})
