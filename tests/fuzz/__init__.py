@@ -1,0 +1,1 @@
+"""Millions of seeded convex pairs against invariants, a sample of them against rationals."""
