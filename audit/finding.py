@@ -174,7 +174,7 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
     elif broken and relation == "separated":
         relation = "near"
         if math.isinf(gap.upper):
-            proven, reason = False, f"the gap is {_unproven(pair)}"
+            proven, reason = False, _open_gap(pair)
     unseen = unseen_inside(pair, contact)
     if unseen is not None:
         reason = unseen
@@ -195,6 +195,12 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
         **{**severity, **broken},
         **figures,
     )
+
+
+def _open_gap(pair: Pair) -> str:
+    if not pair.may("exact"):
+        return f"the gap is {_unproven(pair)}"
+    return "the gap may be wider: the nearest wall has no thickness and may be no part of the body"
 
 
 def _broken_clearance(pair: Pair, gap: float) -> dict[str, Any]:

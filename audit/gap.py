@@ -44,6 +44,9 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     if math.isinf(found.distance):
         plan.record("distance", "beyond", f"more than {limit:.6g} apart")
         return Gap(limit, math.inf, math.inf)
+    if _is_void(pair, found):
+        plan.record("distance", "lower bound", "to a wall without thickness: no part of the body")
+        return Gap(found.distance, math.inf, math.inf)
     plan.record("distance", "measured", f"triangles {found.triangle_a} and {found.triangle_b}")
     return Gap(
         found.distance,
@@ -52,6 +55,13 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
         _direction(found.witness_a, found.witness_b),
         Witness(found.witness_a, found.witness_b),
     )
+
+
+def _is_void(pair: Pair, found: core.MeshDistance) -> bool:
+    """Whether the distance may be that of a wall that bounds no material. From the outside no face
+    within the material can be nearest."""
+    ends = ((pair.a, found.triangle_a), (pair.b, found.triangle_b))
+    return any(body.surface().has_void(triangle) for body, triangle in ends)
 
 
 def _convex_gap(result: core.PairResult) -> Gap:

@@ -217,6 +217,12 @@ void bind_surface(nb::module_& m) {
            },
            "triangle"_a, ReleaseGil(), R"(Whether the body ends on all of the triangle: it is no wall without thickness, no face inside the material, and
 meets no other triangle of the surface but at shared corners and edges.)")
+      .def("has_void",
+           [](const Surface& s, std::size_t triangle) {
+             if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
+             return has_void(s, static_cast<std::uint32_t>(triangle));
+           },
+           "triangle"_a, ReleaseGil(), "Whether a part of the triangle is a wall without thickness: outside of the body on both sides.")
       .def("nearest",
            [](const Surface& s, const Tuple3& point) {
              const NearestPoint nearest = nearest_point(s, finite_point(point));

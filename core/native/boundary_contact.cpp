@@ -73,6 +73,22 @@ bool is_plain_boundary(const Surface& surface, std::uint32_t t) {
   return sides && sides->is_boundary();
 }
 
+bool has_void(const Surface& surface, std::uint32_t t) {
+  const Corners c = corners(surface.mesh, t);
+  if (!surface.solid || is_collinear(c)) return false;
+  const auto partners = irregular_partners(surface, t);
+  const auto cuts = find_cuts(surface.mesh, t, surface.mesh, partners, Touching::left_out);
+  return !visit_pieces(c, cuts, Touching::left_out, [&](const Piece& piece) {
+    bool material = false;
+    sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
+      const auto sides = beside(surface, p, c);
+      material = sides && (sides->front != 0 || sides->back != 0);
+      return sides.has_value();
+    });
+    return material;
+  });
+}
+
 void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
                         Samples& samples) {
   Boundary of_a(a), of_b(b);

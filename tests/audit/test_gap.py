@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.audit import Settings, check
-from tests.audit.shapes import bracket, scene_of, unit_box
+from tests.audit.shapes import box, bracket, scene_of, unit_box
 
 
 def only(report):
@@ -93,3 +93,18 @@ def test_a_capped_ladder_cannot_measure(tmp_path):
     assert finding.distance is None
     assert finding.reason == "the gap is not proven at --accuracy hull"
     assert finding.exact_relation == "separated"
+
+
+def test_a_wall_without_thickness_is_no_end_of_a_gap(tmp_path):
+    """A pocket whose open side is closed by the faces of both boxes it is made of."""
+    outer, inner = box((0, 0, 0), (5, 5, 5)), box((1, 1, 2), (4, 4, 5))
+    offset = len(outer[0])
+    inward = [tuple(offset + k for k in reversed(face)) for face in inner[1]]
+    pocket = (outer[0] + inner[0], outer[1] + inward)
+    scene = scene_of(tmp_path, a=pocket, b=box((2, 2, 3), (3, 3, 4.75)))
+    finding = only(check(scene, Settings(clearance=0.5)))
+    assert (finding.relation, finding.exact_relation) == ("near", "separated")
+    assert (finding.quality, finding.distance) == ("estimate", None)
+    assert "no thickness" in finding.reason
+    through = scene_of(tmp_path, a=pocket, b=box((2, 2, 3), (3, 3, 7)))
+    assert only(check(through, Settings())).relation == "separated"
