@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 import json
 from functools import cache
 from typing import Any
@@ -98,11 +98,7 @@ def test_every_mesh_has_its_sentence() -> None:
     assert all(set(pair["inputs"]) <= meshes for pair in PAIRS.values())
 
 
-def test_the_generator_writes_the_committed_bytes() -> None:
-    spec = importlib.util.spec_from_file_location("make_samples", SAMPLES / "make.py")
-    assert spec
-    assert spec.loader
-    maker = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(maker)
-    for name, content in maker.samples().items():
+@pytest.mark.parametrize("maker", ["make", "kitchen"])
+def test_the_generators_write_the_committed_bytes(maker: str) -> None:
+    for name, content in importlib.import_module(f"sample_meshes.{maker}").samples().items():
         assert (SAMPLES / name).read_bytes() == content, name
