@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from satcheck.verify import Rejected, verify
+from tests.cli.process import VALIDATOR
 from tests.verify.reports import PAIRS, Json, report_of, verified
 
 
@@ -19,6 +20,7 @@ def test_a_true_report_is_accepted(name: str) -> None:
     finding = document["findings"][0]
     assert finding["exact_relation"] == relation
     assert finding["certificate"]["relation"]["kind"] == kind
+    VALIDATOR.validate(document)
     found = verified(document)
     assert found.accepted
     assert [one.outcome for one in found.findings] == ["accepted"]

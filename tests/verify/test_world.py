@@ -1,0 +1,58 @@
+"""Placement and winding numbers, beside those of the core, which share no code with them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from satcheck import core
+from satcheck.verify.exact import Rejected
+from satcheck.verify.world import Exact, World, is_balanced, is_convex, placed
+from tests.audit.shapes import Mesh, bracket, open_box, unit_box
+
+
+def arrays(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    points, faces = mesh
+    fans = [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
+    return np.array(points, dtype=float), np.array(fans, dtype=np.int64)
+
+
+def test_a_pose_rounds_as_documented() -> None:
+    random = np.random.default_rng(7)
+    vertices = random.normal(size=(200, 3)) * 10.0 ** random.integers(-6, 6, size=(200, 1))
+    triangles = np.arange(198).reshape(-1, 3)
+    mesh = core.Mesh(vertices, triangles.astype(np.uint32))
+    for _ in range(20):
+        pose = [*random.normal(size=12), 0.0, 0.0, 0.0, 1.0]
+        world, expected = placed(vertices, triangles, False, pose), mesh.transformed(pose)
+        assert (world.vertices == expected.vertices).all()
+        assert (world.triangles == expected.triangles).all()  # turned by a reflection
+
+
+def test_a_singular_pose_is_refused() -> None:
+    vertices, triangles = arrays(unit_box())
+    with pytest.raises(Rejected):
+        placed(vertices, triangles, True, [1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])
+
+
+def test_winding_numbers_are_those_of_the_core() -> None:
+    """On a grid through vertices, edges and faces."""
+    vertices, triangles = arrays(bracket())
+    solid = Exact(World(vertices, triangles, True), 0)
+    surface = core.Surface(core.Mesh(vertices, triangles.astype(np.uint32)), True)
+    for x in range(-1, 8):
+        for y in range(-1, 8):
+            for z in range(-1, 6):
+                p = Fraction(x), Fraction(y), Fraction(z)
+                assert solid.winding(p) == surface.winding_number((float(x), float(y), float(z)))
+
+
+def test_what_is_closed_and_what_is_convex() -> None:
+    assert is_balanced(*arrays(unit_box()))
+    assert not is_balanced(*arrays(open_box()))
+    assert is_convex(*arrays(unit_box()))
+    assert not is_convex(*arrays(bracket()))
+    points, triangles = arrays(unit_box())
+    assert not is_convex(points, triangles[:, ::-1])  # inside out
