@@ -1,7 +1,7 @@
 // The expanding polytope algorithm of epa.cpp in exact arithmetic, where it needs no tolerance. The
 // facets that the new vertex sees, or whose plane it lies in, give way to a fan around it: no facet of
 // the fan can have area 0, because an edge in line with the new vertex lies between two such facets.
-// Rounded distances choose the facet to expand; exact signs decide everything that has to be right.
+// Rounded distances and the filter of `side` only save work; exact signs decide.
 
 #include "exact_depth.hpp"
 
@@ -26,10 +26,7 @@ class ExactPolytope {
  public:
   explicit ExactPolytope(const ExactDifference& difference) : difference_(difference) { start(); }
 
-  const Facet& nearest() const {
-    return *std::min_element(facets_.begin(), facets_.end(),
-                             [](const Facet& f, const Facet& g) { return f.distance < g.distance; });
-  }
+  const Facet& nearest() const;
   bool reaches_beyond(const ExactSupport& w, const Facet& f) const { return side(w, f) > 0; }
   void expand(const ExactSupport& w);
   ExactFigure figure(const Facet& nearest) const;
@@ -45,6 +42,29 @@ class ExactPolytope {
   std::vector<ExactSupport> vertices_;
   std::vector<Facet> facets_;
 };
+
+// Is the plane of f nearer than that of g, by signed distances?
+bool is_nearer(const Facet& f, const Facet& g) {
+  const auto signed_square = [](const Facet& facet) {
+    const Dyadic square = facet.height * facet.height;
+    return facet.height.sign() < 0 ? -square : square;
+  };
+  const Dyadic of_f = signed_square(f) * dot(g.normal, g.normal);
+  return (of_f - signed_square(g) * dot(f.normal, f.normal)).sign() < 0;
+}
+
+// The foot of the origin lies in the facet whose plane is nearest, and in no other: so rounded distances
+// only leave few to be compared.
+const Facet& ExactPolytope::nearest() const {
+  const Facet* best = &*std::min_element(facets_.begin(), facets_.end(), [](const Facet& f, const Facet& g) {
+    return f.distance < g.distance;
+  });
+  const double limit = best->distance + 16 * kUnitRoundoff * std::fabs(best->distance);
+  for (const Facet& f : facets_) {
+    if (f.distance <= limit && is_nearer(f, *best)) best = &f;
+  }
+  return *best;
+}
 
 // Takes the point as a corner of the first tetrahedron when it adds a dimension.
 void ExactPolytope::offer(const ExactSupport& p) {
@@ -112,8 +132,6 @@ void ExactPolytope::expand(const ExactSupport& w) {
 
 ExactFigure ExactPolytope::figure(const Facet& nearest) const {
   ExactFigure figure = rooted(nearest.height * nearest.height, dot(nearest.normal, nearest.normal));
-  // Distances are compared rounded: another facet may be nearer by twice their error.
-  figure.lower *= 1 - 8 * kUnitRoundoff;
   // The normal is rounded: along it the way out is a little longer. `upper` is long enough for it.
   figure.normal = nearest.unit;
   const DyadicVec normal(figure.normal);

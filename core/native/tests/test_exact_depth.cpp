@@ -1,4 +1,6 @@
 // Exact depths: closed forms, ties, and shapes on which float64 loses most digits.
+#include <algorithm>
+
 #include "check.hpp"
 #include "exact_depth.hpp"
 #include "pairs.hpp"
@@ -34,6 +36,8 @@ double depth(const Points& a, const Points& b) {
   CHECK(f.upper - f.lower <= 1e-14 * scale);
   CHECK(std::fabs(reach(a, f.normal) + reach(b, -f.normal) - f.value) <= 1e-14 * scale);
   CHECK(max_abs(f.witness_b - f.witness_a + f.normal * f.value) <= 1e-14 * scale);
+  CHECK(std::fabs(dot(f.witness_a, f.normal) - reach(a, f.normal)) <= 1e-14 * scale);
+  CHECK(std::fabs(dot(f.witness_b, -f.normal) - reach(b, -f.normal)) <= 1e-14 * scale);
   return f.value;
 }
 
@@ -56,6 +60,23 @@ void test_what_float64_cannot_see() {
   CHECK(depth(box({-1, -1, 0}, {1, 1, thin}), box({-1, -1, thin / 2}, {1, 1, thin})) == thin / 2);
 }
 
+// A flat and its copy an ulp aside: the difference is so thin that several planes have about one distance.
+void test_flats_that_nearly_coincide() {
+  const double ulp = std::ldexp(1, -52);
+  Points a{{0, -2, -3}, {0, 2, 2}, {3, 1, 2}}, b;
+  for (Vec3 p : a) b.push_back(p + Vec3{-ulp, ulp, ulp});
+  const double there = depth(a, b);
+  CHECK(there > 0);
+  for (int i = 0; i < 3; ++i) {
+    std::rotate(a.begin(), a.begin() + 1, a.end());
+    for (int k = 0; k < 3; ++k) {
+      std::rotate(b.begin(), b.begin() + 1, b.end());
+      CHECK(depth(a, b) == there && depth(b, a) == there);
+    }
+    std::swap(b[0], b[1]);
+  }
+}
+
 void test_random_hulls_in_any_order() {
   Source source(11);
   for (int i = 0; i < 50; ++i) {
@@ -73,6 +94,7 @@ void test_random_hulls_in_any_order() {
 int main() {
   test_closed_forms();
   test_what_float64_cannot_see();
+  test_flats_that_nearly_coincide();
   test_random_hulls_in_any_order();
   return exit_status();
 }
