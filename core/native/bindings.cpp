@@ -104,9 +104,10 @@ std::int64_t index_or_minus_one(std::uint32_t index) {
 
 constexpr const char* kPairResultDoc = R"(What was found about one convex pair. World frame, units of the shapes.
 
-outcome      "separated", "touching", "penetrating" or "undecided" (then `reason` says why). On hulls and
-             boxes touching is decided exactly on the rounded world vertices; on curved shapes it means
-             that the signed distance lies within the rounding error of 0.
+outcome      "separated", "touching", "penetrating" or "undecided" (then `reason` says why), the same for every
+             query, and for B against A. On hulls, boxes, spheres and capsules touching is decided exactly,
+             for the vertices, centres and axes where the poses round them to; where a cylinder, cone or
+             ellipsoid takes part it means that 0 lies between the proven bounds lower and upper.
 distance     signed: > 0 the gap, < 0 minus the penetration depth. None for query "overlap".
 lower, upper proven bounds of the signed distance, rounding included.
 normal       unit, from A to B. witness_a, witness_b: points on A and B with

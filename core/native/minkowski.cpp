@@ -34,7 +34,9 @@ MinkowskiDifference::MinkowskiDifference(const Shape& shape_a, const Pose& pose_
   scale = a.extent + a.margin + b.extent + b.margin + max_abs(b_in_a.translation);
 }
 
-double MinkowskiDifference::support_error() const { return kSupportError * scale; }
+double MinkowskiDifference::support_error() const {
+  return (curved ? kCurvedSupportError : kSupportError) * scale;
+}
 
 Pose core_placement(const Shape& shape, const Pose& pose) {
   return {pose.rotation, pose.rotation * shape.origin + pose.translation};

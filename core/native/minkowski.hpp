@@ -25,7 +25,7 @@ struct MinkowskiDifference {
   const Shape& b;
   Pose b_in_a;   // places B's core in A's frame
   double scale;  // bounds every coordinate of A - B: the unit of all tolerances
-  bool curved;   // neither core pair has only vertices: bounds close in the limit
+  bool curved;   // a core has more than vertices: bounds close in the limit
 
   MinkowskiDifference(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 

@@ -8,6 +8,8 @@
 #include "exact_depth.hpp"
 #include "exact_distance.hpp"
 #include "exact_pair.hpp"
+#include "exact_reach.hpp"
+#include "pair_order.hpp"
 #include "tolerances.hpp"
 
 namespace satcheck {
@@ -141,8 +143,8 @@ CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& resul
 }
 
 // Curved shapes have no exact stage: bounds that close around 0 mean that they touch.
-Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m) {
-  const double margin = m.a.margin + m.b.margin, noise = m.support_error();
+Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m, double noise) {
+  const double margin = m.a.margin + m.b.margin;
   const double lower = core.lower + margin, upper = core.upper + margin;
   if (upper < -noise) return Outcome::separated;
   if (lower > noise) return Outcome::penetrating;
@@ -162,13 +164,29 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
   core.witness = {middle + half, middle - half};
 }
 
-// The hull of the world vertices, each rounded once by the pose. A hull that stays where it was made is
+// The hull of the world vertices, each rounded by the pose. A hull that stays where it was made is
 // its own answer; any other is computed anew, because rounding bends its faces.
 Polytope world_hull(const Shape& shape, const Pose& pose) {
+  if (shape.kind == ShapeKind::sphere) return convex_hull({pose.translation});
+  if (shape.kind == ShapeKind::capsule) return convex_hull({pose * Vec3{0, 0, -shape.size.z}, pose * Vec3{0, 0, shape.size.z}});
   Polytope hull = shape.polytope;
   for (Vec3& p : hull.vertices) p = pose * (p + shape.origin);
   const bool in_place = pose.rotation == Mat3{} && pose.translation == Vec3{};
   return in_place ? hull : convex_hull(hull.vertices);
+}
+
+// How far the rounding of a pose moves a vertex at most: 3 products, 2 sums and the translation make 6
+// roundings of no more than the core's reach in a coordinate, times sqrt(3) for the vector.
+double placement_error(const Shape& shape, const Pose& pose) {
+  if (pose.rotation == Mat3{} && pose.translation == Vec3{}) return 0;
+  return 11 * kUnitRoundoff * (max_abs(pose.translation) + 2 * (max_abs(shape.origin) + shape.extent));
+}
+
+// The rounding that a proof in float64 has to beat. Cores of vertices are judged where their poses
+// round them to, curved ones where their poses put them.
+double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
+  if (m.curved) return m.support_error();
+  return m.support_error() + placement_error(m.a, pose_a) + placement_error(m.b, pose_b);
 }
 
 void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const Pose& pose_a, double noise,
@@ -215,15 +233,31 @@ void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Po
   }
 }
 
-}  // namespace
+// The same for cores of vertices with balls around them: the bounds follow the sign.
+void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
+                  PairResult& result) {
+  const Polytope core_a = world_hull(a, pose_a), core_b = world_hull(b, pose_b);
+  const bool cores_meet = decide_exactly(core_a, core_b, 2 * noise) != Outcome::separated;
+  const int side = cores_meet ? -1 : compare_distance(core_a, core_b, {a.margin, b.margin});
+  result.outcome = side > 0 ? Outcome::separated : side < 0 ? Outcome::penetrating : Outcome::touching;
+  result.method = Method::exact;
+  result.reason = Reason::none;
+  if (!result.has_distance) return;
+  if (side >= 0) result.lower = std::fmax(result.lower, 0.0);
+  if (side <= 0) result.upper = std::fmin(result.upper, 0.0);
+  // Where float64 had the sign wrong, the proven bound on the right side is the figure that is left.
+  if (side > 0 && !(result.distance > 0)) result.distance = result.upper;
+  if (side < 0 && !(result.distance < 0)) result.distance = result.lower;
+  if (side == 0) result.distance = 0;
+}
 
-PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
-                      MethodChoice method) {
+PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                          MethodChoice method) {
   const MinkowskiDifference m(a, pose_a, b, pose_b);
   PairResult result;
   CoreAnswer core = takes_sat(m, method) ? from_sat(m, query, result) : from_gjk(m, query, result);
-  const double noise = m.support_error(), margin = m.a.margin + m.b.margin;
-  if (query != Query::overlap && core.method == Method::sat && core.upper < -noise) {
+  const double noise = proof_noise(m, pose_a, pose_b), margin = m.a.margin + m.b.margin;
+  if (query != Query::overlap && core.method == Method::sat && core.upper < -m.support_error()) {
     // An axis separates; the distance is another question.
     const GjkResult g = gjk(m, GjkGoal::distance);
     result.gjk_iterations += g.iterations;
@@ -233,20 +267,32 @@ PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const 
   result.feature = core.feature;
   result.index_a = core.index_a;
   result.index_b = core.index_b;
-  result.outcome = classify(core, m);
+  result.outcome = classify(core, m, noise);
   const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
   if (m.curved && core.has_axis && (query != Query::overlap || in_balance)) {
     polish(m, core);
-    result.outcome = classify(core, m);
+    result.outcome = classify(core, m, noise);
   }
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
-  const double confirmed_below = core.method == Method::sat ? kShallow * m.scale : noise;
-  const bool in_doubt = result.outcome != Outcome::separated && core.lower + margin <= confirmed_below;
+  const double confirmed_below = core.method == Method::sat ? std::fmax(kShallow * m.scale, noise) : noise;
+  const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const bool too_wide = result.has_distance && !(result.upper - result.lower <= kWidestInterval * m.scale);
-  if ((in_doubt || too_wide) && a.is_polytope() && b.is_polytope()) {
-    settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
+  if (a.is_polytope() && b.is_polytope()) {
+    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
+  } else if (in_doubt && !m.curved) {
+    settle_grown(a, pose_a, b, pose_b, noise, result);
   }
   if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
+  return result;
+}
+
+}  // namespace
+
+PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                      MethodChoice method) {
+  if (comes_before(a, pose_a, b, pose_b)) return check_in_order(a, pose_a, b, pose_b, query, method);
+  PairResult result = check_in_order(b, pose_b, a, pose_a, query, method);
+  mirror(result);
   return result;
 }
 

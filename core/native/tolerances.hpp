@@ -15,6 +15,11 @@ inline constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() /
 // the axis itself, 2 roundings; difference of the two supports, 1; rounded up to 40.
 inline constexpr double kSupportError = 40 * kUnitRoundoff;
 
+// The same where a shape is curved, for the rotations that the quaternions name: an entry of a rounded
+// matrix is off by up to 17 roundoffs on the diagonal (length of the quaternion 5, products 3, both times 2,
+// and 1) and 8 beside it, 36 in the norm, for each of the two poses; with the 40 of above, rounded up.
+inline constexpr double kCurvedSupportError = 128 * kUnitRoundoff;
+
 // EPA takes a support point as outside a face only beyond this fraction of the scale: below it the
 // height is rounding noise, and a face built on it would have a meaningless normal.
 inline constexpr double kVisible = 16 * kUnitRoundoff;
