@@ -7,9 +7,12 @@ from dataclasses import dataclass
 
 from satcheck import core
 from satcheck.audit.check import check
-from satcheck.audit.report import Finding, Quality, Relation, Report, Vector, Witness
+from satcheck.audit.pair import Pair
+from satcheck.audit.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Report, Vector, Witness
 from satcheck.audit.settings import Settings
 from satcheck.audit.stability.variant import Rows, Variant
+from satcheck.audit.triangles import crossing_depth
 from satcheck.scene import Body, Scene
 
 MIRRORED: dict[Relation, Relation] = {"contains": "inside", "inside": "contains"}
@@ -20,9 +23,10 @@ NESTED = frozenset({"contains", "inside"})
 class Answer:
     """relation: the exact one; indeterminate, with a reason, where it is not proven.
 
-    gap: of bodies that do not overlap. depth: proven bounds, of overlapping ones. clear: how far
-    apart the surfaces of nested bodies are. largest: the largest coordinate of the world meshes.
-    convex: both bodies are; None where nobody had to know. Lengths in the units of the files.
+    gap: of bodies that do not overlap. depth: proven bounds, of overlapping ones. hold: however the
+    surfaces are moved, by less than this together, the relation stays, except that an overlap whose
+    surfaces cross may become nested. largest: the largest coordinate of the world meshes. convex:
+    both bodies are; None where nobody had to know. Lengths in the units of the files.
     """
 
     relation: Relation
@@ -33,7 +37,7 @@ class Answer:
     mtv: Vector | None = None
     normal: Vector | None = None
     witness: Witness | None = None
-    clear: float | None = None
+    hold: float = 0.0
     quality: Quality | None = None
     reason: str | None = None
 
@@ -82,7 +86,7 @@ def _answer(report: Report, bodies: tuple[Body, Body], largest: float) -> Answer
         mtv=finding.mtv,
         normal=finding.normal,
         witness=finding.witness,
-        clear=_clear(bodies) if relation in NESTED else None,
+        hold=_hold(relation, finding, bodies),
         quality=finding.quality,
     )
 
@@ -93,9 +97,22 @@ def _depth(finding: Finding) -> tuple[float, float] | None:
     return -finding.distance, -finding.distance
 
 
-def _clear(bodies: tuple[Body, Body]) -> float:
-    one, other = (core.Surface(body.world_mesh(), body.file.health.solid) for body in bodies)
-    return core.mesh_distance(one, other).distance
+def _hold(relation: Relation, finding: Finding, bodies: tuple[Body, Body]) -> float:
+    """Surfaces apart stay apart until they have come that far; two triangles that cross go on
+    crossing until they have been drawn that far, as any two convex sets."""
+    if relation == "separated":
+        return finding.distance or 0.0
+    if relation not in OVERLAPS:
+        return 0.0
+    settings = Settings()
+    a, b = (PlacedBody(one, SharedMesh(one.file, settings)) for one in bodies)
+    pair = Pair(a, b, settings)
+    if relation in NESTED:
+        return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
+    found = core.mesh_relation(pair.a.surface(), pair.b.surface())
+    if found.triangle_a < 0 or found.triangle_b < 0:
+        return 0.0
+    return crossing_depth(pair, (found.triangle_a, found.triangle_b))
 
 
 def _taken_back(answer: Answer, variant: Variant) -> Answer:
@@ -114,7 +131,7 @@ def _taken_back(answer: Answer, variant: Variant) -> Answer:
         mtv=_turned_back(answer.mtv, variant.turn, sign * by),
         normal=_turned_back(answer.normal, variant.turn, sign),
         witness=witness,
-        clear=None if answer.clear is None else answer.clear * by,
+        hold=answer.hold * by,
         quality=answer.quality,
         reason=answer.reason,
     )

@@ -1,10 +1,11 @@
 """Is what changed within what the variant may change?
 
 Relations are exact, so where the surfaces were not moved they must be the same. Where they were
-moved by at most d, a relation may change only if the gap between the surfaces, or the way out of
-two convex bodies, is no longer than d. Figures may differ by d and by their own rounding; of proven
-intervals that means that they come that close. The depth of concave bodies jumps where a fit is
-snug, so beside a contact that a displacement may open or close it is not compared.
+moved by at most d, a relation may change only if d is enough to bring surfaces that are apart
+together, to draw crossing triangles off each other, or two convex bodies apart. Figures may differ
+by d and by their own rounding; of proven intervals that means that they come that close. The depth
+of concave bodies jumps where a fit is snug, so beside a contact that a displacement may open or
+close it is not compared.
 """
 
 from __future__ import annotations
@@ -13,13 +14,13 @@ from dataclasses import dataclass, fields
 from typing import Literal
 
 from satcheck.audit.report import OVERLAPS
-from satcheck.audit.stability.answer import Answer
+from satcheck.audit.stability.answer import NESTED, Answer
 from satcheck.audit.stability.bounds import rounding_of_figures
 from satcheck.audit.stability.variant import Variant
 
 Judgement = Literal["same", "within", "beyond", "undecided"]
 # Not part of the answer: how it was come by.
-UNCOMPARED = frozenset({"largest", "convex", "reason"})
+UNCOMPARED = frozenset({"largest", "convex", "reason", "hold"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,14 +80,18 @@ def _change(asked: Answer, seen: Answer) -> float | None:
 
 def _may_change(asked: Answer, seen: Answer, bound: float) -> bool:
     """Whether surfaces that moved by so little can have made one relation the other."""
-    for answer in (asked, seen):
-        apart = answer.gap if answer.relation == "separated" else answer.clear
-        if apart is not None and apart > bound:
-            return False
-    if not asked.convex or (asked.relation in OVERLAPS and seen.relation in OVERLAPS):
+    both_overlap = asked.relation in OVERLAPS and seen.relation in OVERLAPS
+    holding = [one.hold for one in (asked, seen) if not (both_overlap and _crosses(one))]
+    if any(hold > bound for hold in holding):
+        return False
+    if not asked.convex or both_overlap:
         return True
     change = _change(asked, seen)
     return change is None or change <= bound
+
+
+def _crosses(answer: Answer) -> bool:
+    return answer.relation not in NESTED
 
 
 def _may_jump(asked: Answer, seen: Answer, displacement: float) -> bool:

@@ -12,12 +12,12 @@ from satcheck.audit.stability.comparison import compare
 from satcheck.audit.stability.variant import Variant, body
 from tests.audit.shapes import scene_of, unit_box
 
-APART = Answer("separated", 1.0, convex=True, gap=0.5, quality="exact")
-BARELY = replace(APART, gap=1e-12)
+APART = Answer("separated", 1.0, convex=True, gap=0.5, hold=0.5, quality="exact")
+BARELY = replace(APART, gap=1e-12, hold=1e-12)
 TOUCHING = Answer("touching", 1.0, convex=True, gap=0.0, quality="exact")
 DEEP = Answer("penetrating", 1.0, convex=True, depth=(0.5, 0.5), quality="exact")
 GRAZING = replace(DEEP, depth=(1e-12, 1e-12))
-NESTED = Answer("contains", 1.0, convex=True, depth=(0.5, 0.5), clear=1e-12, quality="exact")
+NESTED = Answer("contains", 1.0, convex=True, depth=(0.5, 0.5), hold=1e-12, quality="exact")
 WIDE = Answer("penetrating", 1.0, convex=False, depth=(0.4, 0.6), quality="bounded")
 UNKNOWN = Answer("indeterminate", 1.0, reason="not proven")
 
@@ -47,12 +47,15 @@ def judged(
         (BARELY, GRAZING, 1e-8, "within"),
         (APART, GRAZING, 1e-8, "beyond"),
         (DEEP, NESTED, 1e-8, "within"),
-        (DEEP, replace(NESTED, clear=0.1), 1e-8, "beyond"),
+        (DEEP, replace(NESTED, hold=0.1), 1e-8, "beyond"),
         (DEEP, NESTED, 0.0, "beyond"),
         (WIDE, replace(WIDE, depth=(0.5, 0.9)), 0.0, "same"),
         (WIDE, replace(WIDE, depth=(0.7, 0.9)), 0.0, "beyond"),
         (replace(TOUCHING, convex=False), WIDE, 1e-8, "within"),
         (replace(TOUCHING, convex=False), WIDE, 0.0, "beyond"),
+        (WIDE, replace(TOUCHING, convex=False), 1e-8, "within"),
+        (replace(WIDE, hold=0.1), replace(TOUCHING, convex=False), 1e-8, "beyond"),
+        (replace(WIDE, hold=0.1), replace(NESTED, convex=False), 1e-8, "within"),
         (DEEP, UNKNOWN, 0.0, "undecided"),
         (UNKNOWN, DEEP, 0.0, "undecided"),
     ],
