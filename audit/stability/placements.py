@@ -16,6 +16,7 @@ from satcheck.audit.stability.variant import Points, Question, Rows, Variant, bo
 # Powers of two up to this, either way, as far as the coordinates stay within the numeric range.
 MOST_EXPONENT = 40
 LARGEST_EXPONENT, SMALLEST_EXPONENT, SMALLEST_SIZE_EXPONENT = 149, -265, -149
+ROOM_EXPONENTS = 4
 
 # How far down from the size of the pair a translation is looked for that adds without rounding.
 TRANSLATION_EXPONENTS = 48
@@ -23,7 +24,7 @@ TRANSLATION_EXPONENTS = 48
 
 def scaled(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
     """By powers of two, which round nothing: the same answer, bit for bit."""
-    exponents = [k for k in range(-MOST_EXPONENT, MOST_EXPONENT + 1) if k and _fits(question, k)]
+    exponents = _exponents(question)
     count = min(samples, len(exponents))
     for k in sorted(rng.choice(exponents, count, replace=False).tolist()) if count else ():
         factor = math.ldexp(1.0, k)
@@ -38,18 +39,17 @@ def scaled(question: Question, samples: int, rng: Generator) -> Iterator[Variant
         )
 
 
-def _fits(question: Question, exponent: int) -> bool:
-    """Whether both stay within the coordinates that the core takes, with room for a way out."""
-    sizes = np.abs(question.points)
-    ends = [sizes[sizes > 0].min(), sizes.max()]
-    smallest, largest = (math.frexp(float(end))[1] + exponent for end in ends)
-    boxes = [np.ptp(file.mesh.vertices, axis=0).max() for file in question.files]
-    least = math.frexp(float(min(boxes)))[1] + exponent
-    return (
-        smallest > SMALLEST_EXPONENT
-        and largest + 4 < LARGEST_EXPONENT
-        and least > SMALLEST_SIZE_EXPONENT
+def _exponents(question: Question) -> list[int]:
+    """Those that keep both within the coordinates that the core takes, with room for a way out."""
+    coordinates = np.abs(question.points)
+    edges = [np.ptp(file.mesh.vertices, axis=0).max() for file in question.files]
+    smallest, largest, least = (
+        math.frexp(float(one))[1]
+        for one in (coordinates[coordinates > 0].min(), coordinates.max(), min(edges))
     )
+    first = max(SMALLEST_EXPONENT - smallest, SMALLEST_SIZE_EXPONENT - least) + 1
+    last = LARGEST_EXPONENT - largest - ROOM_EXPONENTS
+    return [k for k in range(-MOST_EXPONENT, MOST_EXPONENT + 1) if k and first <= k < last]
 
 
 def reaxed(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
