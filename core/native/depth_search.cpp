@@ -15,6 +15,7 @@
 #include "moved_surface.hpp"
 #include "overlap_proof.hpp"
 #include "predicates.hpp"
+#include "tolerances.hpp"
 #include "triangle_pair.hpp"
 #include "wall_corner.hpp"
 
@@ -44,6 +45,17 @@ constexpr double kSeam = 1e-5;
 // After this part of the work, spheres from this part of the known way out on are scanned for a shorter one.
 constexpr std::uint64_t kScanAfter = 8;
 constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
+
+// Rounding of the norm of a point.
+constexpr double kNormError = 4 * kUnitRoundoff;
+
+// Few enough digits that the centres of boxes are exact after some 90 halvings, 30 an axis.
+constexpr int kShortDigits = 20;
+double short_number_above(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);
+  return std::ldexp(std::ceil(std::ldexp(fraction, kShortDigits)), exponent - kShortDigits);
+}
 
 struct Box {
   double key;  // distance of its nearest point from the origin
@@ -89,7 +101,7 @@ class Search {
 
   DepthInterval run() {
     ask_meshes({0, 0, 0});
-    push({0, 0, 0}, Vec3{1, 1, 1} * (kRootSize * result_.upper), {}, 0);
+    push({0, 0, 0}, Vec3{1, 1, 1} * short_number_above(kRootSize * result_.upper), {}, 0);
     double open_from = result_.upper;
     while (!open_.empty()) {
       Box box = open_.top();
@@ -118,7 +130,7 @@ class Search {
       split(box);
     }
     snap();
-    result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from));
+    result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
     result_.lower = std::fmin(result_.lower, result_.upper);
     result_.sets = static_cast<std::uint32_t>(sets_.size());
     return result_;

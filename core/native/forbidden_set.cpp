@@ -8,10 +8,11 @@ namespace satcheck {
 namespace {
 
 // A rounded facet normal is off by at most 1e-14 radians (rounded_normal) and the roundings of its
-// length: a point this far from the facet's corner is misjudged by that angle times the distance.
-constexpr double kFacetError = 2e-14;
-// Differences of vertices, 1 rounding; a dot product and a sum over the box, fewer than 16.
-constexpr double kSetError = 32 * kUnitRoundoff;
+// length, 1.1e-14 in all: a point is misjudged by that angle times its distance from the facet's corner. Within
+// the set that is at most 7 times the largest coordinate of the bodies, sqrt(3) * 4 rounded up.
+constexpr double kFacetError = 7 * 1.1e-14;
+// Differences of vertices, dot products and sums over a box that the set holds.
+constexpr double kSetError = 128 * kUnitRoundoff;
 
 }  // namespace
 
@@ -54,14 +55,18 @@ ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector
   const Polytope hull = convex_hull(differences);
   if (hull.dimension != 3) return result;
   for (const Vec3& v : hull.vertices) result.box.include(v);
-  const double pad = (kFacetError + kSetError) * 4 * scale;
+  const double pad = (kFacetError + kSetError) * scale;
+  Vec3 sum;
+  for (const Vec3& v : hull.vertices) sum = sum + v;
   for (std::size_t f = 0; f < hull.face_count(); ++f) {
     const Vec3 v = hull.vertices[hull.face_vertex[hull.face_offset[f]]];
     result.normal.push_back(hull.face_normal[f]);
     result.facet.push_back(dot(hull.face_normal[f], v));
     result.offset.push_back(result.facet.back() - pad);
   }
-  return result;
+  // What the planes bound is then connected with the inside of the hull, and therefore inside it.
+  const Vec3 middle = sum * (1 / static_cast<double>(hull.vertices.size()));
+  return result.exit(middle).depth > 0 ? result : ForbiddenSet{};
 }
 
 }  // namespace satcheck

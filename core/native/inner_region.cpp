@@ -24,9 +24,9 @@ constexpr std::size_t kMaxPlanes = 80;
 // A plane may give way by this share of its distance from the seed, twice as much with every so many planes.
 constexpr double kGiveWay = 1.0 / 16, kMostWay = 0.5;
 constexpr int kPlanesToDoubleIt = 12;
-// Rounding of a plane test: differences, products and sums of coordinates below `scale`, fewer than
-// 16 roundings, and once more for the boxes of the tree.
-constexpr double kPlaneError = 32 * kUnitRoundoff;
+// Rounding of two plane tests, as a multiple of the largest coordinate: along a unit normal, a corner's
+// differences from the seed, products and sums are off by less than 14 roundoffs, a box's by less than 24.
+constexpr double kPlaneError = 64 * kUnitRoundoff;
 
 // Least variance of a metric's ellipsoid as a share of their sum.
 constexpr double kFlattest = 1e-6;
