@@ -52,6 +52,7 @@ ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector
     }
   }
   ForbiddenSet result;
+  if (!are_in_range(differences)) return result;
   const Polytope hull = convex_hull(differences);
   if (hull.dimension != 3) return result;
   for (const Vec3& v : hull.vertices) result.box.include(v);

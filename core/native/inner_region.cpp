@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <queue>
 
+#include "numeric_range.hpp"
 #include "polytope.hpp"
 #include "tolerances.hpp"
 #include "triangle_distance.hpp"
@@ -183,7 +184,7 @@ class Growth {
       const Vec3 p = without_dust(seed_ + n * (unit / height));
       if (is_on_this_side(p)) corner.push_back(p);
     }
-    if (corner.size() < 4) return std::nullopt;
+    if (corner.size() < 4 || !are_in_range(corner)) return std::nullopt;
     const Polytope region = convex_hull(corner);
     if (region.dimension != 3) return std::nullopt;
     InnerRegion result{region.vertices, {}};

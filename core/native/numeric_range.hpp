@@ -23,6 +23,17 @@ inline bool in_range(double coordinate) {
   return size == 0 || (size >= kSmallestCoordinate && size <= kLargestCoordinate);
 }
 
+// Whether require_in_range() accepts points that were computed, not given.
+inline bool are_in_range(const std::vector<Vec3>& points) {
+  Aabb box;
+  for (const Vec3& p : points) {
+    if (!in_range(p.x) || !in_range(p.y) || !in_range(p.z)) return false;
+    box.include(p);
+  }
+  const double size = points.empty() ? 0 : max_abs(box.max - box.min);
+  return size == 0 || size >= kSmallestSize;
+}
+
 // Names the first offender: std::invalid_argument where it is not finite, std::overflow_error where it, or
 // the whole, is out of range.
 inline void require_in_range(const std::vector<Vec3>& points, const char* what) {

@@ -145,6 +145,16 @@ def test_scaling_by_a_power_of_two_scales_the_interval() -> None:
         assert (scaled.lower, scaled.upper) == (plain.lower * scale, plain.upper * scale)
 
 
+@pytest.mark.parametrize("scale", [2.0**-149, 2.0**-146, 2.0**145, 2.0**147])
+def test_at_the_ends_of_the_numeric_range_the_interval_is_wide_at_worst(scale: float) -> None:
+    a, b = torus(16, 8), torus(14, 9).translated(CROSSED)
+    plain = search(a, b, upper=6.0)
+    matrix = (scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1)
+    found = search(a.transformed(matrix), b.transformed(matrix), upper=6.0 * scale)
+    assert found.lower <= plain.upper * scale
+    assert plain.lower * scale <= found.upper
+
+
 def test_an_interval_that_ran_out_of_work_is_wide_but_right() -> None:
     a, b = torus(16, 8), torus(14, 9).translated(CROSSED)
     full = search(a, b, upper=6.0)
