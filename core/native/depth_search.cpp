@@ -123,7 +123,7 @@ class Search {
       Vec3 t = nearest_to_origin(box);
       if (is_on_seam(box)) {
         fit(on_facets(box));
-      } else if (find_open(box, t)) {
+      } else if (find_open(box, t) || is_open(box, t = box.centre)) {
         ask_meshes(t);
       }
       if (is_covered(box)) continue;
@@ -179,6 +179,14 @@ class Search {
     }
     box.sets.resize(kept);
     return false;
+  }
+
+  // Whether no set holds t, and it is short enough to matter.
+  bool is_open(const Box& box, Vec3 t) {
+    return norm(t) < enough() && std::none_of(box.sets.begin(), box.sets.end(), [&](std::uint32_t i) {
+      result_.work += kPlaneWork * sets_[i].normal.size();
+      return sets_[i].exit(t).depth > 0;
+    });
   }
 
   // The point nearest to t that no set holds, if it is in the box and short enough to matter.
