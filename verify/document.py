@@ -20,7 +20,8 @@ Outcome = Literal["accepted", "rejected", "not certified", "open"]
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """One finding. open: indeterminate, so nothing is claimed. depth, mtv: proven too."""
+    """One finding. open: indeterminate, so nothing is claimed. depth, mtv: proven too; mtv is None
+    where no way out is said to be verified."""
 
     a: str
     b: str
@@ -28,7 +29,7 @@ class Checked:
     outcome: Outcome
     reason: str | None = None
     depth: bool = False
-    mtv: bool = False
+    mtv: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)

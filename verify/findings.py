@@ -33,10 +33,11 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Proven:
-    """What was proven of an accepted finding besides its relation."""
+    """What was proven of an accepted finding besides its relation. mtv: None: no way out is said to
+    be verified; False: one is, without a certificate."""
 
     depth: bool = False
-    mtv: bool = False
+    mtv: bool | None = None
 
 
 def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> Proven:
@@ -96,17 +97,27 @@ def _tolerance(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> F
     return said
 
 
-def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) -> bool:
-    """A, moved by the MTV with one rounding of each coordinate, has no common interior with B."""
+def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) -> bool | None:
+    """A, moved by the MTV with one rounding of each coordinate, has no common interior with B.
+
+    The MTV is the depth long, and what rounding takes: it is lengthened until the rounded
+    coordinates are free.
+    """
     if finding.get("mtv_verified") is not True:
-        return False
+        return None
     if finding.get("exact_relation") not in OVERLAPS:
         raise Rejected("only an overlap has a way out")
+    assert a.world is not None
+    assert b.world is not None
+    largest = Fraction(max(float(np.abs(w.bounds).max()) for w in (a.world, b.world)))
     depth = number(finding.get("depth"))
     move = vector(finding.get("mtv"))
-    if dot(move, move) > (depth * (1 + EXACT_WIDTH)) ** 2:
+    if dot(move, move) > (depth + EXACT_WIDTH * (depth + largest)) ** 2:
         raise Rejected("the MTV is longer than the depth")
-    _prove_way_out(move, member(certificate, "mtv"), a, b)
+    proof = member(certificate, "mtv")
+    if proof is None:
+        return False
+    _prove_way_out(move, proof, a, b)
     return True
 
 

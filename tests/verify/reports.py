@@ -31,6 +31,14 @@ def upright(y: float = 1.0) -> Mesh:
     return points, [(0, 1, 2, 3)]
 
 
+def channel() -> Mesh:
+    """A floor in the plane z = 0 between two walls, all without thickness."""
+    points = [
+        (x, y, z) for x, z in ((0.0, 4.0), (0.0, 0.0), (2.0, 0.0), (2.0, 4.0)) for y in (0, 2)
+    ]
+    return points, [(k, k + 1, k + 3, k + 2) for k in (0, 2, 4)]
+
+
 def other_diagonals() -> Mesh:
     """The unit box, its faces split along the other diagonals."""
     points, faces = unit_box()

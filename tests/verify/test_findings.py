@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from tests.verify.reports import Json, forged, report_of, verified
+from satcheck.audit import Settings, check
+from satcheck.verify import Checked
+from tests.audit.shapes import Mesh, unit_box, write
+from tests.audit.shapes import moved as placed
+from tests.verify.reports import Json, channel, forged, report_of, upright, verified
 
 
-def proven(name: str) -> tuple[bool, bool]:
+def proven(name: str) -> tuple[bool, bool | None]:
     finding = verified(report_of(name, depth=True)).findings[0]
     assert finding.outcome == "accepted", finding.reason
     return finding.depth, finding.mtv
@@ -20,7 +26,35 @@ def proven(name: str) -> tuple[bool, bool]:
 def test_what_is_proven() -> None:
     assert proven("boxes-overlap") == (True, True)
     assert proven("box-in-arm") == (False, True)  # the interval of a concave pair is not
-    assert proven("boxes-apart") == (False, False)
+    assert proven("boxes-apart") == (False, None)  # there is none
+
+
+def finding_of(folder: Path, a: Mesh, b: Mesh, **settings: Any) -> tuple[Checked, Json]:
+    """What the checker says of a pair, and the finding itself."""
+    files = write(folder, a=a, b=b)
+    document = json.loads(
+        json.dumps(check(files, Settings(certificate=True, **settings)).to_dict())
+    )
+    return verified(document).findings[0], document["findings"][0]
+
+
+def test_a_way_out_into_contact_of_two_open_surfaces_is_not_proven(tmp_path: Path) -> None:
+    plate = placed(upright(), 0.0, 0.0, 0.75)
+    found, _ = finding_of(tmp_path, channel(), plate, depth_width=1e-6)
+    assert (found.outcome, found.depth, found.mtv) == ("accepted", False, False), found.reason
+
+
+def test_a_way_out_is_as_much_longer_as_rounding_takes(tmp_path: Path) -> None:
+    """Half a million from the origin an ulp of a coordinate is more than 1e-9 of this depth."""
+    far = 2.0**19
+    # The face x + y + z = 2.9 cuts off a corner of the box.
+    corners = [(4.0, -0.6, -0.5), (-0.6, 4.0, -0.5), (-0.5, -0.6, 4.0), (5.0, 5.0, 5.0)]
+    wedge: Mesh = corners, [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    found, said = finding_of(
+        tmp_path, placed(unit_box(), far, far, 0.0), placed(wedge, far, far, 0.0)
+    )
+    assert (found.outcome, found.depth, found.mtv) == ("accepted", True, True), found.reason
+    assert math.hypot(*said["mtv"]) > said["depth"] * (1 + 1e-9)
 
 
 def depth(finding: Json, low: float, high: float) -> None:
