@@ -13,7 +13,7 @@ BIN := $(VENV)/bin
 ACTIVATE := . $(VENV)/bin/activate
 endif
 
-ROOMS := cli audit scene decompose core
+ROOMS := cli audit verify scene decompose core
 SOURCES := pyproject.toml CMakeLists.txt $(foreach room,$(ROOMS),$(wildcard \
 	$(room)/*.py $(room)/*.pyi $(room)/*/*.py $(room)/*/*.json \
 	$(room)/native/*.cpp $(room)/native/*.hpp $(room)/native/CMakeLists.txt))
