@@ -12,7 +12,8 @@ from satcheck.core.overlap_volume import OverlapVolume, VolumeMeter
 from satcheck.core.worker import Worker, WorkerError
 
 MISSING: Final = "cross-check-missing"
-_MODULES: Final = ("fcl", "manifold3d")
+# Module: the name to install it by.
+_LIBRARIES: Final = {"fcl": "python-fcl", "manifold3d": "manifold3d"}
 _FCL_SERVER: Final = "satcheck.audit.cross_check.fcl_server"
 
 
@@ -56,10 +57,9 @@ class Peers:
 def _require_installed() -> None:
     from importlib.util import find_spec
 
-    missing = [name for name in _MODULES if find_spec(name) is None]
+    missing = [name for module, name in _LIBRARIES.items() if find_spec(module) is None]
     if missing:
         raise SatcheckError(
             MISSING,
-            f"cannot cross-check without {' and '.join(missing)}: "
-            "pip install 'satcheck[cross-check]'",
+            f"cannot cross-check without {' and '.join(missing)}: pip install {' '.join(missing)}",
         )

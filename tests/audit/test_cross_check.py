@@ -89,7 +89,7 @@ def test_a_peer_that_dies_gives_no_answer(tmp_path: Path) -> None:
 
 def test_what_is_not_installed_is_said_before_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
-    with pytest.raises(SatcheckError, match="pip install") as refused:
+    with pytest.raises(SatcheckError, match="pip install python-fcl manifold3d") as refused:
         Peers(seconds=1, megabytes=64)
     assert refused.value.code == MISSING
 
