@@ -16,8 +16,11 @@ from satcheck.cli.lengths import Length, length
 DEFAULT_COMMAND = "check"
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
 FORMATS = ("table", "json")
+FORMAT_HELP = "How to report. [default: table; json where the name after -o ends in .json]"
 DOCUMENTS = ("report", "stability")
 STANDARD_OUTPUT = Path("-")
+# More characters than the first sentence of any help text has.
+_WHOLE_SENTENCE = 200
 
 
 def meant(word: str) -> str | None:
@@ -55,7 +58,11 @@ class _DefaultCommand(click.Command):
         with formatter.section("Other commands"):
             others = sorted(satcheck.commands.items())
             formatter.write_dl(
-                [(f"satcheck {name}", c.get_short_help_str()) for name, c in others if not c.hidden]
+                [
+                    (f"satcheck {name}", c.get_short_help_str(_WHOLE_SENTENCE))
+                    for name, c in others
+                    if not c.hidden
+                ]
             )
         with formatter.section("Shell completion"):
             formatter.write_text('bash: eval "$(_SATCHECK_COMPLETE=bash_source satcheck)"')
@@ -104,7 +111,7 @@ def satcheck() -> None:
     "--format",
     "form",
     type=click.Choice(FORMATS),
-    help="How to report. [default: table; json where the name after -o ends in .json]",
+    help=FORMAT_HELP,
 )
 @click.option(
     "-o",
@@ -151,9 +158,10 @@ def satcheck() -> None:
 @click.option(
     "--depth-width",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),
+    metavar="RATIO",
     default=0.01,
     show_default=True,
-    help="Narrow the depth of concave pairs until its interval is this wide, relative to its end.",
+    help="Narrow the depth interval of concave pairs to this width, relative to its upper end.",
 )
 @click.option(
     "--depth-budget",
@@ -161,13 +169,14 @@ def satcheck() -> None:
     metavar="SECONDS",
     default=2.0,
     show_default=True,
-    help="Stop narrowing after so much work a pair: seconds of a slow machine, the same steps on "
-    "every one.",
+    help="Stop narrowing after this much work a pair. The seconds, of a slow machine, stand for a "
+    "number of steps: the answer is the same everywhere.",
 )
 @click.option(
     "--allow-open",
     is_flag=True,
-    help="A mesh that is not closed has no inside: do not report that as incomplete.",
+    help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
+    "not make the check incomplete.",
 )
 @click.option(
     "--cross-check",
@@ -177,7 +186,7 @@ def satcheck() -> None:
 @click.option(
     "--certificate",
     is_flag=True,
-    help="Give every proven verdict evidence, in the JSON report, that satcheck verify checks.",
+    help="Give every proven verdict of a JSON report evidence that satcheck verify checks.",
 )
 @click.option(
     "-j",
@@ -185,9 +194,14 @@ def satcheck() -> None:
     type=click.IntRange(min=0),
     metavar="N",
     default=0,
-    help="Threads; 0 is one per core. Changes no answer.  [default: 0]",
+    show_default=True,
+    help="Threads; 0 is one per core. Changes no answer.",
 )
-@click.option("--no-cache", is_flag=True, help="Neither read nor write the cache of convex parts.")
+@click.option(
+    "--no-cache",
+    is_flag=True,
+    help="Neither read nor write the cache of convex parts, which only --accuracy parts uses.",
+)
 @click.option("--no-timings", is_flag=True, help="Leave out times: same input, same bytes.")
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 even when something was found.")
 @debug_option
@@ -234,10 +248,15 @@ def check(
 
     if output == STANDARD_OUTPUT:
         output = None
+    form = form or ("json" if output and output.suffix.lower() == ".json" else "table")
+    if certificate and form != "json":
+        raise click.UsageError(
+            "--certificate needs a JSON report: add -o report.json or --format json"
+        )
     return run(
         Choices(
             paths=paths,
-            form=form or ("json" if output and output.suffix.lower() == ".json" else "table"),
+            form=form,
             output=output,
             explain=explain,
             depth=depth,
@@ -271,10 +290,15 @@ def check(
     help="How many variants of each kind.",
 )
 @click.option(
-    "--seed", type=click.IntRange(min=0), metavar="N", default=0, help="Which ones.  [default: 0]"
+    "--seed",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=0,
+    show_default=True,
+    help="Which variants: the same number makes the same ones.",
 )
 @click.option("--depth/--no-depth", default=True, help="Compare depths as well.  [default: depth]")
-@click.option("--format", "form", type=click.Choice(FORMATS), help="As for a check.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help=FORMAT_HELP)
 @click.option(
     "-o",
     "--output",
@@ -283,7 +307,6 @@ def check(
     help="Write the report to FILE; - is standard output.",
 )
 @click.option("--explain", is_flag=True, help="Show every variant, not only what went wrong.")
-@click.option("--no-cache", is_flag=True, help="Neither read nor write the cache of convex parts.")
 @debug_option
 def stability(
     paths: tuple[str, str],
@@ -293,17 +316,17 @@ def stability(
     form: str | None,
     output: Path | None,
     explain: bool,
-    no_cache: bool,
     debug: bool,
 ) -> int:
     """Ask the same question in other ways: does the answer stay?
 
-    The mesh files A and B are scaled by powers of two, stored in another order, turned to other
-    axes, swapped, moved, retessellated and disturbed by one unit in the last place, N samples of
-    each. What changed is held against what such a change may do, by proof.
+    The mesh files A and B are scaled by powers of two, stored in another order of vertices and
+    faces, given other axes, swapped, moved, given other triangles, turned, and disturbed by one
+    unit in the last place, N samples of each. What changed is held against what may change, by
+    proof.
 
-    Exit code 0: all within bounds. 1: something changed beyond them. 2: wrong usage or an
-    unreadable input. 3: something could not be decided.
+    Exit codes: 0, all is within its bound; 1, something is not; 2, wrong usage, an unreadable
+    input, or an internal error; 3, something could not be decided.
     """
     from satcheck.cli.stability import Choices, run
 
@@ -316,7 +339,6 @@ def stability(
             samples=samples,
             seed=seed,
             depth=depth,
-            cache=not no_cache,
             explain=explain,
         )
     )
@@ -328,21 +350,27 @@ def stability(
     "--root",
     type=click.Path(file_okay=False, exists=True, path_type=Path),
     default=Path(),
-    help="The folder that the paths of mesh files in the report start from.  [default: this one]",
+    help="The folder where the check ran: paths in the report start there.  "
+    "[default: the current one]",
 )
 @click.option(
-    "--format", "form", type=click.Choice(FORMATS), default="table", help="How to report."
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    default="table",
+    show_default=True,
+    help="How to report.",
 )
 @debug_option
 def verify(report: Path, root: Path, form: str, debug: bool) -> int:
     """Re-check the certificates of a report from the mesh files.
 
-    REPORT is what satcheck --certificate --format json wrote. Its verdicts are checked in rational
-    arithmetic by code of its own, which shares nothing with the solver. A verdict without a
-    certificate (an estimate below --accuracy exact, for instance) is not certified, and no pass.
+    REPORT is what satcheck --certificate -o REPORT.json A B wrote. Its verdicts are checked in
+    rational arithmetic by code of its own, which shares nothing with the solver. A verdict without
+    a certificate (an estimate below --accuracy exact, for instance) is not certified, and no pass.
 
     Exit codes: 0, every verdict is accepted; 1, one is rejected or not certified; 2, wrong usage,
-    an unreadable report, or no certificate in it.
+    an unreadable report, no certificate in it, or an internal error.
     """
     from satcheck.cli.verifying import run
 
@@ -353,7 +381,8 @@ def verify(report: Path, root: Path, form: str, debug: bool) -> int:
 def cache() -> None:
     """The cache of convex parts: info, clear.
 
-    It lies in the user's cache folder, or where SATCHECK_CACHE_DIR says.
+    Only --accuracy parts makes such parts. The cache lies in the user's cache folder, or where
+    SATCHECK_CACHE_DIR says.
     """
 
 
@@ -376,7 +405,7 @@ def clear() -> None:
 @satcheck.command()
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def schema(document: str) -> None:
-    """Print the JSON Schema of the JSON report, or of another document."""
+    """Print the JSON Schema of a report, of a check or of stability."""
     from satcheck.cli.report.schema import text
 
     click.echo(text(document), nl=False)

@@ -33,7 +33,6 @@ class Choices:
     samples: int
     seed: int
     depth: bool
-    cache: bool
     explain: bool
 
 
@@ -60,7 +59,7 @@ def _probe(choices: Choices) -> Stability:
         raise click.ClickException("an input could not be used: there is no pair to ask about")
     from satcheck.audit.stability import probe
 
-    settings = Settings(depth=choices.depth, cache=choices.cache)
+    settings = Settings(depth=choices.depth)
     with Bar("variants") as bar:
         return probe(scene, choices.samples, choices.seed, settings, progress=bar)
 

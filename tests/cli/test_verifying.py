@@ -50,6 +50,12 @@ def test_a_report_without_certificates_is_no_pass(tmp_path: Path) -> None:
     assert "made with --certificate?" in ran.err
 
 
+def test_certificates_need_a_report_that_holds_them() -> None:
+    ran = satcheck("--certificate", *PUSHED)
+    assert (ran.code, ran.out) == (2, "")
+    assert "--format json" in ran.err
+
+
 def test_what_is_no_report_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "bad.json"
     for text in ("", "{", "[" * 100_000, '{"schema": NaN}', "9" * 10_000, "{}"):
