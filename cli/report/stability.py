@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING
 
 from rich import box
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import bounds, number, vector
 from satcheck.cli.report.words import counted
 
@@ -32,18 +31,7 @@ _COLOURS = {"same": "green", "within": "green", "beyond": "bold red", "undecided
 
 def render(found: Stability, page: Page, *, explain: bool) -> str:
     """The whole text, final newline included."""
-    written = io.StringIO()
-    console = Console(
-        file=written,
-        width=page.width,
-        force_terminal=page.colour,
-        color_system="standard" if page.colour else None,
-        no_color=not page.colour,
-        legacy_windows=False,
-        highlight=False,
-        emoji=False,
-        markup=False,
-    )
+    console = Canvas(page)
     console.print(f"{found.a} against {found.b}: {answer_line(found.asked)}")
     console.print(_families(found, unicode=page.unicode))
     for family in found.families:
@@ -53,7 +41,7 @@ def render(found: Stability, page: Page, *, explain: bool) -> str:
         if family.skipped:
             console.print(f"  {_QUESTIONS[family.family]}: not asked, {family.skipped}")
     console.print(_summary(found))
-    return "".join(f"{line.rstrip()}\n" for line in written.getvalue().splitlines())
+    return console.text()
 
 
 def answer_line(answer: Answer) -> str:

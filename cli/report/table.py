@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING
 
 from rich import box
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.columns import columns_of, fit
 from satcheck.cli.report.explain import explain as print_explanation
 from satcheck.cli.report.remarks import is_lost, remarks
@@ -21,7 +20,8 @@ if TYPE_CHECKING:
 
     from satcheck.audit.report import Finding, Report
     from satcheck.cli.output import Page
-    from satcheck.cli.report.columns import Layout
+    from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.columns import Layout
 
 # More rows than this, and separated pairs are counted instead of listed.
 ROWS = 60
@@ -40,18 +40,7 @@ _COLOURS = {
 
 def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr."""
-    written = io.StringIO()
-    console = Console(
-        file=written,
-        width=page.width,
-        force_terminal=page.colour,
-        color_system="standard" if page.colour else None,
-        no_color=not page.colour,
-        legacy_windows=False,
-        highlight=False,
-        emoji=False,
-        markup=False,
-    )
+    console = Canvas(page)
     shown = _shown(report)
     if shown:
         layout = fit(columns_of(shown, report.units, timings=timings), page.width)
@@ -67,7 +56,7 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
     for line in remarks(report, shown):
         console.print(line)
     console.print(summary_line(report))
-    return "".join(f"{line.rstrip()}\n" for line in written.getvalue().splitlines())
+    return console.text()
 
 
 def _shown(report: Report) -> Sequence[Finding]:

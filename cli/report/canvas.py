@@ -1,0 +1,33 @@
+"""Where text for people is laid out before anybody prints it."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+
+if TYPE_CHECKING:
+    from satcheck.cli.output import Page
+
+
+class Canvas(Console):
+    """A console as wide and as colourful as a page, which keeps what is printed on it."""
+
+    def __init__(self, page: Page) -> None:
+        self._written = io.StringIO()
+        super().__init__(
+            file=self._written,
+            width=page.width,
+            force_terminal=page.colour,
+            color_system="standard" if page.colour else None,
+            no_color=not page.colour,
+            legacy_windows=False,
+            highlight=False,
+            emoji=False,
+            markup=False,
+        )
+
+    def text(self) -> str:
+        """All of it, without blanks at the ends of lines; final newline included."""
+        return "".join(f"{line.rstrip()}\n" for line in self._written.getvalue().splitlines())
