@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -76,7 +77,10 @@ def number(value: Any) -> Fraction:
     """A finite JSON number."""
     if isinstance(value, str):
         raise Rejected("a number is expected")
-    return rational(value)
+    found = rational(value)
+    if abs(found) > sys.float_info.max:  # an integer of JSON has any length
+        raise Rejected("a number is out of range")
+    return found
 
 
 def default_tolerance(a: Placed, b: Placed) -> float:

@@ -294,7 +294,9 @@ def holds(corners: Corners, normal: Vector, x: Homogeneous) -> bool:
         u, v = corners[k], corners[(k + 1) % 3]
         step = (x[0] - u[0] * w, x[1] - u[1] * w, x[2] - u[2] * w)
         along = sub(v, u)
-        if not any(cross(along, step)) and 0 <= dot(along, step) <= dot(along, along) * w:
+        if any(cross(along, step)) or (any(step) and not any(along)):
+            continue
+        if 0 <= dot(along, step) <= dot(along, along) * w:
             return True
     return False
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 from itertools import islice
+from math import isqrt
 from typing import Any
 
 from satcheck.verify.cells import sides_of
@@ -13,10 +14,10 @@ from satcheck.verify.relations import Pair
 from satcheck.verify.surfaces import close_pairs, common
 from satcheck.verify.world import Exact
 
-# A step from the surface is halved so often before it is given up: 2^-100 of the triangle's size.
+# A step from the surface is halved so often before it is given up.
 HALVINGS = 100
 MOST_CANDIDATES = 200
-SETTLED = 12  # after so many halvings two equal answers are believed
+SETTLED = 12  # after so many halvings two equal answers are believed, where none is known
 
 Json = dict[str, Any]
 
@@ -70,9 +71,11 @@ def overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
     meet = None
     for s, t in islice(contacts(pair, hint), MOST_CANDIDATES):
         meet = meet or nearest_points(pair, s, t)
-        for start, way in _quadrants(pair.a.corners(s), pair.b.corners(t)):
+        corners = pair.a.corners(s), pair.b.corners(t)
+        size = min(_height(c) for c in corners)
+        for start, way in _quadrants(*corners):
             if len(found) < 2:
-                _look(pair, start, way, found)
+                _look(pair, start, way, size, found)
         if len(found) == 2:
             break
     if meet is None:
@@ -116,10 +119,20 @@ def _normal(t: Any) -> Vector:
     return cross(sub(t[1], t[0]), sub(t[2], t[0]))
 
 
-def _look(pair: Pair, start: Point, way: Any, found: dict[str, Point]) -> None:
-    """Shorter and shorter steps from the surface, until what is inside stays the same."""
-    low, high = pair.a.world.bounds
-    size = int(max(high - low) * 2.0 ** min(pair.a.k, 900)) or 1
+def _height(t: Any) -> int:
+    """The least height of a triangle, about, and at least 1: on the lattice."""
+    n = _normal(t)
+    longest = max(dot(e, e) for e in (sub(t[k], t[k - 1]) for k in range(3)))
+    return isqrt(dot(n, n) // longest) or 1 if longest else 1
+
+
+def _look(
+    pair: Pair, start: Point, way: Any, size: int, found: dict[str, Point], key: str | None = None
+) -> None:
+    """Shorter and shorter steps from the surface, until what is inside stays the same.
+
+    size: of the longest, times 8. key: what lies beside the surface, where that is known.
+    """
     scale = Fraction(size, max(abs(c) for c in way))
     before = None
     for k in range(3, HALVINGS, 4):
@@ -130,7 +143,8 @@ def _look(pair: Pair, start: Point, way: Any, found: dict[str, Point]) -> None:
             continue
         inside = [w != 0 for w in windings]
         found.setdefault("both" if all(inside) else "one" if any(inside) else "none", p)
-        if len(found.keys() - {"none"}) == 2 or (inside == before and k > SETTLED):
+        settled = key in found if key else inside == before and k > SETTLED
+        if settled or len(found.keys() - {"none"}) == 2:
             break
         before = inside
     found.pop("none", None)
@@ -144,7 +158,9 @@ def _search_cells(pair: Pair, found: dict[str, Point]) -> None:
             for inside, way in ((sides.front, 1), (sides.back, -1)):
                 key = "both" if all(inside) else "one" if any(inside) else "none"
                 if key != "none" and key not in found:
-                    _look(pair, sides.point, tuple(way * c for c in sides.normal), found)
+                    normal = tuple(way * c for c in sides.normal)
+                    size = _height(x.corners(sides.triangle))
+                    _look(pair, sides.point, normal, size, found, key)
             if len(found) == 2:
                 return
 

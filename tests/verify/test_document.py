@@ -54,6 +54,14 @@ FORGED: dict[str, Callable[[Json], Any]] = {
 }
 
 
+@pytest.mark.parametrize("setting", ["tolerance", "clearance"])
+def test_a_number_out_of_range_is_no_length(setting: str) -> None:
+    document = report_of("box-in-arm")
+    document["settings"][setting] = 10**400
+    with pytest.raises(Rejected, match="out of range"):
+        verified(document)
+
+
 @pytest.mark.parametrize("lie", FORGED)
 def test_a_lie_about_the_rest_is_found(lie: str) -> None:
     document = report_of("box-in-arm")

@@ -49,6 +49,16 @@ def test_winding_numbers_are_those_of_the_core() -> None:
                 assert solid.winding(p) == surface.winding_number((float(x), float(y), float(z)))
 
 
+def test_a_triangle_without_area_holds_what_its_segment_holds() -> None:
+    """Two of its corners are one point: beside the segment lies nothing of it."""
+    points, triangles = arrays(unit_box(edge=4.0))
+    for corners in ((0, 7, 7), (0, 0, 7), (7, 7, 7)):  # of a diagonal, and of a corner
+        solid = Exact(World(points, np.vstack([triangles, [corners]]), True), 0)
+        assert solid.winding((Fraction(1), Fraction(2), Fraction(1))) == 1
+        on_diagonal = solid.winding((Fraction(2), Fraction(2), Fraction(2)))
+        assert on_diagonal == (1 if corners == (7, 7, 7) else None)
+
+
 def test_what_is_closed_and_what_is_convex() -> None:
     assert is_balanced(*arrays(unit_box()))
     assert not is_balanced(*arrays(open_box()))
