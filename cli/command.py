@@ -123,7 +123,7 @@ def satcheck() -> None:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show, pair by pair, what was tested, what it settled, and what it cost.",
+    help="Show, pair by pair, what was tested, what it settled and cost. JSON always does.",
 )
 @click.option(
     "--depth/--no-depth",

@@ -80,7 +80,8 @@ class Bodies:
                 )
             )
         except (MeshFileError, Rejected) as error:
-            return str(error)
+            absent = isinstance(error, MeshFileError) and error.code == "file-not-found"
+            return f"{error}, looked for from {self._root.absolute()} on" if absent else str(error)
 
     def _placed(self, name: str, group: str | None, shape: Shape, entry: dict[str, Any]) -> Placed:
         health = entry.get("health")

@@ -25,7 +25,9 @@ def test_an_honest_report_is_accepted(tmp_path: Path) -> None:
 
 def test_paths_start_at_the_root(tmp_path: Path) -> None:
     path = report(tmp_path, *PUSHED)
-    assert satcheck("verify", str(path), cwd=tmp_path).code == 1
+    elsewhere = satcheck("verify", str(path), cwd=tmp_path)
+    assert elsewhere.code == 1
+    assert f"no such file, looked for from {tmp_path} on" in elsewhere.out
     assert satcheck("verify", "--root", str(SAMPLES), str(path), cwd=tmp_path).code == 0
 
 
