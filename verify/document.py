@@ -20,8 +20,7 @@ Outcome = Literal["accepted", "rejected", "not certified", "open"]
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """One finding. open: indeterminate, so nothing is claimed. depth, mtv: proven too; mtv is None
-    where no way out is said to be verified."""
+    """One finding. open: indeterminate, so nothing is claimed. depth, mtv: proven too."""
 
     a: str
     b: str
@@ -29,7 +28,7 @@ class Checked:
     outcome: Outcome
     reason: str | None = None
     depth: bool = False
-    mtv: bool | None = None
+    mtv: bool = False
 
 
 @dataclass(frozen=True, slots=True)

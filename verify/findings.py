@@ -34,11 +34,10 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Proven:
-    """What was proven of an accepted finding besides its relation. mtv: None: no way out is said to
-    be verified; False: one is, without a certificate."""
+    """What was proven of an accepted finding besides its relation."""
 
     depth: bool = False
-    mtv: bool | None = None
+    mtv: bool = False
 
 
 def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> Proven:
@@ -101,14 +100,14 @@ def _tolerance(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> F
     return said
 
 
-def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) -> bool | None:
+def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) -> bool:
     """A, moved by the MTV with one rounding of each coordinate, has no common interior with B.
 
     The MTV is the depth long, and what rounding takes: it is lengthened until the rounded
     coordinates are free.
     """
     if finding.get("mtv_verified") is not True:
-        return None
+        return False
     if finding.get("exact_relation") not in OVERLAPS:
         raise Rejected("only an overlap has a way out")
     assert a.world is not None
@@ -118,10 +117,7 @@ def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) 
     move = vector(finding.get("mtv"))
     if dot(move, move) > (depth + EXACT_WIDTH * (depth + largest)) ** 2:
         raise Rejected("the MTV is longer than the depth")
-    proof = member(certificate, "mtv")
-    if proof is None:
-        return False
-    _prove_way_out(move, proof, a, b)
+    _prove_way_out(move, member(certificate, "mtv"), a, b)
     return True
 
 

@@ -11,6 +11,7 @@ from satcheck.verify.cells import Sides, sides_of
 from satcheck.verify.evidence import axis, exceeds, gap_along, index, member, on_body, vector
 from satcheck.verify.exact import Point, Rejected, cross, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
+from satcheck.verify.sheets import no_crossing
 from satcheck.verify.surfaces import close_pairs, common, meeting
 from satcheck.verify.world import Exact, count_by_triangle
 
@@ -112,7 +113,8 @@ def _no_overlap(pair: Pair) -> None:
             raise Rejected("a part of one body lies inside the other")
         return
     if not (a.world.solid or b.world.solid):
-        raise Rejected("contact of two bodies without an inside cannot be certified")
+        no_crossing(a, b, contacts)
+        return
     swapped = [(t, s) for s, t in contacts]
     for x, y, pairs in ((a, b, contacts), (b, a, swapped)):
         if not y.world.solid:

@@ -1,0 +1,102 @@
+"""That two surfaces without an inside meet, and do not cross.
+
+Around almost every point of a contact that is a segment, triangles of both surfaces stand on the
+line of the segment like the pages of a book. The surfaces cross there where, turning around the
+line, pages of the one and of the other alternate. A contact that is a single point is no crossing:
+a disk without one point is connected. Triangles that lie in each other are left undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import cmp_to_key
+from itertools import pairwise
+from typing import Any
+
+from satcheck.verify.exact import Point, Rejected, cross, dot, sign, sub
+from satcheck.verify.surfaces import common
+from satcheck.verify.world import Corners, Exact
+
+# Points of a segment that are tried until one lies on no edge that runs across it.
+SHARES = (Fraction(1, 2), Fraction(2, 5), Fraction(3, 7), Fraction(5, 11), Fraction(6, 13))
+CROSSING = 4  # changes around the line: A, B, A, B
+
+
+def no_crossing(a: Exact, b: Exact, contacts: list[tuple[int, int]]) -> None:
+    """Rejects surfaces that cross, or lie in each other. contacts: all pairs that meet."""
+    of_a: dict[int, list[int]] = {}
+    of_b: dict[int, list[int]] = {}
+    for s, t in contacts:
+        of_a.setdefault(t, []).append(s)
+        of_b.setdefault(s, []).append(t)
+    for s, t in contacts:
+        shared = common(a.corners(s), b.corners(t))
+        if len(shared) > 2:
+            raise Rejected("two open surfaces lie in each other")
+        if len(shared) == 2:
+            around = [a.corners(k) for k in of_a[t]], [b.corners(k) for k in of_b[s]]
+            if _changes(shared[0], shared[1], *around) >= CROSSING:
+                raise Rejected("the surfaces cross")
+
+
+def _changes(p: Point, q: Point, of_a: list[Corners], of_b: list[Corners]) -> int:
+    """How often, turning around the line p q, pages of A give way to pages of B or the reverse."""
+    line: Any = tuple(y - x for x, y in zip(p, q, strict=True))
+    for share in SHARES:
+        point: Any = tuple(x + share * along for x, along in zip(p, line, strict=True))
+        try:
+            pages = [(w, True) for c in of_a for w in _pages(c, point, line)]
+            pages += [(w, False) for c in of_b for w in _pages(c, point, line)]
+        except _OnAnEdge:
+            continue
+        return _count(pages, line)
+    raise Rejected("every point tried of a contact lies on an edge across it")
+
+
+class _OnAnEdge(Exception):
+    pass
+
+
+def _pages(corners: Corners, x: Point, line: Any) -> Iterator[Any]:
+    """The directions, square to the line, in which a triangle leaves a point of the line."""
+    normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+    if not any(normal) or dot(normal, x) != dot(normal, corners[0]):
+        return
+    edge_inward = None
+    for k in range(3):
+        edge = sub(corners[(k + 1) % 3], corners[k])
+        inward = cross(normal, edge)
+        height = dot(inward, x) - dot(inward, corners[k])
+        if height < 0:
+            return
+        if height == 0:
+            if any(cross(edge, line)):
+                raise _OnAnEdge
+            edge_inward = inward
+    if edge_inward is not None:
+        yield edge_inward
+        return
+    across = cross(normal, line)
+    yield across
+    yield tuple(-c for c in across)
+
+
+def _count(pages: list[tuple[Any, bool]], line: Any) -> int:
+    east = pages[0][0]
+    north = cross(line, east)
+
+    def half(w: Any) -> bool:
+        return (dot(w, north), dot(w, east)) < (0, 0)
+
+    def order(one: tuple[Any, bool], other: tuple[Any, bool]) -> int:
+        u, v = one[0], other[0]
+        if half(u) != half(v):
+            return -1 if half(v) else 1
+        return -sign(dot(cross(u, v), line))
+
+    turned = sorted(pages, key=cmp_to_key(order))
+    for one, other in pairwise(turned):
+        if one[1] != other[1] and order(one, other) == 0:
+            raise Rejected("two open surfaces lie in each other")
+    return sum(turned[k - 1][1] != turned[k][1] for k in range(len(turned)))
