@@ -104,6 +104,8 @@ def place_shape(
 ) -> Placed:
     world = placed(shape.vertices, shape.triangles, shape.file.health.solid, pose)
     resolution = Body(name, name, shape.file, pose).resolution_world
+    if not np.isfinite(resolution):
+        raise Rejected("its placement is out of range")
     return Placed(name, group, world, shape.convex, resolution)
 
 

@@ -113,6 +113,8 @@ def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) 
     assert a.world is not None
     assert b.world is not None
     largest = Fraction(max(float(np.abs(w.bounds).max()) for w in (a.world, b.world)))
+    if finding.get("mtv_moves") != "a":
+        raise Rejected("the MTV moves A")
     depth = number(finding.get("depth"))
     move = vector(finding.get("mtv"))
     if dot(move, move) > (depth + EXACT_WIDTH * (depth + largest)) ** 2:

@@ -54,6 +54,19 @@ FORGED: dict[str, Callable[[Json], Any]] = {
 }
 
 
+def test_a_placement_out_of_range_proves_nothing() -> None:
+    """Its coordinates are finite, what they are rounded by is not: no box of it is apart."""
+    document = report_of("boxes-apart")
+    document["findings"] = []
+    document["bodies"][1]["transform"] = [
+        *(1e300, 0, 0, 9),
+        *(0, 1e300, 0, 0),
+        *(0, 0, 1e300, 0),
+        *(0, 0, 0, 1),
+    ]
+    assert any("out of range" in fault for fault in verified(document).faults)
+
+
 @pytest.mark.parametrize("setting", ["tolerance", "clearance"])
 def test_a_number_out_of_range_is_no_length(setting: str) -> None:
     document = report_of("box-in-arm")

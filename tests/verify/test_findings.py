@@ -83,6 +83,7 @@ FORGED: dict[str, Callable[[Json], Any]] = {
     "long way out": lambda f: moved(f, -0.75, 0.0, 0.0),
     "way out of text": lambda f: f.update(mtv=["x", "y", "z"]),
     "way out of infinity": lambda f: f.update(mtv=[-math.inf, 0.0, 0.0]),
+    "way out of the other": lambda f: f.update(mtv_moves="b"),
     "way out unproven": lambda f: f["certificate"].pop("mtv"),
     "way out by nothing": lambda f: f["certificate"].update(mtv={"kind": "same"}),
     "touching": lambda f: f.update(relation="touching", severity="note"),
