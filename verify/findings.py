@@ -62,7 +62,7 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     mtv = _check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair)
     if relation != exact:
-        _check_band(finding, certificate, pair, (a, b), tolerance, clearance)
+        _check_band(finding, certificate, pair, (a, b), tolerance, clearance, Proven(depth, mtv))
     _check_severity(finding, a.world, b.world, hulls_apart, asked)
     return Proven(depth, mtv)
 
@@ -168,6 +168,7 @@ def _check_band(
     bodies: tuple[Placed, Placed],
     tolerance: Fraction,
     clearance: Fraction,
+    proven: Proven,
 ) -> None:
     """Why the relation is another than the exact one."""
     relation, exact = finding.get("relation"), finding.get("exact_relation")
@@ -195,8 +196,12 @@ def _check_band(
             if dot(move, move) <= band * band:
                 _prove_way_out(move, member(proof, "free"), *bodies)
                 return
-        elif finding.get("mtv_verified") is True and number(finding["depth"]) <= band:
+        elif proven.depth and number(finding["depth"]) <= band:
             return
+        elif proven.mtv:
+            move = vector(finding["mtv"])
+            if dot(move, move) <= band * band:
+                return
     raise Rejected(f"{relation!r} does not follow from {exact!r}")
 
 

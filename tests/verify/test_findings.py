@@ -113,6 +113,21 @@ def test_a_concave_way_out_is_checked_too() -> None:
     assert short.findings[0].outcome == "rejected"
 
 
+@pytest.mark.parametrize("length", [0.0, 1e-9])
+def test_a_way_out_without_proof_makes_no_touch(length: float) -> None:
+    """Half a unit deep, and said to touch: what is not proven is no reason for it."""
+
+    def touch(finding: Json) -> None:
+        finding.update(relation="touching", severity="note")
+        depth(finding, 0.0, length)
+        moved(finding, length, 0.0, 0.0)
+        finding["certificate"].update(mtv=None)
+
+    found = forged("box-in-arm", touch, depth=True).findings[0]
+    assert found.outcome == "rejected"
+    assert "does not follow" in (found.reason or "")
+
+
 def test_what_was_not_seen_is_no_pass() -> None:
     """Inside an open box nobody looked: the finding has to say so."""
     hidden = forged("open-box", lambda f: f.update(severity="none"))
