@@ -14,7 +14,7 @@ from satcheck.audit import Settings, check
 from satcheck.verify import Checked
 from tests.audit.shapes import Mesh, unit_box, write
 from tests.audit.shapes import moved as placed
-from tests.verify.reports import Json, channel, forged, report_of, upright, verified
+from tests.verify.reports import Json, channel, forged, pieces, report_of, upright, verified
 
 
 def proven(name: str) -> tuple[bool, bool]:
@@ -126,6 +126,20 @@ def test_a_way_out_without_proof_makes_no_touch(proof: Json | None) -> None:
     found = forged("box-in-arm", touch, depth=True).findings[0]
     assert found.outcome == "rejected"
     assert "cannot be checked" not in (found.reason or "")
+
+
+def test_a_proven_way_out_makes_a_touch_by_its_own_length(tmp_path: Path) -> None:
+    """Far from the origin it may be longer than the depth that is said, by what rounding takes."""
+    far, deep = 2.0**30, 2.0**-10
+    a = pieces(unit_box(far, edge=4.0), unit_box(far + 8.0))
+    scene = write(tmp_path, a=a, b=unit_box(far + 4.0 - deep, 1.0, 1.0))
+    document: Json = check(scene, Settings(certificate=True, tolerance=1e-9, cache=False)).to_dict()
+    finding = document["findings"][0]
+    assert verified(document).findings[0].mtv
+    depth(finding, 0.0, 0.0)
+    assert verified(document).findings[0].outcome == "accepted"
+    finding.update(relation="touching", severity="note")
+    assert verified(document).findings[0].outcome == "rejected"
 
 
 def test_what_was_not_seen_is_no_pass() -> None:
