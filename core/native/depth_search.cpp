@@ -23,7 +23,8 @@ namespace satcheck {
 namespace {
 
 // Measured, in nanoseconds.
-constexpr std::uint64_t kPlaneWork = 2, kBoxWork = 300, kPairWork = 100, kVertexWork = 5;
+constexpr std::uint64_t kPlaneWork = 2, kBoxWork = 300, kPairWork = 100, kVertexWork = 5,
+                        kJudgedWork = 10'000;
 
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
@@ -216,7 +217,8 @@ class Search {
   MeshRelation relation_at(Vec3 t) {
     ++result_.mesh_tests;
     const MeshRelation r = mesh_relation(moved_.at(t), b_);
-    result_.work += kVertexWork * a_.mesh.vertices.size() + kPairWork * (r.box_tests + r.triangle_tests);
+    result_.work += kVertexWork * a_.mesh.vertices.size() + kPairWork * (r.box_tests + r.triangle_tests) +
+                    kJudgedWork * r.judged;
     return r;
   }
 

@@ -62,11 +62,17 @@ MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair c
   return make_relation(Relation::penetrating, Evidence{crossing.a, crossing.b, point});
 }
 
+MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts) {
+  MeshRelation result = make_relation(judge_contact(a, b, contacts));
+  result.judged = contacts.size();
+  return result;
+}
+
 MeshRelation relation_of_solids(const Surface& a, const Surface& b, const SurfaceContacts& found) {
-  if (!found.crossing) return make_relation(judge_contact(a, b, found.contacts));
+  if (!found.crossing) return judged_relation(a, b, found.contacts);
   const PairFacts facts = facts_at_crossing(a, b, *found.crossing);
   if (facts.settled()) return crossing_relation(a, b, *found.crossing);
-  return make_relation(judge_contact(a, b, find_contacts(a, b, AtCrossing::go_on).contacts));
+  return judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts);
 }
 
 MeshRelation relation_of_sheets(const Surface& a, const Surface& b, const SurfaceContacts& found) {

@@ -24,6 +24,7 @@ struct MeshRelation {
   std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // evidence
   std::optional<Vec3> point;  // a common point, rounded
   std::size_t box_tests = 0, triangle_tests = 0;
+  std::size_t judged = 0;  // pairs of triangles in contact that samples had to be taken beside
 };
 
 MeshRelation mesh_relation(const Surface& a, const Surface& b);
