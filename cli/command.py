@@ -186,7 +186,7 @@ def satcheck() -> None:
 @click.option(
     "--certificate",
     is_flag=True,
-    help="Give every proven verdict of a JSON report evidence that satcheck verify checks.",
+    help="Give the proven verdicts of a JSON report evidence that satcheck verify checks.",
 )
 @click.option(
     "-j",
