@@ -12,6 +12,7 @@ from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.loader import load_scene
 from satcheck.scene.remeshed import remeshed
+from satcheck.scene.rules import Rule, Selector
 
 __all__ = [
     "CODES",
@@ -21,8 +22,10 @@ __all__ = [
     "MeshFile",
     "MeshFileError",
     "MeshHealth",
+    "Rule",
     "Scene",
     "SceneFileError",
+    "Selector",
     "Unreadable",
     "load_scene",
     "remeshed",

@@ -9,6 +9,7 @@ from satcheck.core import Mesh, Topology
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.resolution import FLOAT64_ROUNDING
+from satcheck.scene.rules import Rule
 
 Transform = tuple[float, ...]
 
@@ -84,6 +85,8 @@ class Scene:
     units: as declared by the scene files, None where they disagree or say nothing.
     ignore_within_groups: groups whose bodies are not checked against each other.
     allowed_pairs: two body ids -> why they may overlap.
+    rules: what is asked of pairs beyond the settings of a check, in the order in which they count.
+    check_static: whether two bodies that do not move are a pair to check.
     issues: all of them, those of `unreadable` and of each mesh file included.
     """
 
@@ -93,6 +96,8 @@ class Scene:
     unreadable: tuple[Unreadable, ...] = ()
     ignore_within_groups: frozenset[str] = frozenset()
     allowed_pairs: dict[frozenset[str], str] = field(default_factory=dict)
+    rules: tuple[Rule, ...] = ()
+    check_static: bool = True
     issues: tuple[Issue, ...] = ()
     order: tuple[str, ...] = ()
 

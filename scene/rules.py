@@ -1,0 +1,119 @@
+"""Rules of a scene: which pairs of bodies they are about, and what they ask of them.
+
+A rule is about every pair with one body in `a` and the other in `b`, whichever comes first. It sets
+some keys and leaves the others alone: of several rules about a pair, the last one that sets a key
+decides that key.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from satcheck.core.errors import SatcheckError
+
+Severity = Literal["error", "warning", "note", "none"]
+SEVERITIES: tuple[Severity, ...] = get_args(Severity)
+LENGTHS = ("max_depth", "clearance", "tolerance")
+# The keys by which a rule asks something; `reason` explains and `where` finds them.
+KEYS = ("allowed", "max_volume", "severity", *LENGTHS)
+
+GROUP = "group:"
+# What a glob can mean by one text alone: no wildcard, or each in brackets of its own.
+_LITERAL = re.compile(r"(?:[^*?\[]|\[[^]!]\])*")
+_BRACKETED = re.compile(r"\[(.)\]", re.DOTALL)
+_SPECIAL = re.compile(r"[*?\[]")
+
+
+@dataclass(frozen=True, slots=True)
+class Selector:
+    """Bodies by the glob of their ids, "arm/*", or of their groups, "group:links*".
+
+    `*` any text, `?` one character, `[abc]` one of these, `[!abc]` one other; case counts. "[*]" is
+    a star. Raises SatcheckError `bad-rule` for an empty glob.
+    """
+
+    text: str
+
+    def __post_init__(self) -> None:
+        if not self.glob:
+            raise _refused(f"the selector {self.text!r} is empty: give a glob of ids or groups")
+
+    @classmethod
+    def exactly(cls, body: str) -> Selector:
+        """The selector of this one id, whatever characters it is made of."""
+        text = _SPECIAL.sub(r"[\g<0>]", body)
+        return cls(f"[g]{text[1:]}" if text.startswith(GROUP) else text)
+
+    @property
+    def of_groups(self) -> bool:
+        return self.text.startswith(GROUP)
+
+    @property
+    def glob(self) -> str:
+        return self.text.removeprefix(GROUP)
+
+    @property
+    def only(self) -> str | None:
+        """The one id or group that the glob can match; None if it may be several."""
+        return _BRACKETED.sub(r"\1", self.glob) if _LITERAL.fullmatch(self.glob) else None
+
+    def matches(self, body: str, groups: Iterable[str]) -> bool:
+        from fnmatch import fnmatchcase
+
+        names = groups if self.of_groups else (body,)
+        return any(fnmatchcase(name, self.glob) for name in names)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """What is asked of the pairs with one body in each selector. None: the rule does not say.
+
+    Lengths and volumes are in the units of the scene, absolute.
+
+    allowed: they may overlap, nothing is computed; False takes an earlier permission back.
+    max_depth: an overlap no deeper than this is within budget; the depth is computed.
+    max_volume: so is one that shares no more than this; the volume is computed.
+    clearance: the gap they must keep, in the place of the global one; 0.0: none.
+    tolerance: half width of the touch band, in the place of the global one.
+    severity: of what is found about them; what cannot be decided stays a warning at least.
+    reason: why, in words. where: "file:line" or the like, to name the rule in a report.
+
+    Raises SatcheckError `bad-rule`: a key out of range, or none that asks anything.
+    """
+
+    a: Selector
+    b: Selector
+    allowed: bool | None = None
+    max_depth: float | None = None
+    max_volume: float | None = None
+    clearance: float | None = None
+    tolerance: float | None = None
+    severity: Severity | None = None
+    reason: str = ""
+    where: str = ""
+
+    def __post_init__(self) -> None:
+        for key in (*LENGTHS, "max_volume"):
+            value = getattr(self, key)
+            if value is not None and not (math.isfinite(value) and value >= 0):
+                raise _refused(f"{key} must be a finite number >= 0, not {value!r}")
+        if self.severity not in (None, *SEVERITIES):
+            names = ", ".join(SEVERITIES)
+            raise _refused(f"severity must be one of {names}, not {self.severity!r}")
+        if all(getattr(self, key) is None for key in KEYS):
+            raise _refused(f"a rule asks something: give it one of {', '.join(KEYS)}")
+        if self.allowed and any(getattr(self, key) is not None for key in KEYS if key != "allowed"):
+            raise _refused("an allowed pair is not looked at: leave the other keys out")
+
+    @property
+    def name(self) -> str:
+        """Where it is written, or failing that, which pairs it is about."""
+        return self.where or f"{self.a.text} and {self.b.text}"
+
+
+def _refused(message: str) -> SatcheckError:
+    return SatcheckError("bad-rule", message)
