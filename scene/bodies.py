@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from satcheck.core import Mesh, Topology
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 from satcheck.scene.rules import Rule
+
+if TYPE_CHECKING:
+    from satcheck.scene.motion import Motion
 
 Transform = tuple[float, ...]
 
@@ -88,6 +92,7 @@ class Scene:
     rules: what is asked of pairs beyond the settings of a check, in the order in which they count.
     check_static: whether two bodies that do not move are a pair to check.
     issues: all of them, those of `unreadable` and of each mesh file included.
+    motions: at most one for a body (SatcheckError otherwise); ids of no body do no harm.
     """
 
     name: str
@@ -100,6 +105,13 @@ class Scene:
     check_static: bool = True
     issues: tuple[Issue, ...] = ()
     order: tuple[str, ...] = ()
+    motions: tuple[Motion, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.motions:
+            from satcheck.scene.motion import refuse_second_motions
+
+            refuse_second_motions(self.motions)
 
     def in_order(self) -> list[Body | Unreadable]:
         """All that was asked for; what `order` does not name comes last."""

@@ -66,6 +66,7 @@ _ALL = (
     # The scene file.
     Code("bad-scene", "error", "The scene file is not of the form satcheck-scene-1."),
     Code("duplicate-id", "error", "Two bodies of a scene have the same id."),
+    Code("bad-motion", "error", "A motion of a scene is not one, or moves a body twice."),
     Code("unknown-key", "warning", "A key at the top of the scene file is not known: ignored."),
     Code("unknown-units", "warning", "The declared units are no known unit of length."),
     Code("unknown-group", "warning", "An ignored group has no body in the scene."),

@@ -1,0 +1,123 @@
+"""Motions: how bodies move, as data.
+
+A motion takes its bodies along as one rigid assembly over a parameter t in [0, 1]. The pose of a
+body at t is M(t) * placement, world frame, column vectors, lengths in the units of the scene; the
+kinds below say what M is. All motions of a scene share one t, and a body has at most one motion.
+
+Rotation interpolated along the shortest arc: Ken Shoemake, "Animating Rotation with Quaternion
+Curves" (1985).
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import dataclass
+
+from satcheck.core.errors import SatcheckError
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+
+NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Translation:
+    """M(t) moves by t * vector. vector: world, may be zero."""
+
+    vector: Vector
+
+    def __post_init__(self) -> None:
+        _require_finite("the vector of a translation", self.vector, 3)
+
+
+@dataclass(frozen=True, slots=True)
+class Rotation:
+    """M(t) turns by t * degrees about the line through `point` along `axis`, world.
+
+    Right-handed: seen with the axis pointing at the eye, positive degrees turn counter-clockwise.
+    degrees: any, several turns too. axis: of any length but zero.
+    """
+
+    point: Vector
+    axis: Vector
+    degrees: float
+
+    def __post_init__(self) -> None:
+        _require_finite("the point of a rotation", self.point, 3)
+        _require_finite("the axis of a rotation", self.axis, 3)
+        _require_finite("the degrees of a rotation", (self.degrees,), 1)
+        if not any(self.axis):
+            raise _refused("the axis of a rotation must not be zero")
+
+
+@dataclass(frozen=True, slots=True)
+class Waypoint:
+    """A rigid pose: world = turn(orientation) * (x, y, z) + position, (x, y, z) as placed.
+
+    time: in [0, 1]. orientation: a quaternion (x, y, z, w) of any length but zero.
+    """
+
+    time: float
+    position: Vector
+    orientation: Quaternion = NO_TURN
+
+    def __post_init__(self) -> None:
+        _require_finite("the time of a waypoint", (self.time,), 1)
+        _require_finite("the position of a waypoint", self.position, 3)
+        _require_finite("the orientation of a waypoint", self.orientation, 4)
+        if not any(self.orientation):
+            raise _refused("the orientation of a waypoint must not be zero")
+
+
+@dataclass(frozen=True, slots=True)
+class PosePath:
+    """M(t) runs through the waypoints, the first at time 0, the last at time 1.
+
+    Between two of them the position is interpolated along a line and the orientation along the
+    shortest arc, each in proportion to time; opposite orientations (half a turn apart) take the arc
+    of the quaternions as given. The first pose may differ from the identity: the motion then starts
+    elsewhere than at the placement.
+    """
+
+    waypoints: tuple[Waypoint, ...]
+
+    def __post_init__(self) -> None:
+        times = [waypoint.time for waypoint in self.waypoints]
+        if len(times) < 2 or times[0] != 0.0 or times[-1] != 1.0:
+            raise _refused("the waypoints of a path must start at time 0 and end at time 1")
+        if any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
+            raise _refused("the times of the waypoints of a path must increase")
+
+
+Path = Translation | Rotation | PosePath
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """Bodies that move together, rigidly, along one path. bodies: their ids, each once."""
+
+    bodies: tuple[str, ...]
+    path: Path
+
+    def __post_init__(self) -> None:
+        if not self.bodies:
+            raise _refused("a motion must name a body")
+        refuse_second_motions((self,))
+
+
+def refuse_second_motions(motions: tuple[Motion, ...]) -> None:
+    """Raises SatcheckError (`bad-motion`) where a body is moved twice."""
+    for body, times in Counter(body for motion in motions for body in motion.bodies).items():
+        if times > 1:
+            raise SatcheckError("bad-motion", "a body can have one motion only", body=body)
+
+
+def _require_finite(what: str, numbers: tuple[float, ...], count: int) -> None:
+    if len(numbers) != count or not all(math.isfinite(number) for number in numbers):
+        raise _refused(f"{what} must be {count} finite number{'s' if count > 1 else ''}")
+
+
+def _refused(message: str) -> SatcheckError:
+    return SatcheckError("bad-motion", message)
