@@ -1,0 +1,32 @@
+"""`satcheck cache info|clear`."""
+
+from __future__ import annotations
+
+import click
+
+from satcheck.cli.commands.options import HELP_NAMES
+
+
+@click.group("cache", context_settings=HELP_NAMES)
+def command() -> None:
+    """The cache of convex parts: info, clear.
+
+    Only --accuracy parts makes such parts. The cache lies in the user's cache folder, or where
+    SATCHECK_CACHE_DIR says.
+    """
+
+
+@command.command()
+def info() -> None:
+    """Show where the cache is and how much it holds."""
+    from satcheck.cli.caching import describe
+
+    click.echo(describe())
+
+
+@command.command()
+def clear() -> None:
+    """Delete everything in the cache."""
+    from satcheck.cli.caching import clear as clear_cache
+
+    click.echo(clear_cache())

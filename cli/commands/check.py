@@ -1,0 +1,201 @@
+"""`satcheck A B [C ...]`: the command that needs no name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from satcheck.cli.commands.options import (
+    HELP_NAMES,
+    debug_option,
+    form_of,
+    form_option,
+    output_option,
+    paths_argument,
+)
+from satcheck.cli.lengths import length
+
+ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
+# More characters than the first sentence of any help text has.
+_WHOLE_SENTENCE = 200
+
+
+class _DefaultContext(click.Context):
+    """The default command's name is never typed, so it is never shown."""
+
+    @property
+    def command_path(self) -> str:
+        return self.parent.command_path if self.parent else super().command_path
+
+
+class _DefaultCommand(click.Command):
+    context_class = _DefaultContext
+
+    def collect_usage_pieces(self, _: click.Context) -> list[str]:
+        return ["[OPTIONS] A B [C ...]"]
+
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Exit codes"):
+            formatter.write_dl(
+                [
+                    ("0", "everything asked was checked, nothing was found"),
+                    ("1", "bodies overlap, or are closer than --clearance"),
+                    ("2", "wrong usage, an unreadable input, or an internal error"),
+                    ("3", "nothing was found, but not everything asked could be checked"),
+                ]
+            )
+        with formatter.section("Other commands"):
+            formatter.write_dl(
+                [
+                    (f"satcheck {name}", other.get_short_help_str(_WHOLE_SENTENCE))
+                    for name, other in _others(ctx)
+                ]
+            )
+        with formatter.section("Shell completion"):
+            formatter.write_text('bash: eval "$(_SATCHECK_COMPLETE=bash_source satcheck)"')
+            formatter.write_text('zsh:  eval "$(_SATCHECK_COMPLETE=zsh_source satcheck)"')
+            formatter.write_text("fish: _SATCHECK_COMPLETE=fish_source satcheck | source")
+
+
+def _others(ctx: click.Context) -> list[tuple[str, click.Command]]:
+    group = ctx.parent.command if ctx.parent else None
+    if not isinstance(group, click.Group):
+        return []
+    commands = [(name, group.get_command(ctx, name)) for name in group.list_commands(ctx)]
+    return [(name, command) for name, command in commands if command is not None]
+
+
+def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not ctx.resilient_parsing:
+        from satcheck._version import __version__
+
+        click.echo(f"satcheck {__version__}")
+        ctx.exit()
+
+
+@click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True)
+@paths_argument("A B [C ...]", -1)
+@form_option
+@output_option
+@click.option(
+    "--explain",
+    is_flag=True,
+    help="Show, pair by pair, what was tested, what it settled and cost. JSON always does.",
+)
+@click.option(
+    "--depth/--no-depth",
+    default=True,
+    help="Find how deep bodies overlap, and the shortest way out.  [default: depth]",
+)
+@click.option(
+    "--contacts",
+    is_flag=True,
+    help="Find where surfaces meet: curves, patches of flush faces, points. JSON has their points.",
+)
+@click.option("--volume", is_flag=True, help="Measure the volume that overlapping solids share.")
+@click.option(
+    "--clearance",
+    type=length,
+    help="Also find pairs with a gap smaller than this, and report the gap.",
+)
+@click.option(
+    "--tolerance",
+    type=length,
+    help="Call it touching when gap or depth is at most this. "
+    "[default: the precision of the input files]",
+)
+@click.option(
+    "--accuracy",
+    type=click.Choice(ACCURACIES),
+    default="exact",
+    show_default=True,
+    help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
+    "All but exact may report overlaps that are none, and say so.",
+)
+@click.option(
+    "--depth-width",
+    type=click.FloatRange(0, 1, min_open=True, max_open=True),
+    metavar="RATIO",
+    default=0.01,
+    show_default=True,
+    help="Narrow the depth interval of concave pairs to this width, relative to its upper end.",
+)
+@click.option(
+    "--depth-budget",
+    type=click.FloatRange(0, 86400, min_open=True),
+    metavar="SECONDS",
+    default=2.0,
+    show_default=True,
+    help="Stop narrowing after this much work a pair. The seconds, of a slow machine, stand for a "
+    "number of steps: the answer is the same everywhere.",
+)
+@click.option(
+    "--allow-open",
+    is_flag=True,
+    help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
+    "not make the check incomplete.",
+)
+@click.option(
+    "--cross-check",
+    is_flag=True,
+    help="Ask python-fcl and manifold3d too, and warn where they disagree.",
+)
+@click.option(
+    "--certificate",
+    is_flag=True,
+    help="Give the proven verdicts of a JSON report evidence that satcheck verify checks.",
+)
+@click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=0,
+    show_default=True,
+    help="Threads; 0 is one per core. Changes no answer.",
+)
+@click.option(
+    "--no-cache",
+    "cache",
+    is_flag=True,
+    flag_value=False,
+    default=True,
+    help="Neither read nor write the cache of convex parts, which only --accuracy parts uses.",
+)
+@click.option(
+    "--no-timings",
+    "timings",
+    is_flag=True,
+    flag_value=False,
+    default=True,
+    help="Leave out times: same input, same bytes.",
+)
+@click.option("--exit-zero", is_flag=True, help="Exit with 0 even when something was found.")
+@debug_option
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_version,
+    help="Show the version and exit.",
+)
+def command(**options: Any) -> int:
+    """Do these meshes collide? How deep, and which way out?
+
+    A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE), each one body, or scene
+    files (JSON, satcheck-scene-1) with several. Every pair of bodies is checked, in the coordinates
+    of the files. A body inside another collides with it.
+
+    A LENGTH is a number in the units of the files. Where a scene declares its units, it may
+    carry one of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
+    """
+    from satcheck.cli.checking import Choices, run
+
+    options["form"] = form_of(options["form"], options["output"])
+    if options["certificate"] and options["form"] != "json":
+        raise click.UsageError(
+            "--certificate needs a JSON report: add -o report.json or --format json"
+        )
+    return run(Choices(**options))

@@ -1,0 +1,56 @@
+"""Options that several commands share, and how they are read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+from click.shell_completion import CompletionItem
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+FORMATS = ("table", "json")
+HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
+_STANDARD_OUTPUT = Path("-")
+
+
+def _file_or_nothing(_: click.Context, __: click.Parameter, given: Path | None) -> Path | None:
+    return None if given == _STANDARD_OUTPUT else given
+
+
+def form_of(form: str | None, output: Path | None) -> str:
+    """How to report: as asked, else as the name of the output file says."""
+    return form or ("json" if output and output.suffix.lower() == ".json" else "table")
+
+
+def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:
+    """Files, and before the first of them the names of the commands."""
+    files = [CompletionItem(start, type="file")]
+    group = ctx.parent.command if ctx.parent else None
+    if not start or ctx.params.get("paths") or not isinstance(group, click.Group):
+        return files
+    names = [name for name in group.list_commands(ctx) if name.startswith(start)]
+    return files + [CompletionItem(name) for name in names]
+
+
+def paths_argument(metavar: str, nargs: int) -> Callable[[_Command], _Command]:
+    return click.argument("paths", nargs=nargs, metavar=metavar, shell_complete=_complete_paths)
+
+
+form_option = click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    help="How to report. [default: table; json where the name after -o ends in .json]",
+)
+output_option = click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
+    metavar="FILE",
+    callback=_file_or_nothing,
+    help="Write the report to FILE; - is standard output.",
+)
+debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")

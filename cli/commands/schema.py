@@ -1,0 +1,16 @@
+"""`satcheck schema [DOCUMENT]`."""
+
+from __future__ import annotations
+
+import click
+
+DOCUMENTS = ("report", "stability")
+
+
+@click.command("schema")
+@click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
+def command(document: str) -> None:
+    """Print the JSON Schema of a report, of a check or of stability."""
+    from satcheck.cli.report.schema import text
+
+    click.echo(text(document), nl=False)

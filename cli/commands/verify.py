@@ -1,0 +1,42 @@
+"""`satcheck verify REPORT`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option
+
+
+@click.command("verify", context_settings=HELP_NAMES)
+@click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
+@click.option(
+    "--root",
+    type=click.Path(file_okay=False, exists=True, path_type=Path),
+    default=Path(),
+    help="The folder where the check ran: paths in the report start there.  "
+    "[default: the current one]",
+)
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    default="table",
+    show_default=True,
+    help="How to report.",
+)
+@debug_option
+def command(report: Path, root: Path, form: str, debug: bool) -> int:
+    """Re-check the certificates of a report from the mesh files.
+
+    REPORT is what satcheck --certificate -o REPORT.json A B wrote. Its verdicts are checked in
+    rational arithmetic by code of its own, which shares nothing with the solver. A verdict without
+    a certificate (an estimate below --accuracy exact, for instance) is not certified, and no pass.
+
+    Exit codes: 0, every verdict is accepted; 1, one is rejected or not certified; 2, wrong usage,
+    an unreadable report, no certificate in it, or an internal error.
+    """
+    from satcheck.cli.verifying import run
+
+    return run(report, root, form, debug)
