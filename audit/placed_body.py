@@ -116,7 +116,7 @@ class PlacedBody:
     def _checked(self) -> Placed:
         from satcheck.verify.bodies import place_shape
 
-        return place_shape(self.id, self.body.group, self.shared.shape(), self.body.transform)
+        return place_shape(self.id, self.body.groups, self.shared.shape(), self.body.transform)
 
     @property
     def convex(self) -> bool:

@@ -87,7 +87,8 @@ class BodyReport:
     An unreadable body has None everywhere but id, name and file. `convex` is None where no pair
     had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
     input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
-    None: as in the file. `group`: as the scene says.
+    None: as in the file. `groups`: as the scene says. `shape`: the primitive that the
+    file states, as a scene file does; None: a mesh file.
     """
 
     id: str
@@ -96,13 +97,14 @@ class BodyReport:
     sha256: str | None
     path: str | None
     transform: tuple[float, ...] | None
-    group: str | None
+    groups: tuple[str, ...]
     triangles: int | None
     health: Mapping[str, bool | int | float | str | None] | None
     resolution: float | None
     convex: bool | None
     parts: int | None
     part_error: PartError | None
+    shape: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -254,8 +256,9 @@ def _body(body: BodyReport) -> dict[str, Any]:
         "file": body.file,
         "sha256": body.sha256,
         "path": body.path,
+        "shape": body.shape,
         "transform": body.transform and [_number(entry) for entry in body.transform],
-        "group": body.group,
+        "groups": list(body.groups),
         "triangles": body.triangles,
         "health": None if body.health is None else dict(body.health),
         "resolution": _number(body.resolution),

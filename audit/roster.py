@@ -23,25 +23,27 @@ class Lost:
     id: str
     file: str
     reason: str
-    group: str | None = None
+    groups: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Roster:
-    """Bodies by index, in the order given: each is either placed or lost. ids and groups follow."""
+    """Bodies by index, in the order given: each is either placed or lost. ids follow it.
+
+    ignored_of: of each body, the groups it is in whose pairs nobody asks about.
+    """
 
     placed: dict[int, PlacedBody]
     lost: dict[int, Lost]
     ids: tuple[str, ...]
-    groups: tuple[str | None, ...]
+    ignored_of: tuple[frozenset[str], ...]
     ignored_groups: frozenset[str]
     allowed_ids: frozenset[frozenset[str]]
     issues: tuple[Issue, ...]
 
     def is_ignored(self, i: int, j: int) -> bool:
         """Both in one group whose pairs nobody asks about."""
-        group = self.groups[i]
-        return group is not None and group == self.groups[j] and group in self.ignored_groups
+        return not self.ignored_of[i].isdisjoint(self.ignored_of[j])
 
     def is_allowed(self, i: int, j: int) -> bool:
         return frozenset((self.ids[i], self.ids[j])) in self.allowed_ids
@@ -67,8 +69,14 @@ class Roster:
 
     def total(self) -> int:
         """Pairs that are not ignored."""
-        sizes = Counter(group for group in self.groups if group in self.ignored_groups)
-        return _pairs(len(self.ids)) - sum(_pairs(size) for size in sizes.values())
+        alike = list(Counter(groups for groups in self.ignored_of if groups).items())
+        ignored = sum(_pairs(count) for _, count in alike) + sum(
+            count * other_count
+            for k, (groups, count) in enumerate(alike)
+            for other, other_count in alike[:k]
+            if not groups.isdisjoint(other)
+        )
+        return _pairs(len(self.ids)) - ignored
 
     def allowed(self) -> int:
         """Allowed pairs of bodies that are here and not ignored anyway."""
@@ -94,20 +102,20 @@ def place(scene: Scene, settings: Settings) -> Roster:
     for index, body in enumerate(members):
         if not isinstance(body, Body):
             reason = f"unreadable {body.file}: {body.issue.code}"
-            lost[index] = Lost(body.id, body.file, reason)
+            lost[index] = Lost(body.id, body.file, reason, body.groups)
             continue
         mesh = shared.setdefault(body.file.sha256, SharedMesh(body.file, settings))
         try:
             placed[index] = PlacedBody(body, mesh)
         except (ValueError, OverflowError) as error:
-            lost[index] = Lost(body.id, body.file.path, f"cannot be placed: {error}", body.group)
+            lost[index] = Lost(body.id, body.file.path, f"cannot be placed: {error}", body.groups)
             issues.append(_unplaceable(body, error))
     return Roster(
         placed=placed,
         lost=lost,
         ids=tuple(body.id for body in members),
-        groups=tuple(body.group if isinstance(body, Body) else None for body in members),
-        ignored_groups=frozenset(scene.ignore_within_groups),
+        ignored_of=tuple(scene.ignore_within_groups.intersection(body.groups) for body in members),
+        ignored_groups=scene.ignore_within_groups,
         allowed_ids=frozenset(scene.allowed_pairs),
         issues=tuple(issues),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 from typing import TYPE_CHECKING
 
@@ -27,6 +27,7 @@ from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
+    from satcheck.scene.primitives import Primitive
 
 
 def tool() -> Tool:
@@ -84,7 +85,7 @@ def _lost_report(body: Lost) -> BodyReport:
         sha256=None,
         path=None,
         transform=None,
-        group=body.group,
+        groups=body.groups,
         triangles=None,
         health=None,
         resolution=None,
@@ -95,7 +96,7 @@ def _lost_report(body: Lost) -> BodyReport:
 
 
 def _body_report(body: PlacedBody) -> BodyReport:
-    file = body.body.file
+    file, shape = body.body.file, body.body.shape
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
     return BodyReport(
@@ -105,7 +106,7 @@ def _body_report(body: PlacedBody) -> BodyReport:
         sha256=file.sha256,
         path=None,
         transform=body.body.transform,
-        group=body.body.group,
+        groups=body.body.groups,
         triangles=file.mesh.triangle_count,
         health={
             field.name: _finite(getattr(file.health, field.name)) for field in fields(file.health)
@@ -114,7 +115,16 @@ def _body_report(body: PlacedBody) -> BodyReport:
         convex=body.shared.convex.known,
         parts=None if parts is None else len(parts.parts),
         part_error=None if parts is None else PartError(parts.outside, parts.missing),
+        shape=_shape(shape),
     )
+
+
+def _shape(shape: Primitive | None) -> Mapping[str, object] | None:
+    if shape is None:
+        return None
+    from satcheck.scene.primitives import values_of
+
+    return values_of(shape)
 
 
 def _finite(value: bool | int | float | str) -> bool | int | float | str | None:

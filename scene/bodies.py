@@ -15,6 +15,9 @@ from satcheck.scene.rules import Rule
 if TYPE_CHECKING:
     from satcheck.scene.motion import Motion
 
+if TYPE_CHECKING:
+    from satcheck.scene.primitives import Primitive
+
 Transform = tuple[float, ...]
 
 
@@ -23,9 +26,10 @@ class MeshFile:
     """One mesh file, flattened into one mesh in file units.
 
     path: as given, with "/". sha256: of the file's bytes. format: "obj", "stl", "ply", "off",
-    "glb", "gltf", "3mf" or "dae". resolution: how finely its coordinates were written, in file
-    units. units: as the file declares them. mesh: welded, wound outward where that can be decided.
-    topology: of the welded mesh before that repair. issues: warnings about this file.
+    "glb", "gltf", "3mf" or "dae", or "shape": a primitive that the scene file at `path` states.
+    resolution: how finely its coordinates were written, in file units. units: as the file declares
+    them. mesh: welded, wound outward where that can be decided. topology: of the welded mesh before
+    that repair. issues: warnings about this file.
     """
 
     path: str
@@ -41,18 +45,20 @@ class MeshFile:
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """A mesh file placed in the world.
+    """A mesh file, or a primitive shape, placed in the world.
 
     transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1), affine and not
-    singular; None: as in the file. group: bodies of one group may be exempt from each other.
+    singular; None: as in the file. groups: bodies of one group may be exempt from each other.
+    shape: what `file` is the mesh of; None: a file on disk.
     """
 
     id: str
     name: str
     file: MeshFile
     transform: Transform | None = None
-    group: str | None = None
+    groups: tuple[str, ...] = ()
     static: bool = False
+    shape: Primitive | None = None
 
     def world_mesh(self) -> Mesh:
         """The mesh in world coordinates, each rounded once; ValueError when one overflows."""
@@ -79,6 +85,7 @@ class Unreadable:
     id: str
     file: str
     issue: Issue
+    groups: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,7 +64,7 @@ class _Loader:
     def add_mesh(self, id_: str, path: str, location: Path) -> None:
         name = location.stem or path
         self._names.append(name)
-        self._add_body(id_, name, path, location, None, None, False)
+        self._add_body(id_, name, path, location, None, (), False)
 
     def add_scene(self, path: str, location: Path) -> None:
         from satcheck.scene.scene_file import read_scene_file
@@ -80,7 +80,7 @@ class _Loader:
                 entry.mesh,
                 entry.location,
                 entry.transform,
-                entry.group,
+                entry.groups,
                 entry.static,
             )
             for entry in scene.bodies
@@ -97,16 +97,16 @@ class _Loader:
         path: str,
         location: Path,
         transform: tuple[float, ...] | None,
-        group: str | None,
+        groups: tuple[str, ...],
         static: bool,
     ) -> str:
         id_ = self._unique(wanted)
         file = self._file(path, location)
         if isinstance(file, MeshFile):
-            self._bodies.append(Body(id_, name, file, transform, group, static))
+            self._bodies.append(Body(id_, name, file, transform, groups, static))
         else:
             reason = issue(file.code, str(file), body=id_, file=path)
-            self._unreadable.append(Unreadable(id_, path, reason))
+            self._unreadable.append(Unreadable(id_, path, reason, groups))
         return id_
 
     def _unique(self, name: str) -> str:

@@ -53,7 +53,7 @@ class BodyEntry:
     mesh: str
     location: Path
     transform: tuple[float, ...] | None
-    group: str | None
+    groups: tuple[str, ...]
     static: bool
 
 
@@ -108,7 +108,7 @@ class _Reader:
             issues=(
                 *self._unknown_keys(document),
                 *self._unknown_units(units),
-                *self._unknown_groups(ignored, {body.group for body in bodies if body.group}),
+                *self._unknown_groups(ignored, {group for body in bodies for group in body.groups}),
                 *unknown_bodies,
             ),
         )
@@ -205,7 +205,7 @@ class _Reader:
             mesh=os.path.normpath(Path(self._path).parent / mesh).replace(os.sep, "/"),
             location=self._mesh_location(mesh, id_),
             transform=self._transform(entry.get("transform"), id_),
-            group=None if group is None else self._string(group, '"group"', id_),
+            groups=() if group is None else (self._string(group, '"group"', id_),),
             static=static,
         )
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,8 @@ import numpy as np
 
 from satcheck.scene import Body, MeshFile, MeshFileError
 from satcheck.scene.loading import load_mesh_file
+from satcheck.scene.primitives import primitive_of
+from satcheck.scene.shape_file import shape_file
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
 
@@ -20,7 +23,7 @@ MEGABYTES_PER_FILE = 2048
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A mesh file. convex: exactly, in its own coordinates. A solid is balanced."""
+    """A mesh file, or a primitive. convex: exactly, in its own coordinates. A solid is balanced."""
 
     file: MeshFile
     vertices: Floats
@@ -33,7 +36,7 @@ class Placed:
     """A body of the report, or why it cannot be had. resolution: world units, recomputed."""
 
     id: str
-    group: str | None
+    groups: frozenset[str]
     world: World | None
     convex: bool = False
     resolution: float = 0.0
@@ -46,31 +49,34 @@ class Bodies:
 
     def __init__(self, root: Path) -> None:
         self._root = root
-        self._shapes: dict[str, Shape | str] = {}
+        self._shapes: dict[tuple[str, str], Shape | str] = {}
 
     def place(self, entry: Any) -> Placed:
         """entry: one of the report's bodies. A file that is gone or has changed is a reason."""
         if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
             raise Rejected("a body of the report has no id")
-        group = entry.get("group")
-        if group is not None and not isinstance(group, str):
-            raise Rejected("the group of a body is a text")
+        listed = entry.get("groups")
+        if not isinstance(listed, list) or not all(isinstance(group, str) for group in listed):
+            raise Rejected("the groups of a body are a list of texts")
+        groups = frozenset(listed)
         name, file, digest = entry["id"], entry.get("file"), entry.get("sha256")
         if digest is None:
-            return Placed(name, group, None, reason="the report could not read it", claims=False)
+            return Placed(name, groups, None, reason="the report could not read it", claims=False)
         if not isinstance(file, str) or not isinstance(digest, str):
             raise Rejected("a body of the report names no file")
-        if file not in self._shapes:
-            self._shapes[file] = self._read(file)
-        shape = self._shapes[file]
+        values = entry.get("shape")
+        key = (file, json.dumps(values))
+        if key not in self._shapes:
+            self._shapes[key] = self._read(file) if values is None else _primitive(file, values)
+        shape = self._shapes[key]
         if isinstance(shape, str):
-            return Placed(name, group, None, reason=shape)
+            return Placed(name, groups, None, reason=shape)
         if shape.file.sha256 != digest:
-            return Placed(name, group, None, reason=f"{file} has changed: its SHA-256 is another")
+            return Placed(name, groups, None, reason=f"{file} has changed: its SHA-256 is another")
         try:
-            return self._placed(name, group, shape, entry)
+            return self._placed(name, groups, shape, entry)
         except Rejected as why:
-            return Placed(name, group, None, reason=str(why))
+            return Placed(name, groups, None, reason=str(why))
 
     def _read(self, file: str) -> Shape | str:
         try:
@@ -83,11 +89,21 @@ class Bodies:
             absent = isinstance(error, MeshFileError) and error.code == "file-not-found"
             return f"{error}, looked for from {self._root.absolute()} on" if absent else str(error)
 
-    def _placed(self, name: str, group: str | None, shape: Shape, entry: dict[str, Any]) -> Placed:
+    def _placed(
+        self, name: str, groups: frozenset[str], shape: Shape, entry: dict[str, Any]
+    ) -> Placed:
         health = entry.get("health")
         if not isinstance(health, dict) or health.get("solid") is not shape.file.health.solid:
             raise Rejected("said to be solid, or not, and the file says otherwise")
-        return place_shape(name, group, shape, _pose(entry.get("transform")))
+        return place_shape(name, groups, shape, _pose(entry.get("transform")))
+
+
+def _primitive(file: str, values: Any) -> Shape | str:
+    """The shape as the report states it; `file`, the scene that stated it, is not read again."""
+    try:
+        return shape_of(shape_file(primitive_of(values), file))
+    except (MeshFileError, Rejected, ValueError) as error:
+        return f"{file}: not a shape: {error}"
 
 
 def shape_of(file: MeshFile) -> Shape:
@@ -100,13 +116,13 @@ def shape_of(file: MeshFile) -> Shape:
 
 
 def place_shape(
-    name: str, group: str | None, shape: Shape, pose: tuple[float, ...] | None
+    name: str, groups: Iterable[str], shape: Shape, pose: tuple[float, ...] | None
 ) -> Placed:
     world = placed(shape.vertices, shape.triangles, shape.file.health.solid, pose)
     resolution = Body(name, name, shape.file, pose).resolution_world
     if not np.isfinite(resolution):
         raise Rejected("its placement is out of range")
-    return Placed(name, group, world, shape.convex, resolution)
+    return Placed(name, frozenset(groups), world, shape.convex, resolution)
 
 
 def _pose(value: Any) -> tuple[float, ...] | None:

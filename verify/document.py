@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations
 from pathlib import Path
 from typing import Any, Literal
 
@@ -190,8 +191,8 @@ class _Exempt:
 
     def __init__(self, value: dict[str, Any], bodies: dict[str, Placed]) -> None:
         groups, pairs = _list(value, "groups"), _list(value, "pairs")
-        self._bodies = list(bodies.values())
-        self._groups = {group for group in groups if isinstance(group, str)}
+        ignored = {group for group in groups if isinstance(group, str)}
+        self._ignored_of = {body.id: body.groups & ignored for body in bodies.values()}
         self._pairs = {
             frozenset(pair)
             for pair in pairs
@@ -201,19 +202,18 @@ class _Exempt:
             raise Rejected("an exempt pair names two bodies of the report")
 
     def covers(self, a: Placed, b: Placed) -> bool:
-        return self._ignored(a, b) or frozenset((a.id, b.id)) in self._pairs
+        return self._ignored(a.id, b.id) or frozenset((a.id, b.id)) in self._pairs
 
-    def _ignored(self, a: Placed, b: Placed) -> bool:
-        return a.group is not None and a.group == b.group and a.group in self._groups
+    def _ignored(self, a: str, b: str) -> bool:
+        return bool(self._ignored_of[a] & self._ignored_of[b])
 
     def count(self) -> tuple[int, int]:
         """Pairs that are allowed, and pairs that are not counted at all."""
-        sizes = Counter(body.group for body in self._bodies if body.group in self._groups)
-        ignored = sum(size * (size - 1) // 2 for size in sizes.values())
-        named = {body.id: body for body in self._bodies}
-        return sum(
-            not self._ignored(*(named[id_] for id_ in pair)) for pair in self._pairs
-        ), ignored
+        alike = Counter(groups for groups in self._ignored_of.values() if groups)
+        ignored = sum(size * (size - 1) // 2 for size in alike.values()) + sum(
+            alike[one] * alike[other] for one, other in combinations(alike, 2) if one & other
+        )
+        return sum(not self._ignored(*pair) for pair in self._pairs), ignored
 
 
 def _unlisted(

@@ -52,8 +52,8 @@ def test_bodies_groups_and_allowed_pairs(folder):
     )
     assert (scene.name, scene.units) == ("cell", "mm")
     a, b, c = scene.bodies
-    assert (a.id, a.static, a.group) == ("a", True, None)
-    assert (b.id, b.static, b.group) == ("b", False, "robot")
+    assert (a.id, a.static, a.groups) == ("a", True, ())
+    assert (b.id, b.static, b.groups) == ("b", False, ("robot",))
     assert b.world_mesh().bounds == ((5, 0, 0), (6, 1, 1))
     assert c.transform is None
     assert scene.ignore_within_groups == {"robot"}

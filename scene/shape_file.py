@@ -1,0 +1,50 @@
+"""A primitive shape as if it came from a mesh file of its own."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+
+from satcheck.scene.bodies import MeshFile
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.health import examine
+from satcheck.scene.primitives import (
+    DEFAULT_SEGMENTS,
+    Primitive,
+    is_curved,
+    mesh_of,
+    values_of,
+)
+from satcheck.scene.resolution import FLOAT64_ROUNDING
+
+SHAPE_FORMAT = "shape"
+
+
+def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:
+    """The mesh of the shape. path: the scene file that states it.
+
+    sha256 is that of the shape's values and of how many segments it has. The sizes are taken as the
+    float64 that they were read as, so the resolution is float64 rounding. Raises MeshFileError for
+    a size beyond what is decided exactly, and for a curved shape, which no mesh is exactly.
+    """
+    if is_curved(shape):
+        kind = type(shape).__name__.lower()
+        message = f"a {kind} is curved, and only boxes are checked as shapes: refused"
+        raise MeshFileError("unsupported-feature", message, file=path)
+    try:
+        examined = examine(mesh_of(shape, segments))
+    except OverflowError as error:
+        raise MeshFileError("out-of-range", str(error), file=path) from None
+    low, high = examined.mesh.bounds
+    canonical = json.dumps([values_of(shape), segments], sort_keys=True)
+    return MeshFile(
+        path=path,
+        sha256=hashlib.sha256(canonical.encode()).hexdigest(),
+        format=SHAPE_FORMAT,
+        resolution=max(map(abs, (*low, *high))) * FLOAT64_ROUNDING,
+        units=None,
+        mesh=examined.mesh,
+        topology=examined.topology,
+        health=examined.health,
+        issues=(),
+    )

@@ -1,0 +1,136 @@
+"""Primitive shapes: their sizes, and the meshes made of them."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from satcheck.core import Surface
+from satcheck.scene.health import examine
+from satcheck.scene.primitives import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Sphere,
+    is_curved,
+    mesh_of,
+    primitive_of,
+    values_of,
+)
+
+BOX = Box((1.0, 2.0, 3.0))
+CURVED = {
+    # shape: (volume, the function that is 0 on its surface, half its extents)
+    Sphere(0.3): (4 / 3 * math.pi * 0.3**3, lambda x, y, z: math.hypot(x, y, z) - 0.3, (0.3,) * 3),
+    Capsule(0.3, 1.1): (
+        math.pi * 0.3**2 * (1.1 + 4 / 3 * 0.3),
+        lambda x, y, z: math.hypot(x, y, max(0.0, abs(z) - 0.55)) - 0.3,
+        (0.3, 0.3, 0.3 + 1.1 / 2),
+    ),
+    Cylinder(0.7, 1.3): (
+        math.pi * 0.7**2 * 1.3,
+        lambda x, y, z: max(math.hypot(x, y) - 0.7, abs(z) - 0.65),
+        (0.7, 0.7, 0.65),
+    ),
+    Cone(1.1, 3.0): (
+        math.pi * 1.1**2,
+        lambda x, y, z: max(math.hypot(x, y) - 1.1 * (1.5 - z) / 3.0, -1.5 - z),
+        (1.1, 1.1, 1.5),
+    ),
+    Ellipsoid((1.0, 2.0, 0.7)): (
+        4 / 3 * math.pi * 1.4,
+        lambda x, y, z: math.hypot(x, y / 2.0, z / 0.7) - 1.0,
+        (1.0, 2.0, 0.7),
+    ),
+}
+SEGMENTS = 64
+# A coordinate is made in at most 4 roundings from numbers below 2, a distance to the surface in as
+# many again.
+ROUNDING = 8 * 2 * 2.0**-53
+
+
+def test_a_box_is_its_mesh():
+    mesh = mesh_of(BOX)
+    assert (mesh.vertex_count, mesh.triangle_count) == (8, 12)
+    assert mesh.bounds == ((-0.5, -1.0, -1.5), (0.5, 1.0, 1.5))
+    assert examine(mesh).health.volume == 6.0
+    assert not is_curved(BOX)
+
+
+@pytest.mark.parametrize("shape", [BOX, *CURVED], ids=str)
+def test_a_mesh_is_closed_outward_and_convex(shape):
+    found = examine(mesh_of(shape, SEGMENTS))
+    health = found.health
+    assert (health.solid, health.manifold, health.oriented, health.inside_out) == (
+        True,
+        True,
+        True,
+        False,
+    )
+    assert health.volume > 0
+    assert found.warnings == ()
+    assert found.mesh.convexity_defect(0.0) == 0.0
+    assert Surface(found.mesh, True).winding_number((0.0, 0.0, 0.0)) == 1
+
+
+@pytest.mark.parametrize("shape", CURVED, ids=str)
+def test_the_vertices_of_a_curved_shape_lie_on_its_surface(shape):
+    volume, surface, half = CURVED[shape]
+    mesh = mesh_of(shape, SEGMENTS)
+    corners = {c for t in range(mesh.triangle_count) for c in mesh.corners(t)}
+    assert max(abs(surface(*corner)) for corner in corners) <= ROUNDING
+    assert mesh.bounds == (tuple(-c for c in half), half)
+    # A facet of a ball spans at most the angle of a segment either way, so its corners are within
+    # half a diagonal of its normal, and no facet is nearer to the centre than the cosine of that.
+    nearest = math.cos(math.tau / SEGMENTS / math.sqrt(2.0))
+    assert nearest**3 < examine(mesh).health.volume / volume < 1.0
+    assert is_curved(shape)
+
+
+def test_more_segments_fill_more_of_it():
+    volumes = [examine(mesh_of(Sphere(1.0), n)).health.volume for n in (8, 16, 32)]
+    assert volumes == sorted(volumes)
+
+
+@pytest.mark.parametrize("segments", [0, 4, 10, -8])
+def test_segments_that_miss_the_axes_are_refused(segments):
+    with pytest.raises(ValueError, match="multiple of 4"):
+        mesh_of(Sphere(1.0), segments)
+
+
+@pytest.mark.parametrize("shape", [BOX, *CURVED], ids=str)
+def test_values_are_those_of_a_scene_file(shape):
+    assert primitive_of(values_of(shape)) == shape
+
+
+def test_whole_numbers_state_the_same_shape():
+    assert values_of(Box((1, 2, 3))) == values_of(BOX) == {"type": "box", "size": [1.0, 2.0, 3.0]}
+    assert Box((1, 2, 3)) == BOX
+
+
+WRONG = {
+    "no object": ("box", "not a shape"),
+    "type": ({"type": "cube"}, "type should be one of box, sphere"),
+    "no type": ({}, "not None"),
+    "missing": ({"type": "capsule", "radius": 1.0}, "radius and length, not radius"),
+    "foreign": ({"type": "sphere", "radius": 1.0, "height": 2.0}, "a sphere has radius, not"),
+    "two": ({"type": "box", "size": [1.0, 2.0]}, "size should be three numbers"),
+    "scalar": ({"type": "box", "size": 1.0}, "size should be three numbers"),
+    "list": ({"type": "sphere", "radius": [1.0]}, "radius should be a number"),
+    "zero": ({"type": "sphere", "radius": 0.0}, "radius should be positive and finite"),
+    "negative": ({"type": "box", "size": [1.0, -1.0, 1.0]}, "size should be positive and finite"),
+    "infinite": ({"type": "cone", "radius": 1.0, "height": math.inf}, "height should be positive"),
+    "nan": ({"type": "cone", "radius": math.nan, "height": 1.0}, "radius should be positive"),
+    "text": ({"type": "sphere", "radius": "1"}, "something else than numbers"),
+    "true": ({"type": "sphere", "radius": True}, "something else than numbers"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_states_no_shape_is_refused(name):
+    values, message = WRONG[name]
+    with pytest.raises(ValueError, match=message):
+        primitive_of(values)

@@ -1,0 +1,38 @@
+"""The mesh file that stands for a primitive shape."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.scene import MeshFileError
+from satcheck.scene.primitives import Box, Sphere
+from satcheck.scene.shape_file import shape_file
+
+
+def test_a_box_is_a_file_of_its_own():
+    file = shape_file(Box((1.0, 2.0, 3.0)), "cell.toml")
+    assert (file.path, file.format, file.units, file.issues) == ("cell.toml", "shape", None, ())
+    assert file.health.solid
+    assert file.resolution == 1.5 * 2.0**-53
+
+
+def test_the_hash_is_that_of_the_sizes():
+    first, same, other = (
+        shape_file(Box(size), path)
+        for size, path in (((1.0, 2.0, 3.0), "a"), ((1, 2, 3), "b"), ((1.0, 2.0, 4.0), "a"))
+    )
+    assert first.sha256 == same.sha256 != other.sha256
+    assert len(first.sha256) == 64
+
+
+@pytest.mark.parametrize("size", [1e46, 1e-90])
+def test_sizes_beyond_what_is_decided_exactly_are_refused(size):
+    with pytest.raises(MeshFileError) as caught:
+        shape_file(Box((size, size, size)), "cell.toml")
+    assert (caught.value.code, caught.value.file) == ("out-of-range", "cell.toml")
+
+
+def test_a_curved_shape_is_refused():
+    with pytest.raises(MeshFileError, match="a sphere is curved") as caught:
+        shape_file(Sphere(1.0), "cell.toml")
+    assert caught.value.code == "unsupported-feature"
