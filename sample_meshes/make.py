@@ -286,6 +286,8 @@ def samples() -> dict[str, bytes]:
         "far_b.obj": obj(box((e + 0.875, n + 0.25, 0.25), (e + 1.875, n + 1.25, 1.25)), ".3f"),
         "fin_box.obj": obj(with_fin(big_box)),
         "open_box.off": off(without_lid(box((1.0, -1.0, 1.0), (5.0, 3.0, 4.0)))),
+        "arm_beam.stl": stl(box((-1 / 16, -1 / 16, 0.0), (1 / 16, 1 / 16, 1.0))),
+        "arm_finger.obj": obj(box((-1 / 32, 0.0, 0.0), (1 / 32, 1 / 32, 0.25))),
         "inside_out.stl": stl_text(turned_inside_out(box((-1.5, 0.25, 0.5), (0.5, 1.25, 1.5)))),
     }
 

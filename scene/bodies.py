@@ -14,9 +14,8 @@ from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
     from satcheck.scene.motion import Motion
-
-if TYPE_CHECKING:
     from satcheck.scene.primitives import Primitive
+    from satcheck.scene.robot import Posture, SceneRobot
 
 Transform = tuple[float, ...]
 
@@ -100,6 +99,7 @@ class Scene:
     check_static: whether two bodies that do not move are a pair to check.
     issues: all of them, those of `unreadable` and of each mesh file included.
     motions: at most one for a body (SatcheckError otherwise); ids of no body do no harm.
+    robots: what can be posed, with `robot.posed`. posture: how they stand; None without robots.
     """
 
     name: str
@@ -113,6 +113,8 @@ class Scene:
     issues: tuple[Issue, ...] = ()
     order: tuple[str, ...] = ()
     motions: tuple[Motion, ...] = ()
+    robots: tuple[SceneRobot, ...] = ()
+    posture: Posture | None = None
 
     def __post_init__(self) -> None:
         if self.motions:

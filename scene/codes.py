@@ -63,6 +63,15 @@ _ALL = (
     Code("no-volume", "warning", "The mesh is closed and encloses no volume: not a solid."),
     Code("degenerate-triangles", "warning", "Some triangles have area 0."),
     Code("duplicate-triangles", "warning", "Some triangles occur more than once."),
+    # The robot: URDF, SRDF and the values of joints.
+    Code("bad-robot", "error", "The URDF or SRDF is not what its format prescribes."),
+    Code("xacro", "error", "The file is xacro, and has to be expanded first."),
+    Code("unknown-element", "warning", "An element unknown to the format was ignored."),
+    Code("no-collision-geometry", "note", "Links with visual geometry alone have no body."),
+    Code("neighbours-checked", "note", "Links that a joint connects are checked as well."),
+    Code("beyond-limits", "warning", "A joint stands beyond its limits."),
+    Code("not-at-zero", "note", "A joint that no pose names cannot stand at 0."),
+    Code("mimic-differs", "warning", "A pose contradicts what a mimic joint follows."),
     # The scene file.
     Code("bad-scene", "error", "The scene file is not of the form satcheck-scene-1."),
     Code("duplicate-id", "error", "Two bodies of a scene have the same id."),

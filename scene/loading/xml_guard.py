@@ -12,13 +12,17 @@ _NAMESPACE_SEPARATOR = " "
 _DECLARATION = "<?xml version="  # whoever stumbles within this many characters reads no XML at all
 
 
-def guarded_parser(allowed_encodings: frozenset[str] | None = None) -> expat.XMLParserType:
+def guarded_parser(
+    allowed_encodings: frozenset[str] | None = None, *, namespaces: bool = True
+) -> expat.XMLParserType:
     """A parser whose element and attribute names read "namespace local-name".
 
     allowed_encodings: lower-case names the XML declaration may give; None: any that expat knows.
+    namespaces: False leaves names as they are written, "prefix:local-name", declared or not.
     Raises MeshFileError from within the parse.
     """
-    parser = expat.ParserCreate(namespace_separator=_NAMESPACE_SEPARATOR)
+    separator = _NAMESPACE_SEPARATOR if namespaces else None
+    parser = expat.ParserCreate(namespace_separator=separator)
     parser.buffer_text = True
 
     def refuse_entity(*_: object) -> NoReturn:

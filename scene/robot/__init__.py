@@ -1,0 +1,46 @@
+"""Robots: URDF and SRDF -> bodies in a pose.
+
+`load_scene` reads them; `posed` puts the robots of a scene into another pose without reading
+anything again, `joint_samples` draws random ones.
+"""
+
+from satcheck.scene.robot.assembly import (
+    RobotBody,
+    SceneRobot,
+    bare_links,
+    parts_of,
+    permissions,
+    pose_of_states,
+    posed,
+    with_srdfs,
+)
+from satcheck.scene.robot.model import Joint, Link, Robot
+from satcheck.scene.robot.packages import MeshPlaces
+from satcheck.scene.robot.poses import Pose, Posture, read_poses, settle
+from satcheck.scene.robot.sampling import joint_samples
+from satcheck.scene.robot.srdf import Srdf, State, read_srdf
+from satcheck.scene.robot.urdf import read_urdf
+
+__all__ = [
+    "Joint",
+    "Link",
+    "MeshPlaces",
+    "Pose",
+    "Posture",
+    "Robot",
+    "RobotBody",
+    "SceneRobot",
+    "Srdf",
+    "State",
+    "bare_links",
+    "joint_samples",
+    "parts_of",
+    "permissions",
+    "pose_of_states",
+    "posed",
+    "read_poses",
+    "read_srdf",
+    "read_urdf",
+    "settle",
+    "with_srdfs",
+]

@@ -1,0 +1,231 @@
+"""A robot in a scene: which bodies its links are, which pairs may touch, where everything is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, product
+from pathlib import Path
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.bodies import Scene, Transform
+from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.issue import Issue, issue
+from satcheck.scene.primitives import Primitive
+from satcheck.scene.robot.kinematics import compose, link_poses, scaled
+from satcheck.scene.robot.model import Collision, Link, MeshReference, Robot, UnknownShape
+from satcheck.scene.robot.packages import MeshPlaces
+from satcheck.scene.robot.poses import Pose, settle
+from satcheck.scene.robot.srdf import Srdf, State
+
+SAME_LINK = "one rigid link"
+_SHOWN = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One <collision> that becomes a body. offset: its geometry in the frame of the link.
+
+    source: the path of a mesh file, a shape, or why there is neither.
+    """
+
+    id: str
+    link: str
+    offset: Transform
+    source: Path | Primitive | MeshFileError
+
+
+@dataclass(frozen=True, slots=True)
+class RobotBody:
+    """A body of the scene, readable or not, that a link of a robot carries."""
+
+    id: str
+    link: str
+    offset: Transform
+
+
+@dataclass(frozen=True, slots=True)
+class SceneRobot:
+    """A robot, the bodies that it moves, and the SRDF about it."""
+
+    robot: Robot
+    bodies: tuple[RobotBody, ...]
+    srdf: Srdf | None = None
+
+    @property
+    def states(self) -> tuple[State, ...]:
+        return self.srdf.states if self.srdf else ()
+
+    def bodies_of(self, link: str) -> list[str]:
+        return [body.id for body in self.bodies if body.link == link]
+
+    def neighbours(self) -> list[tuple[str, str]]:
+        """Links with bodies that a joint connects, as (parent, child); links without any, which lie
+        between, count as part of the joint."""
+        solid = {body.link for body in self.bodies}
+        carrier = {joint.child: joint.parent for joint in self.robot.joints}
+        found = []
+        for link in (link for link in self.robot.links if link in solid):
+            above = carrier.get(link)
+            while above is not None and above not in solid:
+                above = carrier.get(above)
+            if above is not None:
+                found.append((above, link))
+        return found
+
+
+def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
+    """One part a <collision>: called as the link, and where that has several "link/name" or
+    "link/number"."""
+    return [
+        Part(
+            id=_part_id(link, collision, number),
+            link=link.name,
+            offset=_offset(collision),
+            source=_source(collision, places),
+        )
+        for link in robot.links.values()
+        for number, collision in enumerate(link.collisions, 1)
+    ]
+
+
+def bare_links(robot: Robot) -> list[Issue]:
+    """A note on links that have something to see, but nothing to collide with."""
+    bare = [link.name for link in robot.links.values() if link.visual and not link.collisions]
+    if not bare:
+        return []
+    have = "link has" if len(bare) == 1 else "links have"
+    message = (
+        f"{len(bare)} {have} visual geometry and no <collision>, so no body is checked: "
+        f"{_listed(bare)}"
+    )
+    return [issue("no-collision-geometry", message, file=robot.file)]
+
+
+def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[SceneRobot]:
+    """Each robot with the SRDF about it: the one of its name, or the only one for the only robot.
+
+    Raises SceneFileError for an SRDF about no robot that is here, and for a second one about one.
+    """
+    found = list(robots)
+    for srdf in srdfs:
+        named = [k for k, robot in enumerate(found) if robot.robot.name == srdf.robot]
+        if not named and len(found) == 1:
+            named = [0]
+        if not named:
+            names = ", ".join(robot.robot.name for robot in found) or "no URDF is given"
+            message = f"about robot {srdf.robot!r}, which is not here ({names})"
+            raise SceneFileError("bad-robot", message, file=srdf.file)
+        for k in named:
+            if found[k].srdf is not None:
+                message = f"a second SRDF about robot {found[k].robot.name!r}"
+                raise SceneFileError("bad-robot", message, file=srdf.file)
+            found[k] = replace(found[k], srdf=srdf)
+    return found
+
+
+def permissions(robot: SceneRobot) -> tuple[dict[frozenset[str], str], list[Issue]]:
+    """(pairs of its bodies that may touch -> why, what there is to say about that)."""
+    allowed: dict[frozenset[str], str] = {}
+    for link in robot.robot.links:
+        for pair in combinations(robot.bodies_of(link), 2):
+            allowed[frozenset(pair)] = SAME_LINK
+    solid = list(dict.fromkeys(body.link for body in robot.bodies))
+    for a, b in combinations(solid, 2):
+        reason = robot.srdf.permission(a, b) if robot.srdf else None
+        if reason is not None:
+            for pair in product(robot.bodies_of(a), robot.bodies_of(b)):
+                allowed[frozenset(pair)] = reason
+    return allowed, [*_unknown_links(robot), *_checked_neighbours(robot)]
+
+
+def posed(scene: Scene, pose: Pose) -> Scene:
+    """The scene with its robots in this pose: other transforms, the same meshes.
+
+    pose: joint -> values; see `poses.settle` for joints that it does not name and for what is
+    refused. The posture, complete, and what there is to say about it are those of the result.
+    """
+    posture = settle([robot.robot for robot in scene.robots], pose)
+    transforms: dict[str, Transform] = {}
+    for robot in scene.robots:
+        links = link_poses(robot.robot, posture.joints)
+        for body in robot.bodies:
+            transforms[body.id] = compose(links[body.link], body.offset)
+    earlier = scene.posture.issues if scene.posture else ()
+    return replace(
+        scene,
+        bodies=tuple(
+            replace(body, transform=transforms[body.id]) if body.id in transforms else body
+            for body in scene.bodies
+        ),
+        issues=(*(found for found in scene.issues if found not in earlier), *posture.issues),
+        posture=posture,
+    )
+
+
+def pose_of_states(scene: Scene, names: Iterable[str]) -> Pose:
+    """The named states put together. SatcheckError where two say different things of a joint."""
+    from satcheck.scene.robot.poses import state_named
+
+    states = [state for robot in scene.robots for state in robot.states]
+    pose: dict[str, tuple[float, ...]] = {}
+    for name in names:
+        for joint, values in state_named(name, states).joints.items():
+            if pose.setdefault(joint, values) != values:
+                raise SatcheckError("bad-pose", f"two states give joint {joint!r} different values")
+    return pose
+
+
+def _part_id(link: Link, collision: Collision, number: int) -> str:
+    if len(link.collisions) == 1:
+        return link.name
+    return f"{link.name}/{collision.name or number}"
+
+
+def _offset(collision: Collision) -> Transform:
+    if isinstance(collision.geometry, MeshReference):
+        return scaled(collision.origin, collision.geometry.scale)
+    return collision.origin
+
+
+def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | MeshFileError:
+    match collision.geometry:
+        case MeshReference(uri):
+            try:
+                return places.locate(uri)
+            except MeshFileError as error:
+                return MeshFileError(error.code, f"line {collision.line}: {error.message}")
+        case UnknownShape(reason):
+            return MeshFileError("unsupported-feature", reason)
+    return collision.geometry
+
+
+def _unknown_links(robot: SceneRobot) -> list[Issue]:
+    if robot.srdf is None:
+        return []
+    return [
+        issue(
+            "unknown-body",
+            f"{robot.srdf.file}: link {link!r} is not in the URDF: what is said of it is ignored",
+            file=robot.srdf.file,
+        )
+        for link in sorted(robot.srdf.links() - robot.robot.links.keys())
+    ]
+
+
+def _checked_neighbours(robot: SceneRobot) -> list[Issue]:
+    permitted = robot.srdf.permission if robot.srdf else lambda *_: None
+    checked = [f"{a} and {b}" for a, b in robot.neighbours() if permitted(a, b) is None]
+    if not checked:
+        return []
+    pairs = "pair" if len(checked) == 1 else "pairs"
+    message = (
+        f"{len(checked)} {pairs} of links with a joint between them are checked like any other, "
+        f"as no SRDF allows them to touch: {_listed(checked)}"
+    )
+    return [issue("neighbours-checked", message, file=robot.robot.file)]
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return ", ".join(names[:_SHOWN]) + more

@@ -1,0 +1,95 @@
+"""Whether the joints of a robot make one tree of its links, and in which order to walk it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+
+from satcheck.scene.robot.model import Joint, Link
+from satcheck.scene.robot.xml_tree import Element
+
+_SHOWN = 5
+
+
+def in_order(
+    robot: Element, links: Mapping[str, Link], joints: Sequence[tuple[Joint, Element]]
+) -> tuple[str, tuple[Joint, ...]]:
+    """(the root link, the joints, each after the one that carries its parent).
+
+    Raises SceneFileError for links that are not there, two parents, a circle, several roots, and
+    for joints that mimic what they cannot.
+    """
+    carriers: dict[str, Joint] = {}
+    for joint, element in joints:
+        for role, link in (("parent", joint.parent), ("child", joint.child)):
+            if link not in links:
+                close = get_close_matches(link, sorted(links), n=1)
+                hint = f" (did you mean {close[0]!r}?)" if close else ""
+                element.need(role).refuse(
+                    f"joint {joint.name!r} names link {link!r}, which is not there{hint}",
+                    "index-out-of-range",
+                )
+        if joint.child in carriers:
+            other = carriers[joint.child].name
+            element.refuse(
+                f"link {joint.child!r} has two parents: joints {other!r} and {joint.name!r}"
+            )
+        carriers[joint.child] = joint
+    roots = [name for name in links if name not in carriers]
+    if len(roots) > 1:
+        robot.refuse(
+            f"{len(roots)} links are carried by no joint, only the root may be: {_named(roots)}"
+        )
+    ordered = _walk(roots, [joint for joint, _ in joints])
+    if len(ordered) < len(joints):
+        reached = {*roots, *(joint.child for joint in ordered)}
+        circle = _circle(next(name for name in links if name not in reached), carriers)
+        robot.refuse(f"joints go round in a circle: {circle}", "reference-cycle")
+    _check_mimics(joints)
+    return roots[0], ordered
+
+
+def _walk(roots: Sequence[str], joints: Sequence[Joint]) -> tuple[Joint, ...]:
+    """The joints that can be reached, from the root outward."""
+    carried: dict[str, list[Joint]] = {}
+    for joint in joints:
+        carried.setdefault(joint.parent, []).append(joint)
+    found, waiting = [], list(roots)
+    while waiting:
+        for joint in carried.get(waiting.pop(), ()):
+            found.append(joint)
+            waiting.append(joint.child)
+    return tuple(found)
+
+
+def _circle(link: str, carriers: Mapping[str, Joint]) -> str:
+    """`a -> b -> a`: from a link whose carriers never end, back to where they repeat."""
+    seen: list[str] = []
+    while link not in seen:
+        seen.append(link)
+        link = carriers[link].parent
+    round_trip = [link, *reversed(seen[seen.index(link) :])]
+    return " -> ".join(map(repr, round_trip))
+
+
+def _check_mimics(joints: Sequence[tuple[Joint, Element]]) -> None:
+    by_name = {joint.name: joint for joint, _ in joints}
+    for joint, element in joints:
+        chain = [joint]
+        while (mimic := chain[-1].mimic) is not None:
+            leader = by_name.get(mimic.joint)
+            if leader is None:
+                element.refuse(
+                    f"{chain[-1].name!r} mimics joint {mimic.joint!r}, which is not there",
+                    "index-out-of-range",
+                )
+            if leader.freedoms > 1:
+                element.refuse(f"{chain[-1].name!r} mimics {leader.name!r}, a {leader.kind} joint")
+            if leader in chain:
+                element.refuse(f"joint {joint.name!r} mimics itself in the end", "reference-cycle")
+            chain.append(leader)
+
+
+def _named(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return ", ".join(map(repr, names[:_SHOWN])) + more

@@ -1,0 +1,115 @@
+"""A robot as its URDF describes it: links that carry geometry, joints that carry links.
+
+Lengths in metres, angles in radians, as URDF prescribes. A pose is a rigid row-major 4x4 for column
+vectors. Nothing here knows files or values of joints.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from satcheck.scene.bodies import Transform
+from satcheck.scene.primitives import Primitive
+
+Vector = tuple[float, float, float]
+JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
+
+
+@dataclass(frozen=True, slots=True)
+class MeshReference:
+    """A mesh file by its URI as written. scale: of its x, y, z; negative ones mirror."""
+
+    uri: str
+    scale: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownShape:
+    """Geometry that is not read, and what there is to say about it."""
+
+    reason: str
+
+
+Geometry = MeshReference | Primitive | UnknownShape
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """One <collision> of a link. origin: its pose in the link's frame. line: in the URDF."""
+
+    name: str | None
+    origin: Transform
+    geometry: Geometry
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """A rigid body. visual: whether it has geometry for display."""
+
+    name: str
+    collisions: tuple[Collision, ...]
+    visual: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a joint may do: radians, or metres of a prismatic one; lower <= upper."""
+
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mimic:
+    """Value = multiplier * value of `joint` + offset."""
+
+    joint: str
+    multiplier: float
+    offset: float
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """Carries the link `child` in the frame of the link `parent`.
+
+    origin: the pose of the joint's frame in that of the parent. axis: unit vector in the joint's
+    frame. limits: None for kinds that have none.
+    """
+
+    name: str
+    kind: JointKind
+    parent: str
+    child: str
+    origin: Transform
+    axis: Vector
+    limits: Limits | None
+    mimic: Mimic | None
+
+    @property
+    def freedoms(self) -> int:
+        """How many numbers its value has."""
+        return {"fixed": 0, "planar": 3, "floating": 6}.get(self.kind, 1)
+
+    @property
+    def free(self) -> bool:
+        """Whether a pose gives its value."""
+        return self.freedoms > 0 and self.mimic is None
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A tree of links, checked.
+
+    file: the URDF's path as given. joints: each after the one that carries its parent.
+    """
+
+    name: str
+    file: str
+    root: str
+    links: dict[str, Link]
+    joints: tuple[Joint, ...]
+
+    def joint(self, name: str) -> Joint | None:
+        return next((joint for joint in self.joints if joint.name == name), None)

@@ -1,0 +1,220 @@
+"""Poses of robots: JSON -> values of joints, complete and held against their limits.
+
+    {"joint": value, ...}          one pose; a list of such objects is several
+
+A value is a number (radians; metres of a prismatic joint), or a list of numbers: [x, y, angle] of a
+planar joint, [x, y, z, roll, pitch, yaw] of a floating one. Joints that are not named stand at 0,
+or where 0 is beyond their limits at the nearer limit.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.robot.kinematics import Values
+from satcheck.scene.robot.model import Joint, Robot
+from satcheck.scene.robot.srdf import State
+
+Pose = Mapping[str, Values]
+# Up to this, what a mimic joint is said to do and what it does are the same: states are written
+# with a few decimals.
+_SAME = 1e-6
+_MAX_BYTES = 256 << 20
+
+
+@dataclass(frozen=True, slots=True)
+class Posture:
+    """A complete pose. joints: of every joint that moves, mimics included. issues: about it."""
+
+    joints: dict[str, Values]
+    issues: tuple[Issue, ...] = ()
+
+    def values(self) -> dict[str, float | list[float]]:
+        """As JSON values, and as a pose again."""
+        return {
+            name: values[0] if len(values) == 1 else list(values)
+            for name, values in self.joints.items()
+        }
+
+
+def read_poses(given: str) -> list[Pose] | Pose:
+    """Poses from a JSON file, or from the JSON text itself where it starts with { or [.
+
+    A list of poses, or one pose, as it was written. Raises SatcheckError (`bad-pose`, and what can
+    be wrong with a file).
+    """
+    text, file = (given, None) if given.lstrip()[:1] in ("{", "[") else (_text(given), given)
+    try:
+        document = json.loads(text, object_pairs_hook=_once)
+    except json.JSONDecodeError as error:
+        raise _bad(f"line {error.lineno}: not well-formed JSON: {error.msg}", file) from None
+    except (RecursionError, ValueError) as error:
+        raise _bad(str(error), file) from None
+    if isinstance(document, dict):
+        return _pose(document, "the pose", file)
+    if not isinstance(document, list) or not document:
+        raise _bad('should be an object {"joint": value} or a list of such', file)
+    return [_pose(one, f"pose {k}", file) for k, one in enumerate(document, 1)]
+
+
+def state_named(name: str, states: Iterable[State]) -> State:
+    """The state of that name, "group/name" where groups share it. Raises SatcheckError."""
+    known = list(states)
+    found = [state for state in known if name in (state.name, f"{state.group}/{state.name}")]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        choices = ", ".join(f"{state.group}/{state.name}" for state in found)
+        raise SatcheckError("bad-pose", f"several groups have a state {name!r}: {choices}")
+    names = ", ".join(dict.fromkeys(state.name for state in known))
+    has = f"the states are {names}" if known else "no SRDF with a <group_state> was given"
+    raise SatcheckError("bad-pose", f"no state {name!r}: {has}")
+
+
+def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
+    """The complete pose of these robots.
+
+    Raises SatcheckError (`bad-pose`) for joints that are not there, that cannot move, or that two
+    robots have; and for a wrong number of numbers. A value beyond limits is kept, with a warning.
+    """
+    movable = {joint.name: joint for robot in robots for joint in robot.joints if joint.freedoms}
+    for name, values in pose.items():
+        _check_named(name, values, robots, movable)
+    issues: list[Issue] = []
+    joints: dict[str, Values] = {}
+    for joint in movable.values():
+        if joint.free:
+            joints[joint.name] = pose[joint.name] if joint.name in pose else _rest(joint, issues)
+    for joint in movable.values():
+        if joint.mimic is not None:
+            joints[joint.name] = _followed(joint, movable, joints, pose, issues)
+    for joint in movable.values():
+        issues.extend(_beyond(joint, joints[joint.name]))
+    return Posture({name: joints[name] for name in movable}, tuple(issues))
+
+
+def _text(path: str) -> str:
+    try:
+        if size_of(Path(path)) > _MAX_BYTES:
+            raise SatcheckError("too-large", f"larger than {_MAX_BYTES} bytes", file=path)
+        return Path(path).read_text("utf-8-sig")
+    except UnicodeDecodeError:
+        raise SatcheckError("bad-encoding", "the file of poses is not UTF-8", file=path) from None
+    except OSError as error:
+        reason = f"cannot be read: {error.strerror}"
+        raise SatcheckError("unreadable-file", reason, file=path) from None
+    except SatcheckError as error:
+        raise SatcheckError(error.code, error.message, file=path) from None
+
+
+def _once(members: list[tuple[str, Any]]) -> dict[str, Any]:
+    values = dict(members)
+    if len(values) < len(members):
+        raise ValueError("a joint is named twice in one pose")
+    return values
+
+
+def _pose(document: Any, what: str, file: str | None) -> Pose:
+    if not isinstance(document, dict):
+        raise _bad(f'{what} should be an object {{"joint": value}}', file)
+    return {name: _values(name, value, what, file) for name, value in document.items()}
+
+
+def _values(name: str, value: Any, what: str, file: str | None) -> Values:
+    numbers = value if isinstance(value, list) else [value]
+    if not numbers or not all(type(number) in (int, float) for number in numbers):
+        raise _bad(f"{what}: joint {name!r}: should be a number or a list of numbers", file)
+    try:
+        values = tuple(float(number) for number in numbers)
+    except OverflowError:
+        values = (math.inf,)
+    if not all(map(math.isfinite, values)):
+        raise _bad(f"{what}: joint {name!r}: is not finite", file)
+    return values
+
+
+def _bad(message: str, file: str | None) -> SatcheckError:
+    return SatcheckError("bad-pose", message if file else f"--pose: {message}", file=file)
+
+
+def _check_named(
+    name: str, values: Values, robots: Sequence[Robot], movable: Mapping[str, Joint]
+) -> None:
+    owners = [robot.name for robot in robots if robot.joint(name) is not None]
+    if not owners:
+        close = get_close_matches(name, list(movable), n=1)
+        hint = f" (did you mean {close[0]!r}?)" if close else ""
+        raise SatcheckError("bad-pose", f"unknown joint {name!r}{hint}")
+    if len(owners) > 1:
+        raise SatcheckError("bad-pose", f"joint {name!r}: robots {' and '.join(owners)} have it")
+    if name not in movable:
+        raise SatcheckError("bad-pose", f"joint {name!r} is fixed: it has no value")
+    wanted = movable[name].freedoms
+    if len(values) != wanted:
+        number = "1 number" if wanted == 1 else f"{wanted} numbers"
+        kind = movable[name].kind
+        raise SatcheckError(
+            "bad-pose", f"joint {name!r} ({kind}) takes {number}, not {len(values)}"
+        )
+
+
+def _rest(joint: Joint, issues: list[Issue]) -> Values:
+    if joint.limits is None:
+        return (0.0,) * joint.freedoms
+    value = min(max(0.0, joint.limits.lower), joint.limits.upper)
+    if value:
+        message = f"joint {joint.name!r}: 0 is beyond its limits, so it stands at {value:g}"
+        issues.append(issue("not-at-zero", message))
+    return (value,)
+
+
+def _followed(
+    joint: Joint,
+    movable: Mapping[str, Joint],
+    joints: Mapping[str, Values],
+    pose: Pose,
+    issues: list[Issue],
+) -> Values:
+    """The value of a mimic joint: that of its leader, however long the chain."""
+    value = _mimicked(joint, movable, joints)
+    given = pose.get(joint.name)
+    if given is not None and abs(given[0] - value) > _SAME:
+        leader = joint.mimic.joint if joint.mimic else ""
+        message = (
+            f"joint {joint.name!r} follows {leader!r} and stands at {value:g}, "
+            f"not at {given[0]:g} as the pose says"
+        )
+        issues.append(issue("mimic-differs", message))
+    return (value,)
+
+
+def _mimicked(joint: Joint, movable: Mapping[str, Joint], joints: Mapping[str, Values]) -> float:
+    mimic = joint.mimic
+    if mimic is None:
+        return joints[joint.name][0]
+    leader = movable.get(mimic.joint)  # None: a fixed joint, which stands at 0
+    led = 0.0 if leader is None else _mimicked(leader, movable, joints)
+    return mimic.multiplier * led + mimic.offset
+
+
+def _beyond(joint: Joint, values: Values) -> list[Issue]:
+    if joint.limits is None:
+        return []
+    low, high = joint.limits.lower, joint.limits.upper
+    excess = max(low - values[0], values[0] - high)
+    if excess <= 0:
+        return []
+    message = (
+        f"joint {joint.name!r}: {values[0]:g} is beyond its limits {low:g} .. {high:g} "
+        f"by {excess:.3g}: checked there all the same"
+    )
+    return [issue("beyond-limits", message)]

@@ -1,0 +1,136 @@
+"""Small XML documents as elements that know their lines, for formats read strictly."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import NoReturn
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.xml_guard import guarded_parser, parse_xml
+
+_MAX_BYTES = 64 << 20
+# What C reads as a decimal number; float() would take more ("1_0", "nan", digits of any script).
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
+_XACRO = re.compile(r"\$[({]")
+EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE.urdf)"
+
+
+@dataclass(slots=True)
+class Element:
+    """file: the document's path as given. line: where the element starts."""
+
+    tag: str
+    attributes: dict[str, str]
+    line: int
+    file: str
+    children: list[Element] = field(default_factory=list)
+
+    def all(self, tag: str) -> list[Element]:
+        return [child for child in self.children if child.tag == tag]
+
+    def only(self, tag: str) -> Element | None:
+        """The one child of that name, or None; several are refused."""
+        found = self.all(tag)
+        if len(found) > 1:
+            found[1].refuse(f"a second <{tag}> in one <{self.tag}>")
+        return found[0] if found else None
+
+    def need(self, tag: str) -> Element:
+        return self.only(tag) or self.refuse(f"<{tag}> is missing")
+
+    def text(self, attribute: str) -> str:
+        """An attribute that has to be there, and not empty."""
+        return self.attributes.get(attribute) or self.refuse(f'attribute "{attribute}" is missing')
+
+    def numbers(
+        self, attribute: str, count: int, default: tuple[float, ...] | None = None
+    ) -> tuple[float, ...]:
+        """`count` finite numbers; without a default the attribute has to be there."""
+        if default is not None and attribute not in self.attributes:
+            return default
+        value = self.text(attribute)
+        words = value.split()
+        if len(words) != count:
+            wanted = "1 number" if count == 1 else f"{count} numbers"
+            self._refuse_value(attribute, value, f"should be {wanted}")
+        return tuple(self._number(attribute, word) for word in words)
+
+    def number(self, attribute: str, default: float | None = None) -> float:
+        return self.numbers(attribute, 1, None if default is None else (default,))[0]
+
+    def knows(self, attributes: Collection[str]) -> None:
+        """Refuses attributes beyond these; those of other namespaces ("drake:...") may stay."""
+        from difflib import get_close_matches
+
+        for name in self.attributes:
+            if name not in attributes and ":" not in name:
+                close = get_close_matches(name, sorted(attributes), n=1)
+                hint = f" (did you mean {close[0]!r}?)" if close else ""
+                self.refuse(f"unknown attribute {name!r}{hint}")
+
+    def refuse(self, message: str, code: str = "bad-robot") -> NoReturn:
+        raise SceneFileError(code, f"line {self.line}: <{self.tag}>: {message}", file=self.file)
+
+    def _number(self, attribute: str, word: str) -> float:
+        value = float(word) if _NUMBER.fullmatch(word) else math.nan
+        if not math.isfinite(value):
+            self._refuse_value(attribute, word, "is no finite number")
+        return value
+
+    def _refuse_value(self, attribute: str, value: str, what: str) -> NoReturn:
+        if _XACRO.search(value):
+            self.refuse(f'{attribute}="{value}": {EXPAND}', "xacro")
+        self.refuse(f'{attribute}="{value}" {what}')
+
+
+def read_tree(path: str, location: Path, root: str) -> Element:
+    """The document, whose outermost element has to be `root`.
+
+    Texts between elements are left out. Raises SceneFileError, with the line.
+    """
+    try:
+        if size_of(location) > _MAX_BYTES:
+            raise SceneFileError("too-large", f"larger than {_MAX_BYTES} bytes", file=path)
+        data = location.read_bytes()
+    except SceneFileError:
+        raise
+    except SatcheckError as error:
+        raise SceneFileError(error.code, error.message, file=path) from None
+    except OSError as error:
+        reason = f"cannot be read: {error.strerror}"
+        raise SceneFileError("unreadable-file", reason, file=path) from None
+    document = _parse(path, data)
+    if document.tag != root:
+        document.refuse(f"the outermost element should be <{root}>", "not-this-format")
+    return document
+
+
+def _parse(path: str, data: bytes) -> Element:
+    parser = guarded_parser(namespaces=False)
+    outside = Element("", {}, 0, path)
+    around = [outside]
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, parser.CurrentLineNumber, path)
+        if tag.startswith("xacro:"):
+            element.refuse(EXPAND, "xacro")
+        around[-1].children.append(element)
+        around.append(element)
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda _: around.pop()
+    try:
+        parse_xml(lambda: parser.Parse(data, True))
+    except MeshFileError as error:
+        still = around[-1]
+        ends = (
+            f"; <{still.tag}> of line {still.line} was still open" if still is not outside else ""
+        )
+        raise SceneFileError(error.code, f"{error.message}{ends}", file=path) from None
+    return outside.children[0]

@@ -1,0 +1,44 @@
+"""Small robots as text, and what reading them gives."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from satcheck.scene import SceneFileError
+from satcheck.scene.robot import Robot, read_urdf
+
+SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
+BOX = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+
+
+def link(name: str, inside: str = BOX) -> str:
+    return f'<link name="{name}">{inside}</link>'
+
+
+def joint(name: str, parent: str, child: str, kind: str = "fixed", inside: str = "") -> str:
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f"{inside}</joint>"
+    )
+
+
+def robot_of(*elements: str) -> str:
+    """One element a line, the first in line 2."""
+    return "\n".join(['<robot name="r">', *elements, "</robot>"])
+
+
+def read(folder: Path, text: str) -> Robot:
+    path = folder / "r.urdf"
+    path.write_text(text)
+    return read_urdf("r.urdf", path)[0]
+
+
+def refusal(folder: Path, text: str) -> tuple[str, str]:
+    """(code, message) of a URDF that must be refused, its file named."""
+    with pytest.raises(SceneFileError) as caught:
+        read(folder, text)
+    assert str(caught.value).startswith("r.urdf: ")
+    assert "\n" not in str(caught.value)
+    return caught.value.code, caught.value.message

@@ -1,0 +1,145 @@
+"""A robot among the bodies of a scene: ids, permissions, poses."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import Scene, SceneFileError, load_scene
+from satcheck.scene.robot import pose_of_states, posed
+from tests.scene.files import obj
+from tests.scene.robot.robots import BOX, SAMPLES, joint, link, robot_of
+
+ARM = [SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"]
+
+
+def codes(scene: Scene) -> list[str]:
+    return [issue.code for issue in scene.issues]
+
+
+def load(folder: Path, *elements: str, srdf: str | None = None) -> Scene:
+    path = folder / "r.urdf"
+    path.write_text(robot_of(*elements))
+    if srdf is None:
+        return load_scene([path])
+    (folder / "r.srdf").write_text(srdf)
+    return load_scene([path, folder / "r.srdf"])
+
+
+def test_each_collision_is_a_body() -> None:
+    scene = load_scene(ARM)
+    assert scene.order == ("base", "turret", "upper", "fore/beam", "fore/palm", "left", "right")
+    assert (scene.units, scene.name) == ("m", "arm")
+    assert codes(scene) == ["no-collision-geometry"]
+    files = {body.id: body.file for body in scene.bodies}
+    assert files["upper"] is files["fore/beam"]
+    assert files["upper"].path == (SAMPLES / "arm_beam.stl").as_posix()
+    assert files["base"].path == (SAMPLES / "arm.urdf").as_posix()
+
+
+def test_what_may_touch() -> None:
+    allowed = {tuple(sorted(pair)): why for pair, why in load_scene(ARM).allowed_pairs.items()}
+    assert allowed == {
+        ("fore/beam", "fore/palm"): "one rigid link",
+        ("base", "turret"): "SRDF: Adjacent",
+        ("turret", "upper"): "SRDF: Adjacent",
+        ("fore/beam", "upper"): "SRDF: Adjacent",
+        ("fore/palm", "upper"): "SRDF: Adjacent",
+        ("fore/beam", "left"): "SRDF: Adjacent",
+        ("fore/palm", "left"): "SRDF: Adjacent",
+        ("fore/beam", "right"): "SRDF: Adjacent",
+        ("fore/palm", "right"): "SRDF: Adjacent",
+    }
+
+
+def test_without_an_srdf_neighbours_are_checked_and_a_note_says_so() -> None:
+    scene = load_scene(ARM[:1])
+    assert set(scene.allowed_pairs.values()) == {"one rigid link"}
+    (note,) = [issue for issue in scene.issues if issue.code == "neighbours-checked"]
+    assert note.severity == "note"
+    assert note.message.startswith("5 pairs of links")
+
+
+def test_links_without_bodies_are_part_of_the_joint(tmp_path: Path) -> None:
+    elements = [link("a"), link("frame", ""), link("b"), joint("j", "a", "frame")]
+    scene = load(tmp_path, *elements, joint("k", "frame", "b"))
+    assert scene.robots[0].neighbours() == [("a", "b")]
+
+
+def test_several_collisions_are_numbered_or_named(tmp_path: Path) -> None:
+    named = BOX.replace("<collision>", '<collision name="tip">')
+    scene = load(tmp_path, link("a", BOX + named + BOX), link("a/1"), joint("j", "a", "a/1"))
+    assert scene.order == ("a/1", "a/tip", "a/3", "a/1-2")
+    assert scene.robots[0].bodies_of("a/1") == ["a/1-2"]
+
+
+def test_a_body_that_cannot_be_read_leaves_the_others(tmp_path: Path) -> None:
+    (tmp_path / "cut.obj").write_bytes(obj() + b"f 1 2 99\n")
+    meshes = ("gone.stl", "cut.obj", "text.txt")
+    inside = [f'<mesh filename="{name}"/>' for name in meshes] + ["<plane/>"]
+    elements = [
+        link(name, f"<collision><geometry>{shape}</geometry></collision>")
+        for name, shape in zip("abcd", inside, strict=True)
+    ]
+    joints = [joint(name, "good", name) for name in "abcd"]
+    (tmp_path / "text.txt").write_text("")
+    scene = load(tmp_path, link("good"), *elements, *joints)
+    assert [body.id for body in scene.bodies] == ["good"]
+    assert {lost.id: lost.issue.code for lost in scene.unreadable} == {
+        "a": "missing-resource",
+        "b": "index-out-of-range",
+        "c": "unsupported-format",
+        "d": "unsupported-feature",
+    }
+    assert all(lost.issue.severity == "error" for lost in scene.unreadable)
+    assert posed(scene, {}).unreadable == scene.unreadable
+
+
+def test_another_pose_moves_bodies_and_reads_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = load_scene([*ARM, SAMPLES / "box.obj"])
+    monkeypatch.setattr(Path, "read_bytes", None)
+    moved = posed(scene, {"turn": (3.5,), "grip": (0.25,)})
+    before, after = ({body.id: body for body in one.bodies} for one in (scene, moved))
+    assert all(after[name].file is before[name].file for name in before)
+    assert after["base"].transform == before["base"].transform
+    assert after["left"].transform != before["left"].transform
+    assert after["box"].transform is None
+    assert codes(moved).count("beyond-limits") == 2  # grip, and what mimics it
+    assert codes(posed(moved, {})) == codes(scene)
+
+
+def test_states_are_put_together_unless_they_differ() -> None:
+    scene = load_scene(ARM)
+    pose = pose_of_states(scene, ["bowed", "open"])
+    assert pose == {"shoulder": (1.5,), "elbow": (1.25,), "grip": (0.1875,)}
+    with pytest.raises(SatcheckError, match="different values"):
+        pose_of_states(scene, ["bowed", "folded"])
+
+
+def test_a_mirrored_mesh_is_a_solid_the_right_way_round() -> None:
+    bodies = {body.id: body for body in posed(load_scene(ARM), {"grip": (0.125,)}).bodies}
+    left, right = (bodies[name].world_mesh() for name in ("left", "right"))
+    assert left.topology().volume == right.topology().volume == 1 / 16 / 32 / 4
+    low, high = left.bounds
+    assert right.bounds == ((low[0], -high[1], low[2]), (high[0], -low[1], high[2]))
+
+
+def test_an_srdf_belongs_to_the_robot_of_its_name_or_to_the_only_one(tmp_path: Path) -> None:
+    other = '<robot name="other"><disable_collisions link1="a" link2="x" reason="Never"/></robot>'
+    scene = load(tmp_path, link("a"), srdf=other)
+    assert codes(scene) == ["unknown-body"]
+    srdf = tmp_path / "r.srdf"
+    with pytest.raises(SceneFileError, match="about robot 'other', which is not here"):
+        load_scene([ARM[0], tmp_path / "r.urdf", srdf])
+    with pytest.raises(SceneFileError, match="no URDF is given"):
+        load_scene([srdf])
+    with pytest.raises(SceneFileError, match="a second SRDF about robot 'arm'"):
+        load_scene([*ARM, ARM[1]])
+
+
+def test_two_robots_have_ids_of_their_own() -> None:
+    scene = load_scene([*ARM, ARM[0]])
+    assert len(set(scene.order)) == 14
+    assert "fore/palm-2" in scene.order

@@ -1,0 +1,129 @@
+"""Where the meshes of a URDF are looked for, and what it cannot reach by itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from satcheck.scene import MeshFileError
+from satcheck.scene.robot import MeshPlaces
+
+
+@pytest.fixture(autouse=True)
+def _no_ros(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+
+
+def file(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("")
+    return path
+
+
+def refusal(places: MeshPlaces, uri: str) -> tuple[str, str]:
+    with pytest.raises(MeshFileError) as caught:
+        places.locate(uri)
+    return caught.value.code, caught.value.message
+
+
+def places(folder: Path, **options: object) -> MeshPlaces:
+    return MeshPlaces(str(folder / "arm.urdf"), **options)  # type: ignore[arg-type]
+
+
+def test_beside_the_urdf(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "meshes" / "a b.stl")
+    assert places(tmp_path).locate("meshes/a b.stl") == mesh
+    assert places(tmp_path).locate("./meshes/../meshes/a b.stl") == mesh
+    assert places(tmp_path).locate(str(mesh)) == mesh
+    assert places(tmp_path).locate(f"file://{tmp_path}/meshes/a%20b.stl") == mesh
+    code, message = refusal(places(tmp_path), "meshes/b.stl")
+    assert code == "missing-resource"
+    assert str(tmp_path / "meshes" / "b.stl") in message
+
+
+def test_relative_paths_stay_relative(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file(tmp_path / "arm" / "urdf" / "a.stl")
+    file(tmp_path / "arm" / "package.xml")
+    monkeypatch.chdir(tmp_path / "arm")
+    assert MeshPlaces("urdf/r.urdf").locate("a.stl") == Path("urdf/a.stl")
+    assert MeshPlaces("urdf/r.urdf").locate("package://arm/urdf/a.stl") == Path("urdf/a.stl")
+
+
+def test_outside_its_folder_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "meshes" / "a.stl")
+    urdf = tmp_path / "urdf"
+    urdf.mkdir()
+    (urdf / "link.stl").symlink_to(mesh)
+    for uri in ("../meshes/a.stl", str(mesh), f"file://{mesh}", "link.stl"):
+        code, message = refusal(places(urdf), uri)
+        assert code == "outside-path"
+        assert "--allow-outside" in message
+        assert places(urdf, allow_outside=True).locate(uri).samefile(mesh)
+
+
+def test_the_package_around_a_urdf_belongs_to_it(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "arm" / "meshes" / "a.stl")
+    file(tmp_path / "arm" / "package.xml")
+    urdf = tmp_path / "arm" / "urdf"
+    urdf.mkdir()
+    assert places(urdf).locate("../meshes/a.stl") == mesh
+    assert places(urdf).locate("package://arm/meshes/a.stl") == mesh
+    assert places(urdf).locate("model://arm/meshes/a.stl") == mesh
+
+
+def test_a_package_beside_is_found_but_has_to_be_allowed(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "meshes_of_arm" / "a.stl")
+    urdf = tmp_path / "arm" / "urdf"
+    urdf.mkdir(parents=True)
+    uri = "package://meshes_of_arm/a.stl"
+    code, message = refusal(places(urdf), uri)
+    assert code == "outside-path"
+    assert "--package meshes_of_arm=DIR" in message
+    assert places(urdf, allow_outside=True).locate(uri) == mesh
+    assert places(urdf, packages={"meshes_of_arm": mesh.parent}).locate(uri) == mesh
+
+
+@pytest.mark.parametrize(
+    ("variable", "entry"),
+    [
+        ("ROS_PACKAGE_PATH", "ws"),
+        ("ROS_PACKAGE_PATH", "ws/arm"),
+        ("AMENT_PREFIX_PATH", "prefix"),
+    ],
+)
+def test_ros_says_where_packages_are(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, variable: str, entry: str
+) -> None:
+    mesh = file(tmp_path / ("prefix/share/arm" if "AMENT" in variable else "ws/arm") / "a.stl")
+    monkeypatch.setenv(variable, str(tmp_path / entry))
+    urdf = tmp_path / "elsewhere"
+    urdf.mkdir()
+    assert places(urdf).locate("package://arm/a.stl") == mesh
+    assert refusal(places(urdf), "package://arm/../../secret.stl")[0] == "missing-resource"
+
+
+def test_the_longest_name_given_counts_and_is_trusted_as_far_as_its_folder(tmp_path: Path) -> None:
+    near, far = file(tmp_path / "near" / "a.stl"), file(tmp_path / "far" / "x" / "b.stl")
+    urdf = tmp_path / "urdf"
+    urdf.mkdir()
+    found = places(urdf, packages={"arm": far.parents[1], "arm/meshes/": near.parent})
+    assert found.locate("package://arm/meshes/a.stl") == near
+    assert found.locate("package://arm/x/b.stl") == far
+    assert refusal(found, "package://arm/x/c.stl")[0] == "missing-resource"
+    assert refusal(found, "package://arm/../near/a.stl")[0] == "outside-path"
+
+
+@pytest.mark.parametrize(
+    ("uri", "code", "said"),
+    [
+        ("package://nowhere/a.stl", "missing-resource", "--package nowhere=DIR"),
+        ("https://example.org/a.stl", "unsupported-feature", "https:// is not fetched"),
+        ("a\0.stl", "bad-record", "NUL"),
+    ],
+)
+def test_what_is_not_found(tmp_path: Path, uri: str, code: str, said: str) -> None:
+    found, message = refusal(places(tmp_path), uri)
+    assert found == code
+    assert said in message

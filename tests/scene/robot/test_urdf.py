@@ -1,0 +1,173 @@
+"""What a URDF says, and each way in which it can be wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from satcheck.scene.primitives import Box, Capsule, Cylinder, Sphere
+from satcheck.scene.robot.model import Limits, MeshReference, Mimic, UnknownShape
+from satcheck.scene.robot.urdf import read_urdf
+from tests.scene.robot.robots import SAMPLES, joint, link, read, refusal, robot_of
+
+LIMIT = '<limit lower="-1" upper="2"/>'
+
+
+def geometry(shape: str, beside: str = "") -> str:
+    return link("a", f"<collision>{beside}<geometry>{shape}</geometry></collision>")
+
+
+def test_the_sample() -> None:
+    robot, issues = read_urdf("arm.urdf", SAMPLES / "arm.urdf")
+    assert (robot.name, robot.root, issues) == ("arm", "base", ())
+    assert [j.name for j in robot.joints][:4] == ["turn", "shoulder", "elbow", "grip"]
+    assert {j.name: j.kind for j in robot.joints if j.free} == {
+        "turn": "continuous",
+        "shoulder": "revolute",
+        "elbow": "revolute",
+        "grip": "prismatic",
+    }
+    right = robot.joint("grip_right")
+    assert right is not None
+    assert right.mimic == Mimic("grip", -1.0, 0.0)
+    assert right.limits == Limits(-0.1875, 0.0)
+    assert [one.name for one in robot.links["fore"].collisions] == ["beam", "palm"]
+    assert robot.links["right"].collisions[0].geometry == MeshReference(
+        "arm_finger.obj", (1.0, -1.0, 1.0)
+    )
+    assert robot.links["camera"].visual
+    assert not robot.links["camera"].collisions
+
+
+@pytest.mark.parametrize(
+    ("shape", "expected"),
+    [
+        ('<box size="1 2 3"/>', Box((1.0, 2.0, 3.0))),
+        ('<sphere radius="2"/>', Sphere(2.0)),
+        ('<cylinder radius="1" length="3"/>', Cylinder(1.0, 3.0)),
+        ('<capsule radius="1" length="3"/>', Capsule(1.0, 3.0)),
+        ('<mesh filename="x.stl"/>', MeshReference("x.stl", (1.0, 1.0, 1.0))),
+        ('<mesh filename="x.stl" scale="1 -1 .5e-3"/>', MeshReference("x.stl", (1.0, -1.0, 5e-4))),
+    ],
+)
+def test_shapes(tmp_path: Path, shape: str, expected: object) -> None:
+    assert read(tmp_path, robot_of(geometry(shape))).links["a"].collisions[0].geometry == expected
+
+
+def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Path) -> None:
+    robot = read(tmp_path, robot_of(geometry("<plane/>")))
+    shape = robot.links["a"].collisions[0].geometry
+    assert isinstance(shape, UnknownShape)
+    assert shape.reason.startswith("line 2: <plane>")
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [
+        ("", "should hold one shape, not 0"),
+        ('<sphere radius="1"/><sphere radius="1"/>', "should hold one shape, not 2"),
+        ('<box size="1 2"/>', 'size="1 2" should be 3 numbers'),
+        ('<box size="1 2 nan"/>', 'size="nan" is no finite number'),
+        ('<box size="1 2 1e999"/>', 'size="1e999" is no finite number'),
+        ('<box size="1 2 1_0"/>', 'size="1_0" is no finite number'),
+        ('<box size="1,0 2 3"/>', 'size="1,0" is no finite number'),
+        ('<box size="1 2 0"/>', "should be positive"),
+        ('<box sise="1 2 3"/>', "unknown attribute 'sise' (did you mean 'size'?)"),
+        ("<box/>", 'attribute "size" is missing'),
+        ('<sphere radius="-1"/>', "should be positive"),
+        ('<cylinder radius="1"/>', 'attribute "length" is missing'),
+        ("<mesh/>", 'attribute "filename" is missing'),
+        ('<mesh filename="a.stl" scale="1 0 1"/>', "scale 0 flattens the mesh"),
+        ('<mesh filename="a.stl" scale="2"/>', 'scale="2" should be 3 numbers'),
+    ],
+)
+def test_wrong_shapes_are_refused_with_their_line(tmp_path: Path, shape: str, said: str) -> None:
+    _, message = refusal(tmp_path, robot_of("", geometry(shape)))
+    assert message.startswith("line 3: <")
+    assert said in message
+
+
+@pytest.mark.parametrize(
+    ("origin", "said"),
+    [
+        ('<origin xyz="1 2 3 4"/>', "should be 3 numbers"),
+        ('<origin xyx="1 2 3"/>', "unknown attribute 'xyx' (did you mean 'xyz'?)"),
+        ('<origin rpy="0 0 inf"/>', 'rpy="inf" is no finite number'),
+        ('<origin rpy="0 0 0" quat_xyzw="0 0 0 1"/>', "both rpy and quat_xyzw"),
+        ('<origin quat_xyzw="0 0 0 0"/>', "length 0"),
+        ('<origin xyz="1 2 3"/><origin/>', "a second <origin> in one <collision>"),
+    ],
+)
+def test_wrong_origins(tmp_path: Path, origin: str, said: str) -> None:
+    assert said in refusal(tmp_path, robot_of(geometry('<box size="1 1 1"/>', origin)))[1]
+
+
+@pytest.mark.parametrize(
+    ("kind", "inside", "said"),
+    [
+        ("hinge", "", "type 'hinge' is none of revolute, continuous, prismatic"),
+        ("revolute", "", "a revolute joint without <limit>"),
+        ("prismatic", "", "a prismatic joint without <limit>"),
+        ("revolute", '<limit lower="2" upper="1"/>', "lower 2 is above upper 1"),
+        ("revolute", '<limit lover="0" upper="1"/>', "did you mean 'lower'?"),
+        ("revolute", LIMIT + '<axis xyz="0 0 0"/>', "an axis of length 0"),
+        ("revolute", LIMIT + '<axis xyz="0 1"/>', "should be 3 numbers"),
+        ("fixed", '<mimic joint="k"/>', "a fixed joint cannot mimic"),
+        ("floating", '<mimic joint="k"/>', "a floating joint cannot mimic"),
+        ("revolute", LIMIT + "<mimic/>", 'attribute "joint" is missing'),
+        ("revolute", LIMIT + LIMIT, "a second <limit> in one <joint>"),
+    ],
+)
+def test_wrong_joints(tmp_path: Path, kind: str, inside: str, said: str) -> None:
+    text = robot_of(link("a"), link("b"), joint("j", "a", "b", kind, inside))
+    code, message = refusal(tmp_path, text)
+    assert code == "bad-robot"
+    assert message.startswith("line 4: <")
+    assert said in message
+
+
+def test_a_joint_without_its_links(tmp_path: Path) -> None:
+    text = robot_of(link("a"), '<joint name="j" type="fixed"><parent link="a"/></joint>')
+    assert "<child> is missing" in refusal(tmp_path, text)[1]
+
+
+def test_an_axis_gets_length_1_and_that_of_a_fixed_joint_does_not_matter(tmp_path: Path) -> None:
+    axis = '<axis xyz="0 0 -2"/>'
+    turns = joint("j", "a", "b", "continuous", axis)
+    stays = joint("k", "b", "c", "fixed", '<axis xyz="0 0 0"/>')
+    robot = read(tmp_path, robot_of(link("a"), link("b"), link("c"), turns, stays))
+    assert robot.joints[0].axis == (0.0, 0.0, -1.0)
+
+
+def test_names(tmp_path: Path) -> None:
+    assert refusal(tmp_path, robot_of(link("a"), link("a")))[0] == "duplicate-id"
+    twice = [joint("j", "a", "b"), joint("j", "b", "c")]
+    text = robot_of(link("a"), link("b"), link("c"), *twice)
+    assert refusal(tmp_path, text) == ("duplicate-id", "line 6: <joint>: a second joint 'j'")
+    assert "without links" in refusal(tmp_path, robot_of())[1]
+    assert '"name" is missing' in refusal(tmp_path, robot_of("<link/>"))[1]
+
+
+def test_what_is_misspelt_is_told_and_what_simulators_add_is_not(tmp_path: Path) -> None:
+    inside = "<inertial/><gazebo:x/><contact/><colision/>"
+    path = tmp_path / "r.urdf"
+    path.write_text(robot_of(link("a", inside), "<gazebo/>", "<transmission/>"))
+    _, (issue,) = read_urdf("r.urdf", path)
+    assert issue.code == "unknown-element"
+    assert "line 2: unknown <colision> in 'a' (did you mean <collision>?)" in issue.message
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        robot_of('<xacro:macro name="x"/>'),
+        robot_of(geometry('<box size="${w} 1 1"/>')),
+        robot_of(geometry('<box size="1 1 $(arg h)"/>')),
+    ],
+)
+def test_xacro_has_to_be_expanded(tmp_path: Path, text: str) -> None:
+    code, message = refusal(tmp_path, text)
+    assert code == "xacro"
+    assert "line 2" in message
+    assert "expand it first" in message
