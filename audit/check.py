@@ -20,6 +20,7 @@ from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
+    from satcheck.audit.placed_body import SharedMesh
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Scene
 
@@ -41,13 +42,15 @@ def check(
     scene: Scene | Sequence[str | Path],
     settings: Settings = DEFAULT_SETTINGS,
     progress: Progress | None = None,
+    meshes: dict[str, SharedMesh] | None = None,
 ) -> Report:
     """Check every pair of bodies that the scene does not exempt.
 
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
     this thread as pairs are settled. Findings come in the order of the bodies, whatever the threads
     do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
-    bodies (Settings.list_pruned).
+    bodies (Settings.list_pruned). meshes: what earlier checks with the same settings found out
+    about mesh files, for those of this one to find and to add to.
 
     Raises SatcheckError (`too-few-bodies`, `cross-check-missing`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
@@ -55,7 +58,7 @@ def check(
     scene = _loaded(scene, settings)
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
-    roster = place(scene, settings)
+    roster = place(scene, settings, meshes)
     close = _close_pairs(roster, settings)
     examined = _examine_all(roster, close, settings, progress)
     findings = _findings(roster, close, examined, settings)

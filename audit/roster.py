@@ -92,9 +92,12 @@ def _pairs(n: int) -> int:
     return n * (n - 1) // 2
 
 
-def place(scene: Scene, settings: Settings) -> Roster:
-    """Put every body into the world; one whose pose leaves the number range is lost."""
-    shared: dict[str, SharedMesh] = {}
+def place(scene: Scene, settings: Settings, shared: dict[str, SharedMesh] | None = None) -> Roster:
+    """Put every body into the world; one whose pose leaves the number range is lost.
+
+    shared: what is known of mesh files by their sha256; those that are new here are added.
+    """
+    shared = {} if shared is None else shared
     placed: dict[int, PlacedBody] = {}
     lost: dict[int, Lost] = {}
     issues: list[Issue] = []
@@ -104,7 +107,9 @@ def place(scene: Scene, settings: Settings) -> Roster:
             reason = f"unreadable {body.file}: {body.issue.code}"
             lost[index] = Lost(body.id, body.file, reason, body.groups)
             continue
-        mesh = shared.setdefault(body.file.sha256, SharedMesh(body.file, settings))
+        if body.file.sha256 not in shared:
+            shared[body.file.sha256] = SharedMesh(body.file, settings)
+        mesh = shared[body.file.sha256]
         try:
             placed[index] = PlacedBody(body, mesh)
         except (ValueError, OverflowError) as error:

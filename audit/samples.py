@@ -1,0 +1,180 @@
+"""The same bodies in many poses of their robots: one verdict a pose, and a tally a pair."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from satcheck.audit.check import DEFAULT_SETTINGS, check
+from satcheck.audit.placed_body import SharedMesh
+from satcheck.audit.report import (
+    OVERLAPS,
+    BodyReport,
+    Exempt,
+    Finding,
+    Issue,
+    Report,
+    Tool,
+    Verdict,
+)
+from satcheck.audit.settings import Settings
+
+if TYPE_CHECKING:
+    from satcheck.scene import Scene
+    from satcheck.scene.robot import Pose, Posture
+
+SCHEMA = "satcheck.samples/1"
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """One pose. findings: the pairs that are not plainly separated there."""
+
+    posture: Posture
+    verdict: Verdict
+    findings: tuple[Finding, ...]
+    issues: tuple[Issue, ...]
+
+
+@dataclass(slots=True)
+class PairTally:
+    """One asked pair over all samples, in how many of which it is what.
+
+    undecided: indeterminate, or checked by surfaces only. first_overlap: number of the first sample
+    with an overlap, from 0. Where none of the counts applies the pair is separated.
+    """
+
+    a: str
+    b: str
+    overlaps: int = 0
+    touches: int = 0
+    near: int = 0
+    undecided: int = 0
+    first_overlap: int | None = None
+
+    @property
+    def contacts(self) -> int:
+        """In how many samples the two overlap or touch."""
+        return self.overlaps + self.touches
+
+    def count(self, finding: Finding, number: int) -> None:
+        if finding.relation in OVERLAPS:
+            self.overlaps += 1
+            if self.first_overlap is None:
+                self.first_overlap = number
+        elif finding.relation == "touching":
+            self.touches += 1
+        elif finding.relation == "near":
+            self.near += 1
+        elif finding.relation == "indeterminate" or finding.severity == "warning":
+            self.undecided += 1
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """What `check_poses` found.
+
+    pairs: of every asked pair, in the order of the bodies, those that never met included. bodies
+    and exempt: as in a report; the transforms are those of the last sample. issues: those that are
+    not about one pose.
+    """
+
+    tool: Tool
+    units: str | None
+    settings: dict[str, object]
+    bodies: tuple[BodyReport, ...]
+    exempt: Exempt
+    samples: tuple[Sample, ...]
+    pairs: tuple[PairTally, ...]
+    issues: tuple[Issue, ...]
+    tracebacks: tuple[str, ...] = field(default=())
+
+    @property
+    def verdict(self) -> Verdict:
+        """The worst of the samples."""
+        found = {sample.verdict for sample in self.samples}
+        worst: Sequence[Verdict] = ("fail", "incomplete", "pass")
+        return next(verdict for verdict in worst if verdict in found)
+
+
+def check_poses(
+    scene: Scene,
+    poses: Sequence[Pose],
+    settings: Settings = DEFAULT_SETTINGS,
+    progress: Callable[[int, int], None] | None = None,
+) -> Samples:
+    """Check the scene in each of these poses of its robots, one at least.
+
+    scene: loaded, with `robots`. poses: joint -> values, for instance from `scene.robot`'s
+    `joint_samples([robot.robot for robot in scene.robots], count, seed)`, or read by `read_poses`.
+    progress(done, total) counts poses. Meshes were read once, and what depends on a mesh alone
+    (whether it is convex, its parts) is found once for all poses.
+
+    For yes or no without depths, and much faster: Settings(depth=False). A pair of
+    `Samples.pairs` that is always in contact has `contacts == len(samples)`, one that never is has
+    `contacts == undecided == 0`.
+
+    Raises SatcheckError for a pose that names what the robots do not have, and what `check` raises.
+    """
+    from satcheck.scene.robot import posed
+
+    if not poses:
+        raise ValueError("no pose to check")
+    placed = [posed(scene, pose) for pose in poses]  # all poses are judged before work is done
+    meshes: dict[str, SharedMesh] = {}
+    tallies: dict[tuple[str, str], PairTally] = {}
+    samples: list[Sample] = []
+    common: dict[Issue, None] = {}
+    tracebacks: list[str] = []
+    report: Report | None = None
+    for number, one in enumerate(placed):
+        report = check(one, replace(settings, list_pruned=False), meshes=meshes)
+        sample, others = _sample(report, one.posture)
+        samples.append(sample)
+        common |= dict.fromkeys(others)
+        tracebacks += report.tracebacks
+        for finding in sample.findings:
+            pair = finding.a, finding.b
+            tallies.setdefault(pair, PairTally(*pair)).count(finding, number)
+        if progress is not None:
+            progress(number + 1, len(placed))
+    assert report is not None
+    return Samples(
+        tool=report.tool,
+        units=report.units,
+        settings=dict(report.settings),
+        bodies=report.bodies,
+        exempt=report.exempt,
+        samples=tuple(samples),
+        pairs=_all_pairs(report, tallies),
+        issues=tuple(common),
+        tracebacks=tuple(tracebacks),
+    )
+
+
+def _sample(report: Report, posture: Posture | None) -> tuple[Sample, list[Issue]]:
+    """The sample, and the issues that are not about its pose."""
+    assert posture is not None
+    own = {(found.code, found.message) for found in posture.issues}
+    of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
+    others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
+    findings = tuple(
+        finding
+        for finding in report.findings
+        if finding.relation != "separated" or finding.severity == "warning"
+    )
+    return Sample(posture, report.summary.verdict, findings, tuple(of_pose)), others
+
+
+def _all_pairs(report: Report, tallies: dict[tuple[str, str], PairTally]) -> tuple[PairTally, ...]:
+    """Of every asked pair, in the order of the bodies."""
+    ignored = set(report.exempt.groups)
+    allowed = {frozenset(pair) for pair in report.exempt.pairs}
+    pairs = []
+    for j, b in enumerate(report.bodies):
+        for a in report.bodies[:j]:
+            together = ignored.intersection(a.groups, b.groups)
+            if not together and frozenset((a.id, b.id)) not in allowed:
+                pairs.append(tallies.get((a.id, b.id)) or PairTally(a.id, b.id))
+    return tuple(pairs)

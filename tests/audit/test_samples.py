@@ -1,0 +1,119 @@
+"""Many poses of one robot: a verdict each, and a tally of every pair."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from satcheck.audit import Settings, check
+from satcheck.audit.samples import Samples, check_poses
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import load_scene
+from satcheck.scene.robot import Pose, joint_samples, posed, read_poses
+
+SAMPLES = Path(__file__).resolve().parents[2] / "sample_meshes"
+ARM = load_scene([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"])
+ROBOTS = [robot.robot for robot in ARM.robots]
+QUICK = Settings(depth=False)
+
+
+def poses() -> list[Pose]:
+    found = read_poses(str(SAMPLES / "arm_poses.json"))
+    assert isinstance(found, list)
+    return found
+
+
+def overlapping(found: Samples, number: int) -> set[tuple[str, str]]:
+    findings = found.samples[number].findings
+    return {(one.a, one.b) for one in findings if one.relation == "penetrating"}
+
+
+def test_each_pose_has_the_verdict_of_a_check_of_its_own() -> None:
+    drawn = joint_samples(ROBOTS, 12, 3)
+    found = check_poses(ARM, drawn, QUICK)
+    assert {sample.verdict for sample in found.samples} == {"pass", "fail"}
+    for sample, pose in zip(found.samples, drawn, strict=True):
+        report = check(posed(ARM, pose), QUICK)
+        assert sample.verdict == report.summary.verdict
+        assert [(one.a, one.b, one.relation) for one in sample.findings] == [
+            (one.a, one.b, one.relation) for one in report.findings if one.relation != "separated"
+        ]
+        assert sample.posture.joints.items() >= pose.items()
+
+
+def test_the_sample_poses() -> None:
+    found = check_poses(ARM, poses())
+    assert [sample.verdict for sample in found.samples] == ["pass", "fail", "fail"]
+    assert found.verdict == "fail"
+    assert overlapping(found, 1) == {("base", "left"), ("base", "right"), ("turret", "fore/palm")}
+    assert overlapping(found, 2) == {("base", "upper")}
+    assert all(one.depth for one in found.samples[2].findings if one.relation == "penetrating")
+
+
+def test_every_asked_pair_has_its_tally() -> None:
+    found = check_poses(ARM, [{}, {"elbow": (3.0,)}, {"elbow": (3.0,)}, {"grip": (0.125,)}], QUICK)
+    allowed = set(ARM.allowed_pairs)
+    asked = [pair for pair in combinations(ARM.order, 2) if frozenset(pair) not in allowed]
+    assert sorted((tally.a, tally.b) for tally in found.pairs) == sorted(asked)
+    tallies = {(tally.a, tally.b): tally for tally in found.pairs}
+    fingers = tallies["left", "right"]  # closed in the first three
+    assert (fingers.touches, fingers.overlaps, fingers.contacts) == (3, 0, 3)
+    assert fingers.first_overlap is None
+    palm = tallies["turret", "fore/palm"]
+    assert (palm.overlaps, palm.first_overlap) == (2, 1)
+    assert tallies["base", "upper"].contacts == 0
+
+
+def test_near_counts_as_near() -> None:
+    found = check_poses(ARM, [{"grip": (0.0625,)}], Settings(depth=False, clearance=0.25))
+    tallies = {(tally.a, tally.b): tally for tally in found.pairs}
+    assert tallies["left", "right"].near == 1
+    assert tallies["left", "right"].contacts == 0
+
+
+def test_what_cannot_be_read_is_undecided_in_every_pose(tmp_path: Path) -> None:
+    text = (SAMPLES / "arm.urdf").read_text().replace("arm_finger.obj", "gone.obj")
+    (tmp_path / "arm.urdf").write_text(text)
+    (tmp_path / "arm_beam.stl").write_bytes((SAMPLES / "arm_beam.stl").read_bytes())
+    found = check_poses(load_scene([tmp_path / "arm.urdf", SAMPLES / "arm.srdf"]), poses()[:1])
+    assert found.verdict == "incomplete"
+    tallies = {(tally.a, tally.b): tally for tally in found.pairs}
+    assert tallies["base", "left"].undecided == 1
+    assert [issue.code for issue in found.issues].count("missing-resource") == 2
+
+
+def test_issues_stand_with_their_pose_and_the_others_once() -> None:
+    found = check_poses(ARM, [{"elbow": (3.25,)}, {}], QUICK)
+    assert [issue.code for issue in found.samples[0].issues] == ["beyond-limits"]
+    assert not found.samples[1].issues
+    assert [issue.code for issue in found.issues] == ["no-collision-geometry"]
+
+
+def test_progress_counts_poses() -> None:
+    seen: list[tuple[int, int]] = []
+    check_poses(ARM, poses(), QUICK, lambda done, total: seen.append((done, total)))
+    assert seen == [(1, 3), (2, 3), (3, 3)]
+
+
+def test_no_work_is_done_when_a_later_pose_is_wrong() -> None:
+    seen: list[int] = []
+    with pytest.raises(SatcheckError, match="unknown joint"):
+        check_poses(ARM, [{}, {"x": (1.0,)}], QUICK, lambda done, _: seen.append(done))
+    assert not seen
+
+
+def test_a_mesh_is_judged_convex_once_for_all_poses(monkeypatch: pytest.MonkeyPatch) -> None:
+    from satcheck.audit.placed_body import SharedMesh
+
+    judged: list[str] = []
+    convex = SharedMesh._convex
+
+    def counted(self: SharedMesh) -> bool:
+        judged.append(self.file.sha256)
+        return convex(self)
+
+    monkeypatch.setattr(SharedMesh, "_convex", counted)
+    check_poses(ARM, joint_samples(ROBOTS, 10, 3), QUICK)
+    assert len(judged) == len(set(judged))
