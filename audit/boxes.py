@@ -1,4 +1,4 @@
-"""Axis-aligned world boxes: their gap, the shortest way out, whether one holds the other."""
+"""Axis-aligned world boxes: the shortest way out, whether one holds the other."""
 
 from __future__ import annotations
 
@@ -12,15 +12,6 @@ Box = tuple[Vector, Vector]
 
 def largest_coordinate(*boxes: Box) -> float:
     return max(abs(c) for box in boxes for corner in box for c in corner)
-
-
-def box_gap(a: Box, b: Box) -> float:
-    """A proven lower bound of the distance of two closed boxes: 0.0 exactly when they meet."""
-    (a_min, a_max), (b_min, b_max) = a, b
-    gaps = [max(b_min[axis] - a_max[axis], a_min[axis] - b_max[axis], 0.0) for axis in range(3)]
-    largest = max(gaps)
-    # Three roundings under the root, one difference each: 4 roundoffs of the result cover them.
-    return max(largest * (1 - UNIT_ROUNDOFF), math.hypot(*gaps) * (1 - 8 * UNIT_ROUNDOFF))
 
 
 def diagonal(box: Box) -> float:

@@ -59,7 +59,7 @@ def check(
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
     roster = place(scene, settings, meshes)
-    close = _close_pairs(roster, settings)
+    close = close_pairs(roster, settings)
     examined = _examine_all(roster, close, settings, progress)
     findings = _findings(roster, close, examined, settings)
     issues = issues_of(scene, roster, (issue for one in examined for issue in one.issues))
@@ -87,22 +87,6 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
         seconds_per_file=settings.seconds_per_file,
         megabytes_per_file=settings.megabytes_per_file,
     )
-
-
-def _close_pairs(roster: Roster, settings: Settings) -> list[tuple[int, int]]:
-    """Asked pairs whose boxes are no further apart than what is asked about."""
-    half_clearance = 0.5 * (settings.clearance or 0.0)
-    boxes = [body.bounds for body in roster.placed.values()]
-    reach = [
-        max(
-            half_clearance,
-            body.resolution if settings.tolerance is None else 0.5 * settings.tolerance,
-        )
-        for body in roster.placed.values()
-    ]
-    index = tuple(roster.placed)
-    close = ((index[i], index[j]) for i, j in close_pairs(boxes, reach))
-    return [pair for pair in close if roster.is_asked(*pair)]
 
 
 def _examine_all(

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from satcheck import core
-from satcheck.audit.boxes import box_gap, holds
+from satcheck.audit.boxes import holds
 from satcheck.audit.oriented_box import oriented_boxes
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
@@ -69,7 +69,7 @@ def _apart_or_guess(gap: float) -> Contact:
 
 def boxes_apart(pair: Pair, plan: Plan) -> float:
     """Rung 0: a lower bound of the gap of the world boxes, 0.0 when they meet."""
-    gap = box_gap(pair.a.bounds, pair.b.bounds)
+    gap = core.box_gap(pair.a.bounds, pair.b.bounds)
     if gap > 0:
         plan.record("aabb", "separated", f"world boxes apart by at least {gap:.6g}")
     else:

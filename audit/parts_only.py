@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.boxes import box_gap, largest_coordinate
+from satcheck.audit.boxes import largest_coordinate
 from satcheck.audit.inner_bodies import deepest_pair
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
@@ -46,7 +46,7 @@ def settle_by_parts(pair: Pair, plan: Plan) -> Contact:
 def _gap(a: Covering, b: Covering) -> float:
     """A lower bound of the distance of the nearest two parts, a rounding below it."""
     bounds = sorted(
-        (box_gap(part_a.bounds, part_b.bounds), i, j)
+        (core.box_gap(part_a.bounds, part_b.bounds), i, j)
         for i, part_a in enumerate(a.parts)
         for j, part_b in enumerate(b.parts)
     )

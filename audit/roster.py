@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -69,23 +69,31 @@ class Roster:
 
     def total(self) -> int:
         """Pairs that are not ignored."""
-        alike = list(Counter(groups for groups in self.ignored_of if groups).items())
-        ignored = sum(_pairs(count) for _, count in alike) + sum(
-            count * other_count
-            for k, (groups, count) in enumerate(alike)
-            for other, other_count in alike[:k]
-            if not groups.isdisjoint(other)
-        )
+        kinds, alike = kinds_of(self.ignored_of)
+        size = Counter(kinds)
+        ignored = sum(_pairs(size[a]) if a == b else size[a] * size[b] for a, b in alike)
         return _pairs(len(self.ids)) - ignored
 
-    def allowed(self) -> int:
-        """Allowed pairs of bodies that are here and not ignored anyway."""
-        index = {id: k for k, id in enumerate(self.ids)}
-        found = 0
+    def allowed_pairs(self) -> Iterator[tuple[int, int]]:
+        """Allowed pairs of bodies that are here and not ignored anyway; the first body first."""
+        index = {id: k for k, id in enumerate(self.ids)} if self.allowed_ids else {}
         for pair in self.allowed_ids:
-            members = [index[id] for id in pair if id in index]
-            found += len(members) == 2 and not self.is_ignored(*members)
-        return found
+            members = sorted(index[id] for id in pair if id in index)
+            if len(members) == 2 and not self.is_ignored(*members):
+                yield members[0], members[1]
+
+
+def kinds_of(groups: Sequence[frozenset[str]]) -> tuple[list[int], list[tuple[int, int]]]:
+    """Bodies in the same groups are of one kind: the kind of each, and the pairs of kinds that
+    have a group in common, each once with the lower kind first."""
+    kinds: dict[frozenset[str], int] = {}
+    kind_of = [kinds.setdefault(one, len(kinds)) for one in groups]
+    members: dict[str, list[int]] = {}
+    for one, kind in kinds.items():
+        for group in one:
+            members.setdefault(group, []).append(kind)
+    alike = {(a, b) for kinds_in in members.values() for b in kinds_in for a in kinds_in if a <= b}
+    return kind_of, sorted(alike)
 
 
 def _pairs(n: int) -> int:

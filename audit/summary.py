@@ -36,13 +36,14 @@ def tool() -> Tool:
 
 def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts:
     """close: how many pairs the broad phase left over. Raises RuntimeError if a pair is lost."""
+    total, allowed = roster.total(), sum(1 for _ in roster.allowed_pairs())
     unreadable = sum(1 for _ in roster.unreadable_pairs())
     indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
     counts = PairCounts(
-        total=roster.total(),
-        pruned=roster.total() - roster.allowed() - unreadable - close,
+        total=total,
+        pruned=total - allowed - unreadable - close,
         decided=close - (indeterminate - unreadable),
-        allowed=roster.allowed(),
+        allowed=allowed,
         indeterminate=indeterminate,
     )
     unlisted = counts.total - counts.allowed - len(findings)

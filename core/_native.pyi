@@ -202,6 +202,16 @@ class PolygonResult:
     @property
     def edge_b(self) -> int: ...
 
+Box3 = tuple[Point, Point]
+
+def box_gap(a: Box3, b: Box3) -> float: ...
+def close_pairs(
+    boxes: Sequence[Box3],
+    reach: Sequence[float],
+    kinds: Sequence[int],
+    exempt_kinds: Sequence[tuple[int, int]] = ...,
+    exempt: Sequence[tuple[int, int]] = ...,
+) -> list[tuple[int, int]]: ...
 def check_pair(
     a: Shape,
     b: Shape,

@@ -17,6 +17,7 @@ namespace nb = nanobind;
 using namespace satcheck;
 
 namespace satcheck {
+void bind_broad_phase(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
 void bind_mesh(nb::module_& m);
@@ -295,6 +296,7 @@ NB_MODULE(_native, m) {
   // Shapes held by a module that lives until the interpreter ends are no leak, and no news for stderr.
   nb::set_leak_warnings(false);
   bind_mesh(m);
+  bind_broad_phase(m);
   bind_contacts(m);
   bind_depth(m);
   bind_shapes(m);

@@ -22,7 +22,7 @@ constexpr int kAxisBits = 21;              // of a Morton code: three of them fi
 
 struct Item {
   std::uint64_t code;
-  std::uint32_t triangle;
+  std::uint32_t number;
 };
 
 struct Range {
@@ -59,8 +59,15 @@ class MortonCurve {
   double scale_;
 };
 
-// Least significant digit first; stable, so that equal codes keep the order of the triangles.
-void radix_sort(std::vector<Item>& items) {
+// By code, equal ones by number. Least significant digit first, where that pays.
+void sort(std::vector<Item>& items) {
+  constexpr std::size_t kFewItems = 1024;
+  if (items.size() < kFewItems) {
+    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+      return a.code != b.code ? a.code < b.code : a.number < b.number;
+    });
+    return;
+  }
   constexpr int kDigitBits = 11, kDigits = (3 * kAxisBits + kDigitBits - 1) / kDigitBits;
   constexpr std::uint64_t kMask = (1 << kDigitBits) - 1;
   const auto digit = [](const Item& item, std::size_t d) { return item.code >> d * kDigitBits & kMask; };
@@ -146,6 +153,42 @@ std::vector<BvhNode> graft(const Subtree& trunk, std::vector<Subtree>& branches)
   return nodes;
 }
 
+// The tree over the boxes of the items, which are not yet sorted.
+Bvh build(const std::vector<Aabb>& boxes, std::vector<Item> items, unsigned threads) {
+  const auto count = static_cast<std::uint32_t>(items.size());
+  sort(items);
+  Bvh bvh;
+  bvh.order.resize(count);
+  bvh.boxes.resize(count);
+  const Subtree trunk = grow(items, {0, count}, kTaskSize);
+  std::vector<Subtree> branches(trunk.leaves.size());
+  parallel_for(branches.size(), threads, [&](std::size_t i) {
+    const BvhNode& leaf = trunk.nodes[trunk.leaves[i]];
+    for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
+      bvh.order[k] = items[k].number;
+      bvh.boxes[k] = boxes[items[k].number];
+    }
+    branches[i] = grow(items, {leaf.first, leaf.count}, kLeafSize);
+    fit_boxes(branches[i].nodes, branches[i].nodes.size(), bvh.boxes);
+  });
+  bvh.nodes = graft(trunk, branches);
+  fit_boxes(bvh.nodes, trunk.nodes.size(), bvh.boxes);
+  return bvh;
+}
+
+Vec3 centre(const Aabb& box) { return box.min * 0.5 + box.max * 0.5; }
+
+// 0: compact. 1, 2, 3: long along x, y or z. 4, 5, 6: flat across x, y or z.
+std::uint64_t form_of(const Aabb& box) {
+  constexpr double kElongated = 4;  // times as long as the next axis
+  const Vec3 size = box.max - box.min;
+  int axis[3] = {0, 1, 2};
+  std::sort(axis, axis + 3, [&](int i, int j) { return size[i] != size[j] ? size[i] < size[j] : i < j; });
+  if (size[axis[1]] * kElongated < size[axis[2]]) return 1 + static_cast<std::uint64_t>(axis[2]);
+  if (size[axis[0]] * kElongated < size[axis[1]]) return 4 + static_cast<std::uint64_t>(axis[0]);
+  return 0;
+}
+
 }  // namespace
 
 Bvh build_bvh(const Mesh& mesh, unsigned threads) {
@@ -158,29 +201,23 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads) {
   std::vector<Item> items(count);
   const auto place_on_curve = [&](std::size_t t) {
     boxes[t] = triangle_box(mesh, static_cast<std::uint32_t>(t));
-    const Vec3 centre = boxes[t].min * 0.5 + boxes[t].max * 0.5;
-    items[t] = {curve.code(centre), static_cast<std::uint32_t>(t)};
+    items[t] = {curve.code(centre(boxes[t])), static_cast<std::uint32_t>(t)};
   };
   parallel_for(count, threads, place_on_curve, kTaskSize);
-  radix_sort(items);
+  return build(boxes, std::move(items), threads);
+}
 
-  Bvh bvh;
-  bvh.order.resize(count);
-  bvh.boxes.resize(count);
-  const Subtree trunk = grow(items, {0, count}, kTaskSize);
-  std::vector<Subtree> branches(trunk.leaves.size());
-  parallel_for(branches.size(), threads, [&](std::size_t i) {
-    const BvhNode& leaf = trunk.nodes[trunk.leaves[i]];
-    for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
-      bvh.order[k] = items[k].triangle;
-      bvh.boxes[k] = boxes[items[k].triangle];
-    }
-    branches[i] = grow(items, {leaf.first, leaf.count}, kLeafSize);
-    fit_boxes(branches[i].nodes, branches[i].nodes.size(), bvh.boxes);
-  });
-  bvh.nodes = graft(trunk, branches);
-  fit_boxes(bvh.nodes, trunk.nodes.size(), bvh.boxes);
-  return bvh;
+Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads) {
+  if (boxes.empty()) return {};
+  Aabb bounds;
+  for (const Aabb& box : boxes) bounds.include(box);
+  const MortonCurve curve(bounds);
+  std::vector<Item> items(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    // A Morton code without its last bit for each axis leaves room for the form above it.
+    items[i] = {form_of(boxes[i]) << 3 * (kAxisBits - 1) | curve.code(centre(boxes[i])) >> 3, i};
+  }
+  return build(boxes, std::move(items), threads);
 }
 
 }  // namespace satcheck

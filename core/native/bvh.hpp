@@ -24,6 +24,11 @@ struct Bvh {
 // The same tree whatever the number of threads; 0 takes one per core.
 Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
 
+// Over boxes of any sizes, in the place of those of triangles. Long and flat ones go into subtrees of
+// their own, one for each direction: beams along x and along y that cross would else share the leaves,
+// whose boxes would be as large as the scaffold.
+Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads = 0);
+
 inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
   Aabb box;
   for (const std::uint32_t v : mesh.triangles[t]) box.include(mesh.vertices[v]);

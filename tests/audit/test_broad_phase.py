@@ -1,49 +1,59 @@
-"""The sweep against all pairs, on both of its paths."""
+"""Which pairs the broad phase leaves over, and which it may never make."""
 
 from __future__ import annotations
 
-import random
+from itertools import combinations
 
 import pytest
 
-from satcheck.audit import broad_phase
-from satcheck.audit.boxes import box_gap
+from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.roster import place
+from satcheck.audit.settings import Settings
+from satcheck.core import box_gap
+from satcheck.scene import Body, Scene, Unreadable
+from satcheck.scene.issue import issue
+from satcheck.scene.primitives import Box
+from satcheck.scene.shape_file import shape_file
+
+FILE = shape_file(Box((1.0, 1.0, 1.0)), "test.toml")
 
 
-def random_boxes(seed, count, span):
-    random_source = random.Random(seed)
-    boxes = []
-    for _ in range(count):
-        low = [random_source.uniform(0, span) for _ in range(3)]
-        boxes.append((tuple(low), tuple(c + random_source.uniform(0, 1) for c in low)))
-    return boxes
+def at(x, y, z):
+    return (1.0, 0, 0, float(x), 0, 1.0, 0, float(y), 0, 0, 1.0, float(z), 0, 0, 0, 1.0)
 
 
-def all_pairs(boxes, asked):
-    return [
-        (i, j)
-        for i in range(len(boxes))
-        for j in range(i + 1, len(boxes))
-        if box_gap(boxes[i], boxes[j]) <= asked[i] + asked[j]
+def row(count, step=1.25, groups=None):
+    return tuple(
+        Body(f"b{k}", "", FILE, transform=at(step * k, 0, 0), groups=groups[k] if groups else ())
+        for k in range(count)
+    )
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [Settings(), Settings(clearance=0.5), Settings(tolerance=1.0), Settings(clearance=3.0)],
+)
+def test_close_is_what_is_asked_about(settings):
+    roster = place(Scene("", None, row(9)), settings)
+    asked = max(settings.clearance or 0.0, settings.tolerance or 0.0)
+    bounds = [body.bounds for body in roster.placed.values()]
+    assert close_pairs(roster, settings) == [
+        (i, j) for i, j in combinations(range(9), 2) if box_gap(bounds[i], bounds[j]) <= asked
     ]
 
 
-@pytest.mark.parametrize("array_sweep", [0, 10**9], ids=["arrays", "plain"])
-@pytest.mark.parametrize("asked", [0.0, 0.25])
-@pytest.mark.parametrize(("seed", "span"), [(1, 2), (2, 5), (3, 20)])
-def test_sweep_finds_exactly_the_close_pairs(monkeypatch, array_sweep, asked, seed, span):
-    monkeypatch.setattr(broad_phase, "ARRAY_SWEEP", array_sweep)
-    boxes = random_boxes(seed, 90, span)
-    reach = [asked] * len(boxes)
-    assert broad_phase.close_pairs(boxes, reach) == all_pairs(boxes, reach)
+def test_exempt_pairs_are_not_close():
+    bodies = row(6, 0.0, [("left",)] * 3 + [("right", "hall")] * 3)
+    allowed = {frozenset(("b0", "b5")): "", frozenset(("b4", "gone")): ""}
+    scene = Scene("", None, bodies, (), frozenset(("left", "hall")), allowed)
+    roster = place(scene, Settings())
+    found = close_pairs(roster, Settings())
+    assert found == sorted(roster.asked_pairs())
+    assert len(found) == 3 * 3 - 1
 
 
-@pytest.mark.parametrize("array_sweep", [0, 10**9], ids=["arrays", "plain"])
-def test_touching_boxes_are_close(monkeypatch, array_sweep):
-    monkeypatch.setattr(broad_phase, "ARRAY_SWEEP", array_sweep)
-    row = [((float(k), 0.0, 0.0), (k + 1.0, 1.0, 1.0)) for k in range(5)]
-    assert broad_phase.close_pairs(row, [0.0] * 5) == [(0, 1), (1, 2), (2, 3), (3, 4)]
-
-
-def test_one_box_has_no_pair():
-    assert broad_phase.close_pairs([((0, 0, 0), (1, 1, 1))], [0.0]) == []
+def test_numbers_are_those_of_the_bodies_where_some_are_lost():
+    lost = Unreadable("lost", "gone.obj", issue("file-not-found", "gone"))
+    scene = Scene("", None, row(3, 0.0), (lost,), order=("lost", "b0", "b1", "b2"))
+    roster = place(scene, Settings())
+    assert close_pairs(roster, Settings()) == [(1, 2), (1, 3), (2, 3)]

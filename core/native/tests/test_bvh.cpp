@@ -26,28 +26,56 @@ void check_same(const Bvh& a, const Bvh& b) {
   }
 }
 
-void check_tree(const Mesh& mesh) {
-  const Bvh bvh = build_bvh(mesh);
-  std::vector<int> seen(mesh.triangles.size(), 0);
+void check_holds(const Bvh& bvh, const std::vector<Aabb>& boxes) {
+  std::vector<int> seen(boxes.size(), 0);
   for (const BvhNode& node : bvh.nodes) {
     if (node.is_leaf()) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         ++seen[bvh.order[i]];
-        CHECK(holds(node.box, triangle_box(mesh, bvh.order[i])));
-        CHECK(same(bvh.boxes[i], triangle_box(mesh, bvh.order[i])));
+        CHECK(holds(node.box, boxes[bvh.order[i]]));
+        CHECK(same(bvh.boxes[i], boxes[bvh.order[i]]));
       }
     } else {
       CHECK(holds(node.box, bvh.nodes[node.first].box) && holds(node.box, bvh.nodes[node.first + 1].box));
     }
   }
   for (const int count : seen) CHECK(count == 1);
+}
+
+std::vector<Aabb> triangle_boxes(const Mesh& mesh) {
+  std::vector<Aabb> boxes;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) boxes.push_back(triangle_box(mesh, t));
+  return boxes;
+}
+
+void check_tree(const Mesh& mesh) {
+  const Bvh bvh = build_bvh(mesh);
+  check_holds(bvh, triangle_boxes(mesh));
   check_same(bvh, build_bvh(mesh, 1));
+  check_holds(build_bvh_by_form(triangle_boxes(mesh)), triangle_boxes(mesh));
+}
+
+// Beams along x and along y share no node but the root.
+void check_forms() {
+  std::vector<Aabb> boxes;
+  for (int k = 0; k < 100; ++k) {
+    boxes.push_back({{0, 1.0 * k, 0}, {100, k + 0.5, 1}});
+    boxes.push_back({{1.0 * k, 0, 0}, {k + 0.5, 100, 1}});
+  }
+  const Bvh bvh = build_bvh_by_form(boxes);
+  check_holds(bvh, boxes);
+  for (const BvhNode& node : bvh.nodes) {
+    for (std::uint32_t i = node.first; node.is_leaf() && i < node.first + node.count; ++i) {
+      CHECK(bvh.order[i] % 2 == bvh.order[node.first] % 2);
+    }
+  }
 }
 
 }  // namespace
 
 int main() {
-  CHECK(build_bvh({}).nodes.empty());
+  CHECK(build_bvh(Mesh{}).nodes.empty() && build_bvh_by_form({}).nodes.empty());
+  check_forms();
   check_tree(box({0, 0, 0}, {1, 1, 1}));
   check_tree(uv_sphere(30));
   // More triangles than one thread takes alone.

@@ -1,0 +1,155 @@
+"""The gap of boxes in rational arithmetic; the walk of the tree against all pairs."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from satcheck.core import box_gap, close_pairs
+
+Point = tuple[float, float, float]
+Box = tuple[Point, Point]
+
+UNIT: Box = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+COORDINATE = st.floats(-1e6, 1e6, allow_subnormal=False)
+CORNERS = st.tuples(COORDINATE, COORDINATE, COORDINATE)
+
+
+def moved(box: Box, step: Point) -> Box:
+    (x, y, z), (u, v, w) = box
+    return (x + step[0], y + step[1], z + step[2]), (u + step[0], v + step[1], w + step[2])
+
+
+def box_at(low: list[float], size: list[float]) -> Box:
+    x, y, z = low
+    return (x, y, z), (x + size[0], y + size[1], z + size[2])
+
+
+@pytest.mark.parametrize(
+    ("shift", "gap"),
+    [
+        ((0, 0, 0), 0),
+        ((1, 0, 0), 0),
+        ((1, 1, 1), 0),
+        ((3, 0, 0), 2),
+        ((4, 5, 0), 5),
+        ((-3, -3, -2), 3),
+    ],
+)
+def test_gap_of_unit_boxes(shift: Point, gap: float) -> None:
+    found = box_gap(UNIT, moved(UNIT, shift))
+    assert found <= gap
+    assert found == pytest.approx(gap, rel=1e-14)
+
+
+def test_smallest_gap_is_not_lost() -> None:
+    above = math.nextafter(1.0, 2.0)
+    assert box_gap(UNIT, ((above, 0, 0), (2, 1, 1))) > 0
+
+
+@given(CORNERS, CORNERS, CORNERS, CORNERS)
+def test_gap_never_exceeds_the_truth(p: Point, q: Point, r: Point, s: Point) -> None:
+    a, b = between(p, q), between(r, s)
+    gaps = [
+        max(Fraction(b[0][k]) - Fraction(a[1][k]), Fraction(a[0][k]) - Fraction(b[1][k]))
+        for k in range(3)
+    ]
+    squares = sum(gap**2 for gap in gaps if gap > 0)
+    gap = box_gap(a, b)
+    assert Fraction(gap) ** 2 <= squares
+    assert (gap > 0) == (squares > 0)
+
+
+def between(p: Point, q: Point) -> Box:
+    low, high = zip(*(sorted(pair) for pair in zip(p, q, strict=True)), strict=True)
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def boxes_of_all_forms(seed: int, count: int, span: float) -> list[Box]:
+    """Small and large boxes, beams along each axis, plates across each, points."""
+    source = random.Random(seed)
+    forms = [(1, 1, 1), (9, 9, 9), (20, 0.1, 0.1), (0.1, 20, 0.1), (0.1, 0.1, 20), (20, 20, 0)]
+    forms += [(0, 20, 20), (20, 0, 20), (0, 0, 0)]
+    boxes = []
+    for _ in range(count):
+        low = [source.uniform(0, span) for _ in range(3)]
+        form = source.choice(forms)
+        size = [source.uniform(0.5, 1) * length for length in form]
+        boxes.append(box_at(low, size))
+    return boxes
+
+
+def among_all_pairs(boxes: list[Box], reach: list[float]) -> list[tuple[int, int]]:
+    return [
+        (i, j)
+        for i in range(len(boxes))
+        for j in range(i + 1, len(boxes))
+        if box_gap(boxes[i], boxes[j]) <= reach[i] + reach[j]
+    ]
+
+
+@pytest.mark.parametrize("reach", [0.0, 0.25])
+@pytest.mark.parametrize(("seed", "span"), [(1, 5), (2, 50), (3, 300)])
+def test_the_walk_finds_exactly_the_close_pairs(reach: float, seed: int, span: float) -> None:
+    boxes = boxes_of_all_forms(seed, 400, span)
+    reaches = [reach * (1 + k % 7) for k in range(len(boxes))]
+    found = close_pairs(boxes, reaches, [0] * len(boxes))
+    assert found == among_all_pairs(boxes, reaches)
+    assert found, "a test without close pairs tests nothing"
+
+
+def test_touching_boxes_are_close() -> None:
+    row: list[Box] = [((float(k), 0.0, 0.0), (k + 1.0, 1.0, 1.0)) for k in range(5)]
+    assert close_pairs(row, [0.0] * 5, [0] * 5) == [(0, 1), (1, 2), (2, 3), (3, 4)]
+
+
+@pytest.mark.parametrize("gap", [0.1, 0.3, 1e-17, 7.0 / 3])
+def test_boxes_just_as_far_apart_as_they_reach_are_close(gap: float) -> None:
+    """The reaches are rounded, and so are the boxes grown by them."""
+    low = 1.0 + gap
+    boxes: list[Box] = [UNIT, ((low, 0.0, 0.0), (low + 1, 1.0, 1.0))]
+    asked = box_gap(*boxes)
+    third = asked / 3
+    for reach in ([asked, 0.0], [third, asked - third]):
+        close = [(0, 1)] if asked <= reach[0] + reach[1] else []
+        assert close_pairs(boxes, reach, [0, 0]) == close
+    beyond = math.nextafter(asked, 0.0) if asked else 0.0
+    assert close_pairs(boxes, [beyond, 0.0], [0, 0]) == ([] if asked else [(0, 1)])
+
+
+def test_exempt_pairs_are_left_out() -> None:
+    boxes = boxes_of_all_forms(4, 300, 20)
+    source = random.Random(5)
+    kinds = [source.randrange(6) for _ in boxes]
+    exempt_kinds = [(0, 0), (1, 3), (4, 4), (2, 5)]
+    every = close_pairs(boxes, [0.0] * 300, kinds)
+    exempt = [*every[::7], (0, 299)]
+    found = close_pairs(boxes, [0.0] * 300, kinds, exempt_kinds, exempt)
+    assert found == [
+        (i, j)
+        for i, j in every
+        if (i, j) not in exempt and tuple(sorted((kinds[i], kinds[j]))) not in exempt_kinds
+    ]
+    assert len(found) < len(every) - len(every) // 7
+
+
+def test_a_crowd_of_one_kind_is_no_pair() -> None:
+    """More boxes in one place than all their pairs could be gone through."""
+    crowd = [UNIT] * 200_000
+    kinds = [1] * (len(crowd) - 1) + [2]
+    assert len(close_pairs(crowd, [0.0] * len(crowd), kinds, [(1, 1)])) == len(crowd) - 1
+
+
+def test_one_box_has_no_pair() -> None:
+    assert close_pairs([UNIT], [0.0], [0]) == []
+    assert close_pairs([], [], []) == []
+
+
+def test_lengths_have_to_agree() -> None:
+    with pytest.raises(ValueError, match="differ in length"):
+        close_pairs([UNIT], [0.0, 0.0], [0])
