@@ -165,17 +165,14 @@ Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m, double no
 // the points that belong to it: the support points, or, of a flat face or a mantle line, others there.
 void polish(const MinkowskiDifference& m, CoreAnswer& core) {
   const AxisSupport best = least_support_near(m, core.axis);
-  if (best.value < core.upper) {
-    core.upper = best.value;
-    core.value = std::fmin(core.value, best.value);
-    if (core.method != Method::gjk) {
-      core.axis = best.axis;
-      const bool unique = norm(best.point.w - best.axis * best.value) <= kCurvedFacetGap * m.scale;
-      core.witness = unique ? Witnesses{best.point.a, best.point.a - best.point.w}
-                            : touching_points(m, best.axis, best.value);
-    }
-  }
-  straighten(core);
+  if (!(best.value < core.upper)) return;
+  core.upper = best.value;
+  core.value = std::fmin(core.value, best.value);
+  if (core.method == Method::gjk) return;
+  core.axis = best.axis;
+  const bool unique = norm(best.point.w - best.axis * best.value) <= kCurvedFacetGap * m.scale;
+  core.witness = unique ? Witnesses{best.point.a, best.point.a - best.point.w}
+                        : touching_points(m, best.axis, best.value);
 }
 
 // The hull of the world vertices, each rounded by the pose. A hull that stays where it was made is
@@ -287,11 +284,13 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
     polish(m, core);
     result.outcome = classify(core, m, noise);
   }
+  const bool polytopes = a.is_polytope() && b.is_polytope();
+  if (!polytopes && core.has_axis) straighten(core);
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
   const double confirmed_below = core.method == Method::sat ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const bool too_wide = result.has_distance && !(result.upper - result.lower <= kWidestInterval * m.scale);
-  if (a.is_polytope() && b.is_polytope()) {
+  if (polytopes) {
     if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
   } else if (in_doubt && !m.curved) {
     settle_grown(a, pose_a, b, pose_b, noise, result);
