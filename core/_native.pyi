@@ -1,7 +1,7 @@
 """Stubs of the compiled core. Points and vectors are tuples (x, y, z) in the mesh's own frame."""
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 from numpy import float64, int32, uint8, uint32
 from numpy.typing import NDArray
@@ -324,3 +324,71 @@ class SurfaceIntersection:
 
 def surface_intersection(a: Surface, b: Surface, max_pairs: int) -> SurfaceIntersection: ...
 def covers_once(solid: Surface) -> bool: ...
+
+Rows = tuple[Point, Point, Point]
+
+class Moving:
+    def __init__(
+        self, rotation: Rows, translation: Point, centre: Point, velocity: Point, spin: Point
+    ) -> None: ...
+
+class MotionAnswer:
+    @property
+    def value(self) -> float: ...
+    @property
+    def upper(self) -> float: ...
+    @property
+    def visits(self) -> int: ...
+    @property
+    def triangle_a(self) -> int: ...
+    @property
+    def triangle_b(self) -> int: ...
+
+@overload
+def safe_time(
+    a: Surface,
+    moving_a: Moving,
+    b: Surface,
+    moving_b: Moving,
+    *,
+    level: float,
+    limit: float,
+    pad: float,
+    slack: float,
+    work: int,
+) -> MotionAnswer: ...
+@overload
+def safe_time(
+    a: Shape,
+    moving_a: Moving,
+    b: Shape,
+    moving_b: Moving,
+    *,
+    level: float,
+    limit: float,
+    pad: float,
+    slack: float,
+) -> MotionAnswer: ...
+@overload
+def least_gap(
+    a: Surface,
+    moving_a: Moving,
+    b: Surface,
+    moving_b: Moving,
+    *,
+    window: float,
+    pad: float,
+    slack: float,
+    work: int,
+) -> MotionAnswer: ...
+@overload
+def least_gap(
+    a: Shape,
+    moving_a: Moving,
+    b: Shape,
+    moving_b: Moving,
+    *,
+    window: float,
+    pad: float,
+    slack: float,
+) -> MotionAnswer: ...

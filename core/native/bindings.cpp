@@ -21,6 +21,7 @@ void bind_broad_phase(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
 void bind_mesh(nb::module_& m);
+void bind_motion(nb::module_& m);
 }
 
 namespace {
@@ -299,6 +300,7 @@ NB_MODULE(_native, m) {
   bind_broad_phase(m);
   bind_contacts(m);
   bind_depth(m);
+  bind_motion(m);
   bind_shapes(m);
   bind_pair_result(m);
   bind_pair_results(m);
