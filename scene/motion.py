@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from dataclasses import dataclass
+from itertools import pairwise
 
 from satcheck.core.errors import SatcheckError
 
@@ -87,7 +88,7 @@ class PosePath:
         times = [waypoint.time for waypoint in self.waypoints]
         if len(times) < 2 or times[0] != 0.0 or times[-1] != 1.0:
             raise _refused("the waypoints of a path must start at time 0 and end at time 1")
-        if any(later <= earlier for earlier, later in zip(times, times[1:], strict=False)):
+        if any(later <= earlier for earlier, later in pairwise(times)):
             raise _refused("the times of the waypoints of a path must increase")
 
 

@@ -22,7 +22,7 @@ Outcome = Literal["separated", "touching", "penetrating"]
 _AXES: tuple[Vector, ...] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
-def _exact(points: Iterable[Sequence[float]]) -> list[Vector]:
+def exact(points: Iterable[Sequence[float]]) -> list[Vector]:
     return [(Fraction(p[0]), Fraction(p[1]), Fraction(p[2])) for p in points]
 
 
@@ -43,7 +43,7 @@ def _sub(a: Vector, b: Vector) -> Vector:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def _dot(a: Vector, b: Vector) -> Number:
+def dot(a: Vector, b: Vector) -> Number:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
@@ -68,7 +68,7 @@ def _rank(vectors: Iterable[Vector]) -> tuple[int, list[Vector]]:
         elif len(basis) == 1:
             independent = any(_cross(basis[0], v))
         else:
-            independent = _dot(_cross(basis[0], basis[1]), v) != 0
+            independent = dot(_cross(basis[0], basis[1]), v) != 0
         if independent:
             basis.append(v)
             if len(basis) == 3:
@@ -76,7 +76,7 @@ def _rank(vectors: Iterable[Vector]) -> tuple[int, list[Vector]]:
     return len(basis), basis
 
 
-def _candidate_axes(a: list[Vector], b: list[Vector]) -> set[Vector]:
+def candidate_axes(a: list[Vector], b: list[Vector]) -> set[Vector]:
     """Axes that decide: normals of the facets of A - B among them, in the span of A - B and
     across it."""
     along_a, along_b = _directions(a), _directions(b)
@@ -97,7 +97,7 @@ def _candidate_axes(a: list[Vector], b: list[Vector]) -> set[Vector]:
 
 
 def _overlap(a: list[Vector], b: list[Vector], axis: Vector) -> Number:
-    return max(_dot(axis, p) for p in a) - min(_dot(axis, p) for p in b)
+    return max(dot(axis, p) for p in a) - min(dot(axis, p) for p in b)
 
 
 def exact_outcome(
@@ -108,8 +108,8 @@ def exact_outcome(
     "touching": a common point, but no common interior. Sets whose Minkowski difference is flat
     have no common interior.
     """
-    a, b, _ = _integers(_exact(points_a), _exact(points_b))
-    least = min(_overlap(a, b, axis) for axis in _candidate_axes(a, b))
+    a, b, _ = _integers(exact(points_a), exact(points_b))
+    least = min(_overlap(a, b, axis) for axis in candidate_axes(a, b))
     if least < 0:
         return "separated"
     flat = _rank([*_directions(a), *_directions(b)])[0] < 3
@@ -120,59 +120,59 @@ def exact_squared_depth(
     points_a: Iterable[Sequence[float]], points_b: Iterable[Sequence[float]]
 ) -> Fraction:
     """Square of the penetration depth; 0 when the hulls have no common interior."""
-    a, b, scale = _integers(_exact(points_a), _exact(points_b))
+    a, b, scale = _integers(exact(points_a), exact(points_b))
     if _rank([*_directions(a), *_directions(b)])[0] < 3:
         return Fraction(0)
     squares = []
-    for axis in _candidate_axes(a, b):
+    for axis in candidate_axes(a, b):
         overlap = _overlap(a, b, axis)
         if overlap <= 0:
             return Fraction(0)
-        squares.append(Fraction(overlap * overlap) / (_dot(axis, axis) * scale * scale))
+        squares.append(Fraction(overlap * overlap) / (dot(axis, axis) * scale * scale))
     return min(squares)
 
 
 def _squared_point_segment(p: Vector, tail: Vector, head: Vector) -> Fraction:
     along, to = _sub(head, tail), _sub(p, tail)
-    squared = _dot(along, along)
-    t = min(max(Fraction(_dot(to, along)) / squared, Fraction(0)), Fraction(1)) if squared else 0
+    squared = dot(along, along)
+    t = min(max(Fraction(dot(to, along)) / squared, Fraction(0)), Fraction(1)) if squared else 0
     gap = _sub(to, (along[0] * t, along[1] * t, along[2] * t))
-    return Fraction(_dot(gap, gap))
+    return Fraction(dot(gap, gap))
 
 
 def _squared_point_face(p: Vector, triangle: tuple[Vector, Vector, Vector]) -> Fraction | None:
     """Squared height over the triangle; None when the foot lies outside it."""
     q, r, s = triangle
     normal = _cross(_sub(r, q), _sub(s, q))
-    squared = _dot(normal, normal)
+    squared = dot(normal, normal)
     if squared == 0:
         return None
     for u, v in ((q, r), (r, s), (s, q)):
-        if _dot(_cross(_sub(v, u), _sub(p, u)), normal) < 0:
+        if dot(_cross(_sub(v, u), _sub(p, u)), normal) < 0:
             return None
-    height = _dot(_sub(p, q), normal)
+    height = dot(_sub(p, q), normal)
     return Fraction(height * height) / squared
 
 
 def _squared_line_line(p: Vector, u: Vector, q: Vector, v: Vector) -> Fraction | None:
     """Squared distance of the segments p + [0, 1] u and q + [0, 1] v between inner points."""
     w = _sub(q, p)
-    uu, vv, uv, uw, vw = _dot(u, u), _dot(v, v), _dot(u, v), _dot(u, w), _dot(v, w)
+    uu, vv, uv, uw, vw = dot(u, u), dot(v, v), dot(u, v), dot(u, w), dot(v, w)
     det = uu * vv - uv * uv
     s, t = uw * vv - vw * uv, uw * uv - vw * uu
     if det == 0 or not (0 <= s <= det and 0 <= t <= det):
         return None
     normal = _cross(u, v)
-    height = _dot(w, normal)
-    return Fraction(height * height) / _dot(normal, normal)
+    height = dot(w, normal)
+    return Fraction(height * height) / dot(normal, normal)
 
 
 def exact_squared_distance(
     points_a: Iterable[Sequence[float]], points_b: Iterable[Sequence[float]]
 ) -> Fraction:
     """Square of the distance of two hulls that do not overlap."""
-    a, b, scale = _integers(_exact(points_a), _exact(points_b))
-    best = Fraction(_dot(_sub(a[0], b[0]), _sub(a[0], b[0])))
+    a, b, scale = _integers(exact(points_a), exact(points_b))
+    best = Fraction(dot(_sub(a[0], b[0]), _sub(a[0], b[0])))
     for points, others in ((a, b), (b, a)):
         for p in points:
             for tail, head in combinations(others, 2):
@@ -181,7 +181,7 @@ def exact_squared_distance(
                 height = _squared_point_face(p, triangle)
                 best = best if height is None else min(best, height)
             for q in others:
-                best = min(best, Fraction(_dot(_sub(p, q), _sub(p, q))))
+                best = min(best, Fraction(dot(_sub(p, q), _sub(p, q))))
     for p, p2 in combinations(a, 2):
         for q, q2 in combinations(b, 2):
             height = _squared_line_line(p, _sub(p2, p), q, _sub(q2, q))

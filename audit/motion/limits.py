@@ -1,0 +1,21 @@
+"""What a sweep may cost, and how finely it looks: steps and shares of t, never seconds."""
+
+from __future__ import annotations
+
+# A step shorter than this share of the motion is no progress: the bodies are in contact, as far as
+# can be told from there. The first overlap is searched down to the same share.
+SHORTEST_STEP = 2.0**-30
+# Questions about one pair: how long it stays free, how large its gap is.
+STEPS = 4096
+# Pairs of boxes and triangles that all these questions may visit: seconds.
+VISITS = 20_000_000
+# Poses beyond a contact that nothing could be proven about, in which an overlap is looked for.
+PROBES = 64
+# Narrower than this share of the figure, an interval of the deepest or nearest pose is done.
+WORST_WIDTH = 0.01
+# Intervals of t that the search for the worst pose may look at, and poses of two bodies that are
+# not both convex whose depth it may measure.
+WORST_INTERVALS = 512
+WORST_DEPTHS = 24
+# A pose is known to rounding only: so many times that is the least touch band of a sweep.
+PADS_IN_BAND = 8

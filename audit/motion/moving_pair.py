@@ -1,0 +1,178 @@
+"""Two bodies on their tracks, and what can be proven about them from one moment on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from satcheck import core
+from satcheck.audit.finding import examine
+from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
+from satcheck.audit.motion.track import ORIGIN, Track
+from satcheck.audit.pair import Pair
+from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.plan import Plan
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from satcheck.audit.report import Finding, Vector
+
+
+class BudgetSpent(Exception):
+    """More questions were asked about a pair than a sweep may ask."""
+
+
+@dataclass(frozen=True, slots=True)
+class Obstacle:
+    """time: nothing is in the way for so long, in t. triangles: of A and B, what then is; None
+    where nothing is, or where only the hulls were asked."""
+
+    time: float
+    triangles: tuple[int, int] | None = None
+
+
+class MovingPair:
+    """World frame. tolerance: half width of the touch band; poses are known to rounding, so it is
+    never less than what that amounts to. pad: that rounding, of a gap. hulls_apart: whether the
+    hulls alone answered what was asked so far."""
+
+    def __init__(self, pair: Pair, track_a: Track, track_b: Track) -> None:
+        self.pair = pair
+        self.track_a = track_a
+        self.track_b = track_b
+        self.pad = track_a.pad(pair.a.bounds) + track_b.pad(pair.b.bounds)
+        self.tolerance = max(pair.tolerance, PADS_IN_BAND * self.pad)
+        self.times = sorted({*track_a.times, *track_b.times})
+        self.convex = pair.both_convex
+        self.hulls_apart = True
+        self.steps = 0
+        self.visits = 0
+
+    def end_of_piece(self, t: float) -> float:
+        """Up to there both bodies go on as they do at t < 1."""
+        return next(time for time in self.times if time > t)
+
+    def fastest(self, t: float) -> float:
+        """Per unit of t: no point of A moves faster against one of B in the piece of t."""
+        return self.track_a.fastest(t, self.pair.a.bounds) + self.track_b.fastest(
+            t, self.pair.b.bounds
+        )
+
+    def apart(self, t: float, end: float, nudge: Vector = ORIGIN) -> Obstacle:
+        """For how long after t, up to `end`, the surfaces have no common point, A being moved by
+        `nudge`. end: in the same pieces as t."""
+        hulls = self._shapes(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
+        if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
+            return Obstacle(hulls.value)
+        self.hulls_apart = False
+        found = self._surfaces(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
+        triangles = None if found.triangle_a < 0 else (found.triangle_a, found.triangle_b)
+        return Obstacle(max(hulls.value, found.value), triangles)
+
+    def shallow(self, t: float, end: float) -> float:
+        """For how long the hulls overlap by no more than the tolerance, and so the bodies."""
+        level = -self.tolerance
+        return self._shapes(core.safe_time, t, level=level, limit=end - t).value
+
+    def least_gap(self, start: float, end: float) -> tuple[float, float]:
+        """Proven bounds of the signed distance of two convex bodies, of the distance of the
+        surfaces of others: at least the first at all times from start to end, which lie in the same
+        pieces; at most the second in the middle."""
+        middle = 0.5 * (start + end)
+        window = max(middle - start, end - middle)
+        ask = self._shapes if self.convex else self._surfaces
+        found = ask(core.least_gap, middle, window=window)
+        return found.value, found.upper + self.pad
+
+    def least_hull_gap(self, start: float, end: float) -> float:
+        """A lower bound of the signed distance of the hulls; minus it is one of the depth."""
+        middle = 0.5 * (start + end)
+        window = max(middle - start, end - middle)
+        return self._shapes(core.least_gap, middle, window=window).value
+
+    def placed(self, t: float) -> Pair:
+        """The pair as it stands at t, with the touch band of the sweep and no question but how the
+        bodies relate."""
+        settings = replace(
+            self.pair.settings,
+            depth=False,
+            volume=False,
+            contacts=False,
+            clearance=None,
+            cross_check=False,
+            certificate=False,
+            tolerance=self.tolerance,
+        )
+        return replace(
+            self.pair,
+            a=_placed(self.pair.a, self.track_a, t),
+            b=_placed(self.pair.b, self.track_b, t),
+            settings=settings,
+            meter=None,
+            peers=None,
+        )
+
+    def found_at(self, t: float) -> Finding:
+        """How the bodies relate at t: exactly, for their poses rounded to float64."""
+        return examine(self.placed(t), Plan())
+
+    def _shapes(
+        self,
+        ask: Callable[..., core.MotionAnswer],
+        t: float,
+        *,
+        nudge: Vector = ORIGIN,
+        **bounds: float,
+    ) -> core.MotionAnswer:
+        a, b, slack = self._moving(t, nudge)
+        shapes = self.pair.a.hull_shape(), self.pair.b.hull_shape()
+        self._count()
+        return ask(shapes[0], a, shapes[1], b, pad=self.pad, slack=slack, **bounds)
+
+    def _surfaces(
+        self,
+        ask: Callable[..., core.MotionAnswer],
+        t: float,
+        *,
+        nudge: Vector = ORIGIN,
+        **bounds: float,
+    ) -> core.MotionAnswer:
+        a, b, slack = self._moving(t, nudge)
+        surfaces = self.pair.a.surface(), self.pair.b.surface()
+        self._count()
+        work = VISITS - self.visits
+        found = ask(surfaces[0], a, surfaces[1], b, pad=self.pad, slack=slack, work=work, **bounds)
+        self.visits += found.visits
+        return found
+
+    def _moving(self, t: float, nudge: Vector) -> tuple[core.Moving, core.Moving, float]:
+        slack = sum(
+            track.slack(track.piece_at(t), body.bounds)
+            for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
+        )
+        return self.track_a.moving_at(t, nudge), self.track_b.moving_at(t), slack
+
+    def _count(self) -> None:
+        self.steps += 1
+        if self.steps > STEPS or self.visits >= VISITS:
+            raise BudgetSpent
+
+
+def _placed(body: PlacedBody, track: Track, t: float) -> PlacedBody:
+    if not track.moves:
+        return body
+    moved = _composed(track.transform_at(t), body.body.transform)
+    return PlacedBody(replace(body.body, transform=moved), body.shared)
+
+
+def _composed(outer: tuple[float, ...], inner: tuple[float, ...] | None) -> tuple[float, ...]:
+    """outer after inner, row-major 4x4, each entry rounded once."""
+    if inner is None:
+        return outer
+    return tuple(
+        math.fsum(outer[4 * row + k] * inner[4 * k + column] for k in range(4))
+        for row in range(4)
+        for column in range(4)
+    )

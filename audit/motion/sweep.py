@@ -1,0 +1,120 @@
+"""One pair over the whole motion: when it first overlaps, and its worst pose."""
+
+from __future__ import annotations
+
+import math
+
+from satcheck.audit.motion.impact import Impact, first_impact
+from satcheck.audit.motion.moving_pair import MovingPair
+from satcheck.audit.motion.track import STANDS, track_of
+from satcheck.audit.motion.worst import Worst, deepest_pose, least_distance
+from satcheck.audit.motion_report import Place, Relation, Sweep, WorstPose
+from satcheck.audit.pair import Pair
+from satcheck.scene.motion import Path, Rotation, Translation
+
+
+def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
+    """path_a, path_b: how the bodies move; None: not at all. A path that both share moves neither
+    against the other: that is no question for a sweep.
+    """
+    tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
+    moving = MovingPair(pair, *tracks)
+    impact = first_impact(moving)
+    if impact.reason is not None:
+        return _undecided(moving, impact)
+    return _Answer(moving, impact, {pair.a.id: path_a, pair.b.id: path_b}).sweep()
+
+
+def _undecided(pair: MovingPair, impact: Impact) -> Sweep:
+    return Sweep(
+        "indeterminate",
+        pair.tolerance,
+        impact.reached,
+        contact=impact.contact,
+        reason=impact.reason,
+        steps=pair.steps,
+    )
+
+
+class _Answer:
+    def __init__(self, pair: MovingPair, impact: Impact, paths: dict[str, Path | None]) -> None:
+        self._pair = pair
+        self._impact = impact
+        self._paths = paths
+
+    def sweep(self) -> Sweep:
+        return self._hit(self._impact.upper) if self._impact.upper is not None else self._free()
+
+    def _hit(self, upper: float) -> Sweep:
+        pair, impact = self._pair, self._impact
+        worst = None
+        if pair.pair.settings.depth:
+            worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
+        return Sweep(
+            "penetrating",
+            pair.tolerance,
+            impact.reached,
+            time_of_impact=(impact.lower, upper),
+            at=self._places(upper),
+            contact=impact.contact,
+            worst=None if worst is None else self._pose(worst),
+            steps=pair.steps,
+        )
+
+    def _free(self) -> Sweep:
+        pair, impact = self._pair, self._impact
+        worst = self._nearest()
+        relation, reason = self._relation(worst), self._hollow()
+        clearance = pair.pair.settings.clearance
+        if relation == "near" and clearance is not None and not worst.upper < clearance:
+            relation, reason = "indeterminate", "whether the clearance is kept was not decided"
+        return Sweep(
+            relation,
+            pair.tolerance,
+            1.0,
+            contact=impact.contact,
+            worst=self._pose(worst),
+            reason=reason,
+            steps=pair.steps,
+        )
+
+    def _nearest(self) -> Worst:
+        pair, contact = self._pair, self._impact.contact
+        if contact is None or pair.convex:
+            worst = least_distance(pair, pair.pair.settings.clearance)
+            return Worst(0.0, 0.0, math.inf) if worst is None else worst
+        return Worst(contact, 0.0, max(pair.least_gap(contact, contact)[1], 0.0))
+
+    def _relation(self, worst: Worst) -> Relation:
+        if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
+            return "touching"
+        return "near" if worst.lower < (self._pair.pair.settings.clearance or 0.0) else "separated"
+
+    def _hollow(self) -> str | None:
+        """What surfaces alone do not show: whether a body came to lie in one that has no inside."""
+        pair = self._pair.pair
+        hollow = [b.id for b in (pair.a, pair.b) if not b.solid and not b.body.file.health.flat]
+        if not hollow or self._pair.hulls_apart:
+            return None
+        return f"surfaces only: what {' and '.join(hollow)} may enclose on the way was not checked"
+
+    def _pose(self, worst: Worst) -> WorstPose | None:
+        if math.isinf(worst.upper):
+            return None
+        at = self._places(worst.time)
+        if worst.upper < 0.0:
+            return WorstPose(worst.time, at, depth=(-worst.upper, -worst.lower))
+        return WorstPose(worst.time, at, distance=(max(worst.lower, 0.0), worst.upper))
+
+    def _places(self, t: float) -> tuple[Place, ...]:
+        return tuple(
+            _place(body, path, t) for body, path in self._paths.items() if path is not None
+        )
+
+
+def _place(body: str, path: Path, t: float) -> Place:
+    if isinstance(path, Rotation):
+        return Place(body, "degrees", path.degrees * t)
+    if isinstance(path, Translation):
+        return Place(body, "length", math.hypot(*path.vector) * t)
+    return Place(body, "t", t)

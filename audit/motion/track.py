@@ -1,0 +1,199 @@
+"""A motion as pieces of steady movement: what the native bounds of motion know how to follow.
+
+On every piece M(t) x = centre(t) + turn(t) (x - pivot): the centre moves with one velocity, and the
+body turns about one axis through it with one angular velocity. Translations, rotations and each leg
+of a path of poses are of this kind.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass
+from itertools import pairwise
+
+from satcheck import core
+from satcheck.audit.boxes import Box
+from satcheck.audit.motion.turn import (
+    STILL,
+    Matrix,
+    applied,
+    between,
+    of_quaternion,
+    product,
+    rotation,
+    unit,
+)
+from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.scene.motion import Path, Rotation, Translation
+
+Vector = tuple[float, float, float]
+ORIGIN: Vector = (0.0, 0.0, 0.0)
+
+# Roundings, in roundoffs of the reach of a body (its largest distance from the pivot, the pivot's
+# and the centre's from the origin, added up). A pose: the sine and cosine 4, the axis 4, the nine
+# products of a turn 8 each, twice on a leg of a path, the centre 8, applied to a point 16: below
+# 128, and the angle itself, which carries its relative error of 4 into the turn. The arithmetic of
+# a gap along an axis, again on three coordinates, below 128.
+POSE_ROUNDOFFS = 256
+# A rate of closing: the axis 4, the angular velocity 8, products and sums of three coordinates 16
+# each, and what bends, relative to the rate, as much again.
+RATE_ROUNDOFFS = 128
+# The turn between two orientations is known to so many roundoffs, however small it is.
+LEG_ROUNDOFFS = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """start <= t <= end. centre, velocity: at start, per unit of t. turn: at start; axis, degrees:
+    what the body turns by until the end, about the centre, world. pivot: comes to lie there."""
+
+    start: float
+    end: float
+    pivot: Vector
+    centre: Vector
+    velocity: Vector
+    turn: Matrix
+    axis: Vector
+    degrees: float
+
+    def centre_at(self, t: float) -> Vector:
+        return tuple(  # type: ignore[return-value]
+            c + v * (t - self.start) for c, v in zip(self.centre, self.velocity, strict=True)
+        )
+
+    def turn_at(self, t: float) -> Matrix:
+        if self.degrees == 0.0:
+            return self.turn
+        turned = rotation(self.axis, self.degrees * ((t - self.start) / (self.end - self.start)))
+        return turned if self.turn == STILL else product(turned, self.turn)
+
+    @property
+    def spin(self) -> Vector:
+        rate = math.radians(self.degrees) / (self.end - self.start)
+        return self.axis[0] * rate, self.axis[1] * rate, self.axis[2] * rate
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """The pieces of a motion, from t = 0 to t = 1 without a hole."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def moves(self) -> bool:
+        return self != STANDS
+
+    @property
+    def times(self) -> list[float]:
+        return [piece.start for piece in self.pieces] + [1.0]
+
+    def piece_at(self, t: float) -> Piece:
+        """The piece that starts at t rather than the one that ends there."""
+        starts = [piece.start for piece in self.pieces]
+        return self.pieces[bisect_right(starts, t) - 1]
+
+    def pose_at(self, t: float) -> tuple[Matrix, Vector]:
+        """Rotation and translation of M(t)."""
+        return _pose(self.piece_at(t), t)
+
+    def transform_at(self, t: float) -> tuple[float, ...]:
+        """M(t), row-major 4x4."""
+        turn, shift = self.pose_at(t)
+        rows = [(*row, s) for row, s in zip(turn, shift, strict=True)]
+        return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
+
+    def moving_at(self, t: float, nudge: Vector = ORIGIN) -> core.Moving:
+        """Where the body is and how it goes on, moved by `nudge`."""
+        piece = self.piece_at(t)
+        turn, shift = _pose(piece, t)
+        centre = piece.centre_at(t)
+        return core.Moving(
+            turn, _sum(shift, nudge), _sum(centre, nudge), piece.velocity, piece.spin
+        )
+
+    def reach(self, bounds: Box) -> float:
+        """World units: no coordinate of the body, of its pivot or its centre exceeds it, nor does
+        their sum. bounds: of the body as placed."""
+        return max(_reach(piece, bounds) for piece in self.pieces)
+
+    def pad(self, bounds: Box) -> float:
+        """World units: what rounding may do to a point of the body, and to a gap at that point."""
+        turned = math.radians(max(abs(piece.degrees) for piece in self.pieces))
+        return (POSE_ROUNDOFFS + 4 * turned) * UNIT_ROUNDOFF * self.reach(bounds)
+
+    def slack(self, piece: Piece, bounds: Box) -> float:
+        """World units per unit of t: what rounding may do to the rate at which a gap closes."""
+        leg = LEG_ROUNDOFFS * _reach(piece, bounds) / (piece.end - piece.start)
+        return (RATE_ROUNDOFFS * _fastest(piece, bounds) + leg) * UNIT_ROUNDOFF
+
+    def fastest(self, t: float, bounds: Box) -> float:
+        """An upper bound of the speed of any point of the body, world units per unit of t."""
+        return _fastest(self.piece_at(t), bounds)
+
+
+def track_of(path: Path) -> Track:
+    if isinstance(path, Translation):
+        return Track((_piece(0.0, 1.0, velocity=path.vector),))
+    if isinstance(path, Rotation):
+        piece = _piece(0.0, 1.0, path.point, path.point, axis=unit(path.axis), degrees=path.degrees)
+        return Track((piece,))
+    pieces = []
+    for here, there in pairwise(path.waypoints):
+        axis, degrees = between(here.orientation, there.orientation)
+        length = there.time - here.time
+        steps = (q - p for p, q in zip(here.position, there.position, strict=True))
+        x, y, z = (step / length for step in steps)
+        turn = of_quaternion(here.orientation)
+        pieces.append(
+            _piece(
+                here.time,
+                there.time,
+                centre=here.position,
+                velocity=(x, y, z),
+                turn=turn,
+                axis=axis,
+                degrees=degrees,
+            )
+        )
+    return Track(tuple(pieces))
+
+
+def _piece(
+    start: float,
+    end: float,
+    pivot: Vector = ORIGIN,
+    centre: Vector = ORIGIN,
+    *,
+    velocity: Vector = ORIGIN,
+    turn: Matrix = STILL,
+    axis: Vector = (1.0, 0.0, 0.0),
+    degrees: float = 0.0,
+) -> Piece:
+    return Piece(start, end, pivot, centre, velocity, turn, axis, degrees)
+
+
+def _pose(piece: Piece, t: float) -> tuple[Matrix, Vector]:
+    turn, centre = piece.turn_at(t), piece.centre_at(t)
+    carried = applied(turn, piece.pivot)
+    return turn, _sum(centre, (-carried[0], -carried[1], -carried[2]))
+
+
+def _sum(a: Vector, b: Vector) -> Vector:
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+def _fastest(piece: Piece, bounds: Box) -> float:
+    return math.hypot(*piece.velocity) + math.hypot(*piece.spin) * _reach(piece, bounds)
+
+
+def _reach(piece: Piece, bounds: Box) -> float:
+    (x, y, z), (u, v, w) = bounds
+    corners = [(i, j, k) for i in (x, u) for j in (y, v) for k in (z, w)]
+    radius = max(math.dist(corner, piece.pivot) for corner in corners)
+    ends = (piece.centre, piece.centre_at(piece.end))
+    farthest = max(math.hypot(*end) for end in ends)
+    return (radius + math.hypot(*piece.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
+
+
+STANDS = Track((_piece(0.0, 1.0),))

@@ -1,0 +1,102 @@
+"""Rotations: about an axis by degrees, and what takes one orientation to another.
+
+Rotations are 3x3 matrices in rows, right-handed; quaternions are (x, y, z, w) of any length but 0.
+Quarter turns about a coordinate axis are exact.
+"""
+
+from __future__ import annotations
+
+import math
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+Matrix = tuple[Vector, Vector, Vector]
+
+STILL: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_X: Vector = (1.0, 0.0, 0.0)
+
+
+def rotation(axis: Vector, degrees: float) -> Matrix:
+    """About a unit axis. Formula: Olinde Rodrigues (1840)."""
+    cosine, sine = cos_sin(degrees)
+    x, y, z = axis
+    versine = 1.0 - cosine
+    return (
+        (cosine + versine * x * x, versine * x * y - sine * z, versine * x * z + sine * y),
+        (versine * x * y + sine * z, cosine + versine * y * y, versine * y * z - sine * x),
+        (versine * x * z - sine * y, versine * y * z + sine * x, cosine + versine * z * z),
+    )
+
+
+def cos_sin(degrees: float) -> tuple[float, float]:
+    """Exact at multiples of 90: whole turns and quarters are taken off without rounding."""
+    turned = math.fmod(degrees, 360.0)
+    rest = math.remainder(turned, 90.0)
+    quarter = round((turned - rest) / 90.0) % 4
+    cosine, sine = math.cos(math.radians(rest)), math.sin(math.radians(rest))
+    return ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))[quarter]
+
+
+def unit(v: Vector) -> Vector:
+    """Along v, which is not zero; neither its size nor its smallness spoils the direction."""
+    largest = max(abs(c) for c in v)
+    small = (v[0] / largest, v[1] / largest, v[2] / largest)
+    length = math.hypot(*small)
+    return small[0] / length, small[1] / length, small[2] / length
+
+
+def applied(m: Matrix, v: Vector) -> Vector:
+    return (
+        math.fsum(m[0][k] * v[k] for k in range(3)),
+        math.fsum(m[1][k] * v[k] for k in range(3)),
+        math.fsum(m[2][k] * v[k] for k in range(3)),
+    )
+
+
+def product(m: Matrix, n: Matrix) -> Matrix:
+    """m after n."""
+    columns = tuple(zip(*n, strict=True))
+    return tuple(  # type: ignore[return-value]
+        tuple(math.fsum(a * b for a, b in zip(row, column, strict=True)) for column in columns)
+        for row in m
+    )
+
+
+def of_quaternion(q: Quaternion) -> Matrix:
+    return rotation(*axis_angle(_unit_quaternion(q)))
+
+
+def between(start: Quaternion, end: Quaternion) -> tuple[Vector, float]:
+    """Unit axis (world) and degrees, 0 to 180, of the shortest turn from one orientation to the
+    other. Where they are half a turn apart, the one of the quaternions as given."""
+    p, q = _unit_quaternion(start), _unit_quaternion(end)
+    if math.fsum(a * b for a, b in zip(p, q, strict=True)) < 0:
+        q = (-q[0], -q[1], -q[2], -q[3])
+    return axis_angle(_times(q, (-p[0], -p[1], -p[2], p[3])))
+
+
+def axis_angle(q: Quaternion) -> tuple[Vector, float]:
+    """Of a unit quaternion; degrees from 0 to 360."""
+    sine = math.hypot(q[0], q[1], q[2])
+    if sine == 0.0:
+        return _X, 0.0
+    return unit((q[0], q[1], q[2])), math.degrees(2.0 * math.atan2(sine, q[3]))
+
+
+def _unit_quaternion(q: Quaternion) -> Quaternion:
+    largest = max(abs(c) for c in q)
+    small = [c / largest for c in q]
+    length = math.hypot(*small)
+    return small[0] / length, small[1] / length, small[2] / length, small[3] / length
+
+
+def _times(p: Quaternion, q: Quaternion) -> Quaternion:
+    """The Hamilton product: the turn q, then p."""
+    px, py, pz, pw = p
+    qx, qy, qz, qw = q
+    return (
+        math.fsum((pw * qx, px * qw, py * qz, -pz * qy)),
+        math.fsum((pw * qy, -px * qz, py * qw, pz * qx)),
+        math.fsum((pw * qz, px * qy, -py * qx, pz * qw)),
+        math.fsum((pw * qw, -px * qx, -py * qy, -pz * qz)),
+    )

@@ -1,0 +1,119 @@
+"""The worst pose of a motion: where bodies overlap most, or come nearest.
+
+Branch and bound on t: S. A. Piyavskii, "An Algorithm for Finding the Absolute Extremum of a
+Function" (1972); Bruno O. Shubert, "A Sequential Method Seeking the Global Maximum of a Function"
+(1972). Where we deviate: the bound of an interval is not one constant for the whole motion but what
+the bodies can do within it, along the axis between them.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from satcheck.audit.finding import examine
+from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_WIDTH
+from satcheck.audit.motion.moving_pair import BudgetSpent, MovingPair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import OVERLAPS
+
+Bounds = Callable[[float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True, slots=True)
+class Worst:
+    """lower <= least signed distance over the motion <= upper, which is that at `time`."""
+
+    time: float
+    lower: float
+    upper: float
+
+
+def least_distance(pair: MovingPair, enough: float | None = None) -> Worst | None:
+    """Of two convex bodies the least signed distance, of others the least distance of surfaces.
+
+    enough: the search goes on until it is known whether the least is below that. None: nothing was
+    found before the budget of the pair was spent.
+    """
+    return _least(pair, pair.least_gap, enough)
+
+
+def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
+    """Minus the depth of bodies that are not both convex and overlap at t = impact.
+
+    The depth of such a pair is no steady function of t: it is measured at a number of poses, of
+    which the deepest is refined. The lower end is that of the hulls, over the whole motion.
+    """
+    deepest, time = 0.0, impact
+    step = (1.0 - impact) / (WORST_DEPTHS - 1)
+    for t in (impact + step * k for k in range(WORST_DEPTHS)):
+        depth = _depth_at(pair, min(t, 1.0), pair.pair.settings.depth_budget / WORST_DEPTHS)
+        if depth > deepest:
+            deepest, time = depth, min(t, 1.0)
+    deepest = max(deepest, _depth_at(pair, time, pair.pair.settings.depth_budget))
+    hulls = _least(pair, lambda s, e: (pair.least_hull_gap(s, e), -deepest), None)
+    return hulls and Worst(time, min(hulls.lower, -deepest), -deepest)
+
+
+class _Search:
+    """queue: (lower bound, start, end) of intervals of t that cover the motion."""
+
+    def __init__(self, pair: MovingPair, bounds: Bounds) -> None:
+        self.best, self.time = math.inf, 0.0
+        self._pair = pair
+        self._bounds = bounds
+        self._queue: list[tuple[float, float, float]] = []
+        for end in pair.times:
+            self._look(end, end)
+        for start, end in pairwise(pair.times):
+            heapq.heappush(self._queue, self._look(start, end))
+
+    @property
+    def least(self) -> float:
+        return min(self._queue[0][0], self.best)
+
+    @property
+    def narrow(self) -> bool:
+        return self.best - self.least <= max(WORST_WIDTH * abs(self.best), 4 * self._pair.pad)
+
+    def halve(self) -> None:
+        """Looks closer at the interval of the least bound."""
+        _, start, end = self._queue[0]
+        middle = 0.5 * (start + end)
+        halves = [self._look(start, middle), self._look(middle, end)]
+        heapq.heapreplace(self._queue, halves[0])
+        heapq.heappush(self._queue, halves[1])
+
+    def _look(self, start: float, end: float) -> tuple[float, float, float]:
+        lower, upper = self._bounds(start, end)
+        if upper < self.best:
+            self.best, self.time = upper, 0.5 * (start + end)
+        return lower, start, end
+
+
+def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | None:
+    search = None
+    try:
+        search = _Search(pair, bounds)
+        for _ in range(WORST_INTERVALS):
+            decided = enough is None or search.best < enough or search.least >= enough
+            if search.narrow and decided:
+                break
+            search.halve()
+    except BudgetSpent:
+        if search is None:
+            return None
+    return Worst(search.time, search.least, search.best)
+
+
+def _depth_at(pair: MovingPair, t: float, budget: float) -> float:
+    """A proven lower bound of the depth, 0.0 where they do not overlap."""
+    placed = pair.placed(t)
+    settings = replace(placed.settings, depth=True, depth_budget=budget)
+    finding = examine(replace(placed, settings=settings), Plan())
+    if finding.relation not in OVERLAPS or finding.depth_bounds is None:
+        return 0.0
+    return finding.depth_bounds[0]

@@ -1,0 +1,46 @@
+"""Two placed bodies for the tests of a sweep, made of small meshes."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from satcheck.audit.motion.moving_pair import MovingPair
+from satcheck.audit.motion.track import STANDS, track_of
+from satcheck.audit.pair import Pair
+from satcheck.audit.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.settings import Settings
+from satcheck.core import Mesh
+from satcheck.scene.motion import Path as MotionPath
+from tests.audit.shapes import Mesh as Lists
+from tests.audit.shapes import scene_of
+
+
+def pair_of(a: Lists, b: Lists, **settings: object) -> Pair:
+    """Called "a" and "b"."""
+    asked = Settings(**settings)  # type: ignore[arg-type]
+    with tempfile.TemporaryDirectory() as folder:
+        scene = scene_of(Path(folder), a=a, b=b)
+    placed = [PlacedBody(body, SharedMesh(body.file, asked)) for body in scene.bodies]
+    return Pair(placed[0], placed[1], asked)
+
+
+def moving(
+    a: Lists,
+    path_a: MotionPath | None,
+    b: Lists,
+    path_b: MotionPath | None = None,
+    **settings: object,
+) -> MovingPair:
+    tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
+    return MovingPair(pair_of(a, b, **settings), tracks[0], tracks[1])
+
+
+def hull_of(points: Sequence[Sequence[float]]) -> Lists:
+    """The convex hull of the points as a mesh, its faces outward."""
+    cloud = np.ascontiguousarray(points, dtype=np.float64)
+    mesh = Mesh(cloud, np.array([[0, 1, 2]], dtype=np.uint32)).convex_hull().to_mesh()
+    return mesh.vertices.tolist(), [tuple(t) for t in mesh.triangles.tolist()]

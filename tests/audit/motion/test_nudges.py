@@ -1,0 +1,101 @@
+"""Contact that goes on: sliding on a table, in a corner, turning on the spot, leaving."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.audit.motion.impact import first_impact
+from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
+from tests.audit.motion.pairs import moving
+from tests.audit.shapes import box, bracket, moved, unit_box
+
+TABLE = box((-9, -9, -1), (9, 9, 0))
+DEEPER = 2.0**-24  # a power of two, so that moving by it rounds nothing
+BANDS = [0.0, 1e-6]
+
+
+def impact_of(a, path, b, tolerance=1e-6):
+    return first_impact(moving(a, path, b, tolerance=tolerance))
+
+
+@pytest.mark.parametrize("tolerance", BANDS)
+@pytest.mark.parametrize("body", [unit_box(), bracket()])
+@pytest.mark.parametrize(
+    "path",
+    [
+        Translation((3.0, 2.0, 0.0)),
+        Translation((-0.3, 0.7, 1e-3)),
+        Rotation((0.3, 0.7, 0.0), (0.0, 0.0, 1.0), 500.0),
+        PosePath(
+            (
+                Waypoint(0.0, (0.0, 0.0, 0.0)),
+                Waypoint(0.5, (1.0, 1.0, 0.0), (0.0, 0.0, 0.6, 0.8)),
+                Waypoint(1.0, (1.0, -1.0, 0.0)),
+            )
+        ),
+    ],
+)
+def test_on_a_table(body, path, tolerance):
+    impact = impact_of(body, path, TABLE, tolerance)
+    assert impact.free
+    assert impact.contact == 0.0
+
+
+@pytest.mark.parametrize("body", [unit_box(), bracket()])
+def test_set_into_the_table_within_the_band(body):
+    impact = impact_of(moved(body, 0, 0, -DEEPER), Translation((3.0, 2.0, 0.0)), TABLE)
+    assert impact.free
+
+
+@pytest.mark.parametrize("body", [unit_box(), bracket()])
+def test_into_the_table(body):
+    """Along it for half of the time, then into it: by the band after half its length."""
+    path = PosePath(
+        (
+            Waypoint(0.0, (0.0, 0.0, 0.0)),
+            Waypoint(0.5, (2.0, 0.0, 0.0)),
+            Waypoint(1.0, (2.0, 0.0, -0.5)),
+        )
+    )
+    impact = impact_of(body, path, TABLE)
+    assert impact.lower == pytest.approx(0.5, abs=1e-6)
+    assert impact.lower <= 0.5 <= impact.upper <= 0.5 + 2e-6
+
+
+@pytest.mark.parametrize("tolerance", BANDS)
+@pytest.mark.parametrize(
+    "path",
+    [Translation((0.0, 0.0, 2.0)), Translation((0.0, 1.0, 1.0)), Translation((3.0, 1.0, 0.0))],
+)
+def test_along_the_walls_of_a_corner(path, tolerance):
+    """A box in the notch of an L, at both of its walls; no plane separates the two."""
+    impact = impact_of(unit_box(2, 2, 1), path, bracket(), tolerance)
+    assert impact.free
+    assert impact.contact == 0.0
+
+
+def test_into_the_wall_of_a_corner():
+    path = Translation((-0.5, 0.0, 1.0))
+    impact = impact_of(unit_box(3, 2, 1), path, bracket())
+    assert impact.free
+    further = impact_of(unit_box(3, 2, 1), Translation((-2.0, 0.0, 1.0)), bracket())
+    assert further.lower <= 0.5 <= further.upper <= 0.5 + 2e-6
+
+
+def test_where_nothing_is_proven_the_answer_is_open():
+    """A slider that fits its slot exactly has nowhere to be nudged to. It never overlaps."""
+    slot = _slot()
+    impact = impact_of(box((1, 1, 0), (2, 3, 1)), Translation((0.0, 0.5, 0.0)), slot)
+    assert not impact.free
+    assert impact.upper is None
+    assert "nothing proves" in impact.reason
+
+
+def _slot():
+    """A U along y: floor z < 0, walls x < 1 and x > 2."""
+    outline = [(0, -1), (3, -1), (3, 1), (2, 1), (2, 0), (1, 0), (1, 1), (0, 1)]
+    points = [(float(x), y, float(z)) for y in (0.0, 5.0) for x, z in outline]
+    walls = [(k, k + 8, (k + 1) % 8 + 8, (k + 1) % 8) for k in range(8)]
+    front = [(0, 1, 4, 5), (1, 2, 3, 4), (0, 5, 6, 7)]
+    back = [tuple(k + 8 for k in reversed(face)) for face in front]
+    return points, [*walls, *front, *back]

@@ -1,0 +1,83 @@
+"""Tracks: where a motion takes a body, how fast, and how well that is known."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+
+from satcheck.audit.motion.track import STANDS, track_of
+from satcheck.audit.motion.turn import applied
+from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
+
+UNIT = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+QUARTER = (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))
+SCREW = PosePath(
+    (
+        Waypoint(0.0, (1.0, 0.0, 0.0)),
+        Waypoint(0.25, (1.0, 0.0, 2.0), QUARTER),
+        Waypoint(1.0, (4.0, 0.0, 2.0), QUARTER),
+    )
+)
+
+
+def at(path, t, point):
+    turn, shift = track_of(path).pose_at(t)
+    return tuple(c + s for c, s in zip(applied(turn, point), shift, strict=True))
+
+
+def test_what_stands_stands() -> None:
+    assert STANDS.transform_at(0.7) == IDENTITY
+    assert not STANDS.moves
+
+
+def test_a_translation() -> None:
+    assert at(Translation((2.0, 0.0, -4.0)), 0.25, (1.0, 1.0, 1.0)) == (1.5, 1.0, 0.0)
+
+
+@pytest.mark.parametrize("turns", [1, -3, 1000])
+def test_whole_turns_return(turns: int) -> None:
+    track = track_of(Rotation((3.0, 0.1, 7.0), (1.0, 2.0, 2.0), 360.0 * turns))
+    assert track.transform_at(0.0) == track.transform_at(1.0) == IDENTITY
+
+
+def test_a_quarter_about_a_line() -> None:
+    path = Rotation((1.0, 0.0, 0.0), (0.0, 0.0, 5.0), 180.0)
+    assert at(path, 0.5, (3.0, 0.0, 4.0)) == (1.0, 2.0, 4.0)
+
+
+def test_a_path_of_poses() -> None:
+    track = track_of(SCREW)
+    assert track.times == [0.0, 0.25, 1.0]
+    assert at(SCREW, 0.0, (1.0, 0.0, 0.0)) == (2.0, 0.0, 0.0)
+    half = math.sqrt(0.5)
+    assert at(SCREW, 0.125, (1.0, 0.0, 0.0)) == pytest.approx((1.0 + half, half, 1.0), abs=1e-15)
+    assert at(SCREW, 1.0, (1.0, 0.0, 0.0)) == pytest.approx((4.0, 1.0, 2.0), abs=1e-15)
+
+
+def test_the_pad_holds_what_rounding_does() -> None:
+    """A turn by a rational angle, in rationals: 3-4-5 is no binary angle, so a thousand turns more
+    round it as they may."""
+    angle = math.degrees(math.atan2(4.0, 3.0))
+    exact = [Fraction(3, 5), Fraction(4, 5), Fraction(0)]
+    for turns in (0, 1, 1000):
+        path = Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), angle + 360.0 * turns)
+        point = at(path, 1.0, (1.0, 0.0, 0.0))
+        off = max(abs(Fraction(c) - e) for c, e in zip(point, exact, strict=True))
+        # The angle that was asked for is itself rounded: by half a unit in the last place.
+        asked = math.radians(math.ulp(path.degrees))
+        assert off <= track_of(path).pad(UNIT) + asked
+
+
+@pytest.mark.parametrize(
+    "path", [Translation((3.0, 4.0, 0.0)), Rotation((9.0, 0.0, 0.0), (0.0, 1.0, 1.0), 700.0), SCREW]
+)
+def test_no_point_is_faster_than_the_bound(path) -> None:
+    track = track_of(path)
+    for k in range(64):
+        start, end = k / 64, (k + 1) / 64
+        for corner in ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 1.0)):
+            step = math.dist(at(path, start, corner), at(path, end, corner))
+            assert step <= track.fastest(start, UNIT) / 64 + 2 * track.pad(UNIT)
