@@ -74,30 +74,39 @@ CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, d
   return answer;
 }
 
+// What is left between the witness points beside value * axis goes to both of them by halves.
+void straighten(CoreAnswer& core) {
+  const Vec3 middle = (core.witness.a + core.witness.b) * 0.5, half = core.axis * (core.value / 2);
+  core.witness = {middle + half, middle - half};
+}
+
 // GJK came too close to prove a gap, EPA found an axis that does. GJK's closest points hold; its
 // direction may be rounding noise, and only counts when it separates too.
 CoreAnswer from_epa_gap(const MinkowskiDifference& m, const GjkResult& g, const EpaResult& e) {
   CoreAnswer answer = from_gjk_distance(m, g, -e.upper);
   if (dot(answer.axis, m.support(answer.axis).w) < 0) return answer;
   answer.axis = e.axis;
-  const Vec3 middle = (answer.witness.a + answer.witness.b) * 0.5, half = e.axis * (answer.value / 2);
-  answer.witness = {middle + half, middle - half};
+  straighten(answer);
   return answer;
 }
 
+// GJK on the shapes moved apart along the axis until they touch.
+Witnesses touching_points(const MinkowskiDifference& m, Vec3 axis, double penetration) {
+  MinkowskiDifference touching = m;
+  touching.b_in_a.translation = touching.b_in_a.translation + axis * penetration;
+  GjkResult g = gjk(touching, GjkGoal::distance);
+  if (g.status == GjkResult::Status::encloses) weigh_enclosed_origin(g.simplex);
+  return {g.simplex.witness_a(), g.simplex.witness_b() - axis * penetration};
+}
+
 // The facet that EPA ends on may hold the origin's projection only together with coplanar points it
-// never asked for: then the contact region tells, or, for curved shapes, GJK on the shapes moved
-// apart until they touch.
+// never asked for: then the contact region tells, or, for curved shapes, the points where they touch.
 Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
   const Witnesses facet{e.facet.witness_a(), e.facet.witness_b()};
   const double miss = norm(facet.a - facet.b - e.axis * e.upper);
   if (e.facet.count > 0 && miss <= (m.curved ? kCurvedFacetGap * m.scale : m.support_error())) return facet;
   if (m.a.is_polytope() && m.b.is_polytope()) return contact_region_centre(m, e.axis, e.upper);
-  MinkowskiDifference touching = m;
-  touching.b_in_a.translation = touching.b_in_a.translation + e.axis * e.upper;
-  GjkResult g = gjk(touching, GjkGoal::distance);
-  if (g.status == GjkResult::Status::encloses) weigh_enclosed_origin(g.simplex);
-  return {g.simplex.witness_a(), g.simplex.witness_b() - e.axis * e.upper};
+  return touching_points(m, e.axis, e.upper);
 }
 
 CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query query, PairResult& result) {
@@ -152,7 +161,8 @@ Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m, double no
   return lower >= -band && upper <= band ? Outcome::touching : Outcome::undecided;
 }
 
-// The last digits of a curved pair's axis: a smaller upper bound. An overlap takes the axis over.
+// The last digits of a curved pair's axis: a smaller upper bound. An overlap takes the axis over, with
+// the points that belong to it: the support points, or, of a flat face or a mantle line, others there.
 void polish(const MinkowskiDifference& m, CoreAnswer& core) {
   const AxisSupport best = least_support_near(m, core.axis);
   if (!(best.value < core.upper)) return;
@@ -160,8 +170,9 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
   core.value = std::fmin(core.value, best.value);
   if (core.method == Method::gjk) return;
   core.axis = best.axis;
-  const Vec3 middle = (core.witness.a + core.witness.b) * 0.5, half = core.axis * (core.value / 2);
-  core.witness = {middle + half, middle - half};
+  const bool unique = norm(best.point.w - best.axis * best.value) <= kCurvedFacetGap * m.scale;
+  core.witness = unique ? Witnesses{best.point.a, best.point.a - best.point.w}
+                        : touching_points(m, best.axis, best.value);
 }
 
 // The hull of the world vertices, each rounded by the pose. A hull that stays where it was made is
@@ -273,11 +284,13 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
     polish(m, core);
     result.outcome = classify(core, m, noise);
   }
+  const bool polytopes = a.is_polytope() && b.is_polytope();
+  if (!polytopes && core.has_axis) straighten(core);
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
   const double confirmed_below = core.method == Method::sat ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const bool too_wide = result.has_distance && !(result.upper - result.lower <= kWidestInterval * m.scale);
-  if (a.is_polytope() && b.is_polytope()) {
+  if (polytopes) {
     if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
   } else if (in_doubt && !m.curved) {
     settle_grown(a, pose_a, b, pose_b, noise, result);

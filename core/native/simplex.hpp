@@ -40,7 +40,8 @@ struct ClosestPoint {
 // compete by distance, so a misjudged sign costs accuracy in the last digit, not the region.
 ClosestPoint closest_point(const Simplex& simplex);
 
-// Weights of the origin in a tetrahedron that encloses it.
+// Weights of the origin in a tetrahedron that encloses it, however thin. One that rounding cannot tell
+// from its faces loses the vertices that carry nothing.
 void weigh_enclosed_origin(Simplex& simplex);
 
 // Keeps only the vertices that carry the closest point, with their weights.

@@ -24,6 +24,7 @@ from satcheck.core import (
     Sphere,
     check_pair,
 )
+from tests.core.pair_checks import CURVED
 from tests.oracles.random_shapes import random_hull, random_pose
 
 Query = Literal["overlap", "depth", "distance"]
@@ -122,6 +123,42 @@ def assert_mirrored(one: PairResult, other: PairResult) -> None:
     assert other.normal is not None
     assert one.normal == tuple(-c for c in other.normal)
     assert (one.witness_a, one.witness_b) == (other.witness_b, other.witness_a)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"), [(a, b) for a, b in product(KINDS, ROUND) if (a, b) != ("ellipsoid", "hull")]
+)
+def test_witness_points_of_deep_pairs(one: str, other: str) -> None:
+    """They are `distance` apart along the normal to rounding, and each is a point of its shape."""
+    rng = np.random.default_rng(hash_of(other + one))
+    a, b = KINDS[one](1.0), KINDS[other](1.0)
+    for _ in range(50):
+        assert_witnesses(a, random_pose(rng, 0.3), b, random_pose(rng, 0.3))
+
+
+def test_witness_points_of_a_splinter() -> None:
+    """A ball in a cylinder: GJK encloses the contact, on a line of the mantle, in a tetrahedron
+    without volume."""
+    turned = (0.769846384920389, 1.8751916653381095, 0.6548183399021803, -0.00019462529205232696)
+    place = (-0.0828774459810556, 0.12713535526270967, -0.5836930115733088)
+    ball = Sphere(0.7850677656567919)
+    cylinder = Cylinder(0.4632211535235027, 0.7813098287806761)
+    other_turn = (-0.46661869143724904, 0.3881359709354622, 0.17199884168911286, 0.5654781884581037)
+    assert_witnesses(cylinder, (0.0, 0.0, 0.0, *turned), ball, (*place, *other_turn))
+
+
+def assert_witnesses(a: Any, pose_a: Pose, b: Any, pose_b: Pose) -> None:
+    """Of shapes whose size is about 1. Rounding: 64 roundoffs of coordinates below 4."""
+    result = check_pair(a, b, pose_a, pose_b)
+    assert result.distance is not None
+    assert result.witness_a is not None
+    assert result.witness_b is not None
+    between = np.subtract(result.witness_b, result.witness_a)
+    assert np.abs(result.distance * np.array(result.normal) - between).max() <= 2.0**-45
+    for shape, pose, witness in ((a, pose_a, result.witness_a), (b, pose_b, result.witness_b)):
+        off = check_pair(shape, Hull(np.zeros((1, 3))), pose, tuple(witness))
+        assert off.lower is not None
+        assert off.lower <= CURVED
 
 
 # ---- exact truth

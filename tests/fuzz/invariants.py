@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from satcheck import core
 from tests.core.pair_checks import CURVED
 from tests.fuzz.pairs import Batch
-from tests.fuzz.shapes import Rng
+from tests.fuzz.shapes import Rng, Shapes
 from tests.oracles.exact_distance import exact_truth
 from tests.oracles.random_shapes import Points
 
@@ -33,8 +33,12 @@ def contradictions(batch: Batch, rng: Rng) -> Iterator[tuple[str, Mask]]:
     yield "queries disagree", _differs(depth, batch.ask("overlap")) | _differs(depth, gap)
     yield "intervals of two queries are apart", _apart(depth, gap, tolerance)
     yield "outcome against bounds", _against_bounds(depth) | _against_bounds(gap)
-    yield "witness points against normal", _witnesses(depth, tolerance)
-    yield "witness points off the supports", _off_supports(batch, depth, tolerance)
+    if batch.curved:
+        yield "witness points against normal", _crooked(depth, batch.size() * ROUNDOFFS)
+        yield "witness points off the shapes", _off_shapes(batch, depth, tolerance)
+    else:
+        yield "witness points against normal", _witnesses(depth, tolerance)
+        yield "witness points off the supports", _off_supports(batch, depth, tolerance)
     swapped = batch.swapped().ask("depth")
     yield "swapped: outcome", _differs(depth, swapped)
     yield "swapped: interval", _apart(depth, swapped, tolerance)
@@ -75,14 +79,36 @@ def _against_bounds(p: core.PairResults) -> Mask:
     return np.asarray(~(ordered & sign))
 
 
+def _crooked(p: core.PairResults, tolerance: Points) -> Mask:
+    """distance * normal = witness_b - witness_a, and the normal is unit."""
+    between = np.asarray(p.witness_b) - np.asarray(p.witness_a)
+    off = np.abs(np.asarray(p.distance)[:, None] * p.normal - between).max(axis=1)
+    long = np.abs(np.linalg.norm(p.normal, axis=1) - 1) > ROUNDOFFS
+    return np.asarray(~(off <= tolerance) | long)
+
+
 def _witnesses(p: core.PairResults, tolerance: Points) -> Mask:
     """The witness points are at most the far end of the interval apart, their distance along the
     normal at least the near end: what is left across the normal follows from Pythagoras."""
-    between = np.asarray(p.witness_b) - np.asarray(p.witness_a)
-    off = np.abs(np.asarray(p.distance)[:, None] * p.normal - between).max(axis=1)
     across = np.sqrt(np.abs(np.square(p.upper) - np.square(p.lower)))
-    long = np.abs(np.linalg.norm(p.normal, axis=1) - 1) > ROUNDOFFS
-    return np.asarray(~(off <= tolerance + _width(p) + across) | long)
+    return _crooked(p, tolerance + _width(p) + across)
+
+
+def _off_shapes(batch: Batch, p: core.PairResults, tolerance: Points) -> Mask:
+    """Of curved shapes: each witness point, as a body of its own, is at its shape. That far apart
+    along the normal, they are the ends of the overlap then."""
+    point = Shapes("point", (np.zeros((1, 3)),))
+    off = np.zeros(len(tolerance), bool)
+    sides = (
+        (batch.a, batch.index_a, batch.pose_a, p.witness_a),
+        (batch.b, batch.index_b, batch.pose_b, p.witness_b),
+    )
+    for shapes, index, pose, witness in sides:
+        place = np.zeros_like(pose)
+        place[:, :3], place[:, 6] = witness, 1
+        there = Batch("witness point", shapes, point, index, np.zeros_like(index), pose, place)
+        off |= ~(np.asarray(there.ask("distance").lower) <= tolerance + _width(p))
+    return off
 
 
 def _width(p: core.PairResults) -> Points:
@@ -95,8 +121,6 @@ def _off_supports(batch: Batch, p: core.PairResults, tolerance: Points) -> Mask:
     cosine of its angle with the axis that proves the near end is at least near end / far end. Where
     rounded vertices touch, no axis is proven."""
     off = np.zeros(len(tolerance), bool)
-    if batch.curved:
-        return off
     normal, distance = np.asarray(p.normal), np.asarray(p.distance)
     gap = distance > 0
     turn = np.divide(tolerance, distance, out=np.zeros(len(off)), where=gap)
