@@ -29,16 +29,18 @@ def read_foreign(source: Source, *, seconds: float, megabytes: int) -> RawMesh:
     try:
         reply = run_isolated(_WORKER, request, seconds=seconds, megabytes=megabytes)
     except WorkerError as error:
-        raise MeshFileError(
-            _CODE_OF_WORKER.get(error.code, "reader-failed"),
-            _explain(error, source, megabytes),
-            file=source.path,
-        ) from error
+        raise refused_by_worker(error, source, megabytes) from error
     answer = protocol.unpack_reply(reply)
     if isinstance(answer, protocol.Refusal):
         code = answer.code if answer.code in CODES else "reader-failed"
         raise MeshFileError(code, answer.message, file=source.path)
     return answer
+
+
+def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> MeshFileError:
+    """What to tell of a child that was stopped or died while it read."""
+    code = _CODE_OF_WORKER.get(error.code, "reader-failed")
+    return MeshFileError(code, _explain(error, source, megabytes), file=source.path)
 
 
 def _explain(error: WorkerError, source: Source, megabytes: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -64,15 +65,17 @@ class Source:
     data: bytes = field(repr=False)
 
 
-def read_source(path: str, location: Path, *, max_bytes: int) -> Source:
+def read_source(
+    path: str, location: Path, *, max_bytes: int, formats: Mapping[str, str] = FORMATS
+) -> Source:
     """Reads a mesh file, or raises MeshFileError.
 
-    Only a regular file whose suffix belongs to a mesh format is opened.
+    Only a regular file whose suffix is one of the formats is opened.
     """
     size = _size(path, location)
-    file_format = FORMATS.get(location.suffix.lower())
+    file_format = formats.get(location.suffix.lower())
     if file_format is None:
-        known = ", ".join(sorted(FORMATS))
+        known = ", ".join(sorted(formats))
         raise MeshFileError(
             "unsupported-format",
             f"unsupported format {location.suffix!r}: known are {known}",

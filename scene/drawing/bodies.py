@@ -1,0 +1,75 @@
+"""A drawing file as meshes: sheets in the plane z = 0, for checks in a plane."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from satcheck.core import Mesh
+from satcheck.core.worker import WorkerError
+from satcheck.scene.bodies import MeshFile
+from satcheck.scene.drawing.reading import DRAWINGS, read_drawing
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.health import examine
+from satcheck.scene.issue import issue
+from satcheck.scene.loading import limits
+from satcheck.scene.loading.foreign import refused_by_worker
+from satcheck.scene.loading.source import Source, read_source
+from satcheck.scene.resolution import FLOAT64_ROUNDING
+
+
+def load_drawing(
+    path: str, location: Path, *, whole: bool, seconds: float, megabytes: int
+) -> list[MeshFile]:
+    """The shapes of an SVG or DXF file, each a MeshFile with its name as `part`.
+
+    whole: all shapes as one. The resolution is how far flattened curves may be off their polygons,
+    and the rounding of the coordinates. Raises MeshFileError.
+    """
+    max_bytes = megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
+    source = read_source(path, location, max_bytes=max_bytes, formats=DRAWINGS)
+    try:
+        found = read_drawing(source.format, source.data, seconds=seconds, megabytes=megabytes)
+    except WorkerError as error:
+        raise refused_by_worker(error, source, megabytes) from error
+    except MeshFileError as error:
+        raise MeshFileError(error.code, error.message, file=path) from None
+    sheets = [_together(found["sheets"])] if whole else found["sheets"]
+    try:
+        return [_sheet_file(source, found, sheet) for sheet in sheets]
+    except MeshFileError as error:
+        raise MeshFileError(error.code, error.message, file=path) from None
+    except OverflowError as error:
+        raise MeshFileError("out-of-range", str(error), file=path) from None
+
+
+def _together(sheets: list[dict[str, Any]]) -> dict[str, Any]:
+    points: list[list[float]] = []
+    triangles: list[list[int]] = []
+    for sheet in sheets:
+        triangles += [[corner + len(points) for corner in t] for t in sheet["triangles"]]
+        points += sheet["points"]
+    deviation = max(sheet["deviation"] for sheet in sheets)
+    return {"name": None, "points": points, "triangles": triangles, "deviation": deviation}
+
+
+def _sheet_file(source: Source, found: dict[str, Any], sheet: dict[str, Any]) -> MeshFile:
+    points = np.array(sheet["points"], dtype=np.float64)
+    vertices = np.column_stack((points, np.zeros(len(points))))
+    triangles = np.array(sheet["triangles"], dtype=np.uint32).reshape(-1, 3)
+    examined = examine(Mesh(vertices, triangles), orient=False)
+    warnings = [("ignored-geometry", words) for words in found["ignored"]]
+    return MeshFile(
+        path=source.path,
+        sha256=source.sha256,
+        format=source.format,
+        resolution=sheet["deviation"] + float(np.abs(points).max()) * FLOAT64_ROUNDING,
+        units=found["units"],
+        mesh=examined.mesh,
+        topology=examined.topology,
+        health=examined.health,
+        issues=tuple(issue(code, words, file=source.path) for code, words in warnings),
+        part=sheet["name"],
+    )

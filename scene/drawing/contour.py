@@ -1,0 +1,149 @@
+"""Closed contours in the plane, and how curves become polygons."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+from satcheck.scene.errors import MeshFileError
+
+Point = tuple[float, float]
+# (a, b, c, d, e, f): x' = a x + b y + c, y' = d x + e y + f.
+Affine = tuple[float, float, float, float, float, float]
+FillRule = Literal["nonzero", "evenodd"]
+
+# How far a polygon may stay inside its curve, relative to the curve's size. It is part of the
+# input's precision from then on: contacts within it read as touching.
+FLATNESS = 2.0**-14
+MAX_SEGMENTS = 4096  # of one curve
+
+
+@dataclass(frozen=True, slots=True)
+class Contour:
+    """A closed polygon, drawing units; the last corner joins the first.
+
+    deviation: the curve that it stands for is nowhere farther from it than this; 0.0: a polygon.
+    """
+
+    points: tuple[Point, ...]
+    deviation: float = 0.0
+
+    def mapped(self, affine: Affine) -> Contour:
+        a, b, c, d, e, f = affine
+        points = tuple((a * x + b * y + c, d * x + e * y + f) for x, y in self.points)
+        # No length is stretched by more than the Frobenius norm.
+        return Contour(points, self.deviation * math.hypot(a, b, d, e))
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnShape:
+    """What lies within the contours by the fill rule. name: unique in the drawing."""
+
+    name: str
+    contours: tuple[Contour, ...]
+    rule: FillRule
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """units: of its coordinates, where the file says so. ignored: what was left out, in words."""
+
+    shapes: tuple[DrawnShape, ...]
+    units: str | None
+    ignored: tuple[str, ...]
+
+
+class Tracer:
+    """Collects the corners of one contour; curves add corners that lie on them."""
+
+    def __init__(self, start: Point) -> None:
+        self._points = [start]
+        self._deviation = 0.0
+
+    @property
+    def here(self) -> Point:
+        return self._points[-1]
+
+    def line(self, end: Point) -> None:
+        self._points.append(end)
+
+    def bezier(self, controls: list[Point]) -> None:
+        """controls: the rest of a quadratic (2) or cubic (3) Bezier curve that starts here.
+
+        A chord over 1/n of the parameter deviates by at most max |B''| / (8 n^2), and |B''| by no
+        more than d (d - 1) times the largest second difference of the controls.
+        """
+        hull = [self.here, *controls]
+        degree = len(hull) - 1
+        bend = max(
+            math.hypot(p[0] - 2 * q[0] + r[0], p[1] - 2 * q[1] + r[1])
+            for p, q, r in zip(hull, hull[1:], hull[2:], strict=False)
+        )
+        most = degree * (degree - 1) * bend / 8
+        n = _segments(math.sqrt(most / _flat(hull)) if most > 0 else 1)
+        self._points += [_on_bezier(hull, k / n) for k in range(1, n)]
+        self._points.append(hull[-1])
+        self._deviation = max(self._deviation, most / n**2)
+
+    def ellipse(
+        self, centre: Point, major: Point, minor: Point, start: float, sweep: float, end: Point
+    ) -> None:
+        """The arc centre + cos(t) major + sin(t) minor, t from start over sweep radians, to `end`.
+
+        It is the image of a circle under a map that stretches no length by more than the larger
+        half axis (they are perpendicular), so a chord over an angle w deviates by at most that
+        times 1 - cos(w / 2); what the ends are off the ellipse comes on top.
+        """
+
+        def at(t: float) -> Point:
+            c, s = math.cos(t), math.sin(t)
+            return (
+                centre[0] + c * major[0] + s * minor[0],
+                centre[1] + c * major[1] + s * minor[1],
+            )
+
+        off = max(math.dist(at(start), self.here), math.dist(at(start + sweep), end))
+        radius = max(math.hypot(*major), math.hypot(*minor))
+        step = 2 * math.acos(1 - FLATNESS)
+        n = _segments(abs(sweep) / step)
+        self._points += [at(start + sweep * k / n) for k in range(1, n)]
+        self._points.append(end)
+        deviation = radius * (1 - math.cos(sweep / n / 2)) + off
+        self._deviation = max(self._deviation, deviation)
+
+    def points(self, corners: list[Point], deviation: float) -> None:
+        """Corners that somebody else put on a curve."""
+        self._points += corners
+        self._deviation = max(self._deviation, deviation)
+
+    def closed(self) -> Contour | None:
+        """The contour, equal neighbours merged; None when fewer than 3 corners are left."""
+        corners = [p for p, q in zip(self._points, self._rotated(), strict=True) if p != q]
+        if any(not math.isfinite(c) for p in corners for c in p):
+            raise MeshFileError("non-finite", "non-finite coordinates")
+        return Contour(tuple(corners), self._deviation) if len(corners) >= 3 else None
+
+    def _rotated(self) -> list[Point]:
+        return [*self._points[1:], self._points[0]]
+
+
+def _segments(wanted: float) -> int:
+    return min(MAX_SEGMENTS, max(1, math.ceil(wanted))) if math.isfinite(wanted) else 1
+
+
+def _flat(hull: list[Point]) -> float:
+    size = max(math.dist(hull[0], p) for p in hull[1:])
+    return FLATNESS * size if size > 0 else 1.0
+
+
+def _on_bezier(hull: list[Point], t: float) -> Point:
+    """De Casteljau."""
+    level = hull
+    while len(level) > 1:
+        level = [
+            (p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]))
+            for p, q in itertools.pairwise(level)
+        ]
+    return level[0]

@@ -1,0 +1,113 @@
+"""From contours to triangles in the plane: a sheet.
+
+The triangles are signed, and their boundary is the contours, edge by edge. So the number of
+triangles that cover a point, clockwise ones taken off, is the winding number of the contours there:
+no area has to be compared, and what the triangles cover is what the non-zero rule fills.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import Counter
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from satcheck.scene.drawing.contour import Contour, DrawnShape, Point
+from satcheck.scene.errors import MeshFileError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """points: (n, 2); triangles: (m, 3), signed as above. deviation: as of the contours."""
+
+    name: str
+    points: npt.NDArray[np.float64]
+    triangles: npt.NDArray[np.int64]
+    deviation: float
+
+
+def sheet_of(shape: DrawnShape) -> Sheet:
+    """Raises MeshFileError: the library's triangles are not bounded by the contours, or contours
+    cross under the even-odd rule."""
+    import manifold3d
+    import numpy as np
+
+    contours = _alternating(shape.contours) if shape.rule == "evenodd" else shape.contours
+    polygons = [np.array(contour.points, dtype=np.float64) for contour in contours]
+    triangles = np.asarray(manifold3d.triangulate(polygons), dtype=np.int64).reshape(-1, 3)
+    if _boundary(triangles) != _edges([len(polygon) for polygon in polygons]):
+        raise MeshFileError("reader-failed", f"shape {shape.name!r} cannot be split into triangles")
+    points = np.concatenate(polygons)
+    if shape.rule == "evenodd" and not _covers_once(points, triangles):
+        raise MeshFileError(
+            "unsupported-feature",
+            f"shape {shape.name!r}: outlines that cross under the even-odd rule are not read",
+        )
+    deviation = max(contour.deviation for contour in contours)
+    return Sheet(shape.name, points, triangles, deviation)
+
+
+def _covers_once(points: npt.NDArray[np.float64], triangles: npt.NDArray[np.int64]) -> bool:
+    from satcheck.core import Surface, covers_once
+    from satcheck.scene.planar.prism import prism
+
+    solid = prism(points, triangles, 1.0).welded()
+    return solid.topology().solid and covers_once(Surface(solid, True))
+
+
+def _edges(sizes: list[int]) -> Counter[tuple[int, int]]:
+    edges: Counter[tuple[int, int]] = Counter()
+    first = 0
+    for size in sizes:
+        edges.update((first + k, first + (k + 1) % size) for k in range(size))
+        first += size
+    return edges
+
+
+def _boundary(triangles: npt.NDArray[np.int64]) -> Counter[tuple[int, int]]:
+    """Directed edges that no neighbour takes back, each as often as it is left over."""
+    edges: Counter[tuple[int, int]] = Counter()
+    for a, b, c in triangles.tolist():
+        edges.update(((a, b), (b, c), (c, a)))
+    return edges - Counter({(b, a): n for (a, b), n in edges.items()})
+
+
+def _alternating(contours: tuple[Contour, ...]) -> list[Contour]:
+    """Contours that hold an even number of others' areas counter-clockwise, the rest clockwise.
+
+    For contours that do not cross, the non-zero rule then fills what the even-odd rule does; that
+    they do not is seen later, by no point being covered twice.
+    """
+    turned = []
+    for contour in contours:
+        corner = contour.points[0]
+        depth = sum(other is not contour and _holds(other.points, corner) for other in contours)
+        outward = _area(contour.points) > 0
+        if outward != (depth % 2 == 0):
+            contour = Contour(contour.points[::-1], contour.deviation)
+        turned.append(contour)
+    return turned
+
+
+def _holds(polygon: tuple[Point, ...], point: Point) -> bool:
+    """By the parity of the edges that a ray to the right crosses, in float64: a wrong answer makes
+    a shape that covers a point twice or less than never, and is refused."""
+    x, y = point
+    inside = False
+    for (ax, ay), (bx, by) in zip(polygon, (*polygon[1:], polygon[0]), strict=True):
+        if (ay > y) != (by > y) and x < ax + (bx - ax) * (y - ay) / (by - ay):
+            inside = not inside
+    return inside
+
+
+def _area(polygon: tuple[Point, ...]) -> float:
+    """Signed, relative to the first corner, so that a shape far from the origin keeps its sign."""
+    ox, oy = polygon[0]
+    return sum(
+        (ax - ox) * (by - oy) - (bx - ox) * (ay - oy)
+        for (ax, ay), (bx, by) in itertools.pairwise(polygon)
+    )

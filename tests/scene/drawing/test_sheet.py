@@ -1,0 +1,69 @@
+"""Triangles that the contours bound, edge by edge."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from satcheck.core import Surface
+from satcheck.scene.drawing.contour import Contour, DrawnShape, FillRule, Point
+from satcheck.scene.drawing.sheet import sheet_of
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.planar.prism import prism
+
+
+def square(low: float, high: float) -> tuple[Point, ...]:
+    return ((low, low), (high, low), (high, high), (low, high))
+
+
+def winding(contours: list[tuple[Point, ...]], rule: FillRule, x: float, y: float) -> int | None:
+    sheet = sheet_of(DrawnShape("s", tuple(Contour(points) for points in contours), rule))
+    solid = Surface(prism(sheet.points, sheet.triangles, 1.0).welded(), True)
+    return solid.winding_number((x, y, 0.5))
+
+
+def test_the_fill_rules() -> None:
+    nested = [square(0, 10), square(2, 8)]
+    assert [winding(nested, "nonzero", x, 5) for x in (1.0, 5.0, 11.0)] == [1, 2, 0]
+    assert [winding(nested, "evenodd", x, 5) for x in (1.0, 5.0, 11.0)] == [1, 0, 0]
+    hole = [square(0, 10), square(2, 8)[::-1]]
+    assert winding(hole, "nonzero", 5.0, 5.0) == 0
+
+
+def test_an_island_in_a_hole() -> None:
+    contours = [square(4, 6), square(0, 10), square(2, 8)]
+    found = [winding(contours, "evenodd", x, 5) for x in (1.0, 3.0, 5.0)]
+    assert found == [1, 0, 1]
+
+
+def test_a_figure_of_eight_is_filled_on_both_sides() -> None:
+    """Against the clock in one half; what is not 0 is filled."""
+    eight = ((0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0))
+    assert {winding([eight], "nonzero", x, 2.0 + 0.1) for x in (0.5, 3.5)} == {1, -1}
+    assert winding([eight], "nonzero", 2.0, 3.5) == 0
+
+
+def test_outlines_that_cross_have_no_even_odd_reading() -> None:
+    with pytest.raises(MeshFileError) as caught:
+        winding([square(0, 4), square(2, 6)], "evenodd", 0, 0)
+    assert caught.value.code == "unsupported-feature"
+
+
+def test_a_ragged_outline_keeps_its_winding() -> None:
+    rng = np.random.default_rng(5)
+    angles = np.arange(60) * 2 * math.pi / 60
+    radii = rng.uniform(1.0, 3.0, 60)
+    points = tuple((r * math.cos(t), r * math.sin(t)) for r, t in zip(radii, angles, strict=True))
+    for x, y in rng.uniform(-3, 3, (50, 2)):
+        expected = _inside(points, x, y)
+        assert winding([points], "nonzero", x, y) == int(expected)
+
+
+def _inside(points: tuple[Point, ...], x: float, y: float) -> bool:
+    turns = 0.0
+    for (ax, ay), (bx, by) in zip(points, (*points[1:], points[0]), strict=True):
+        a, b = math.atan2(ay - y, ax - x), math.atan2(by - y, bx - x)
+        turns += (b - a + math.pi) % (2 * math.pi) - math.pi
+    return round(turns / (2 * math.pi)) == 1
