@@ -13,7 +13,7 @@ from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Finding, Issue, Report
-from satcheck.audit.roster import Roster, place
+from satcheck.audit.roster import MeshKey, Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
 from satcheck.core.errors import SatcheckError
@@ -42,7 +42,7 @@ def check(
     scene: Scene | Sequence[str | Path],
     settings: Settings = DEFAULT_SETTINGS,
     progress: Progress | None = None,
-    meshes: dict[str, SharedMesh] | None = None,
+    meshes: dict[MeshKey, SharedMesh] | None = None,
 ) -> Report:
     """Check every pair of bodies that the scene does not exempt.
 
@@ -78,15 +78,19 @@ def check(
 
 
 def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
-    if not isinstance(scene, Sequence):
-        return scene
-    from satcheck.scene import load_scene
+    if isinstance(scene, Sequence):
+        from satcheck.scene import load_scene
 
-    return load_scene(
-        scene,
-        seconds_per_file=settings.seconds_per_file,
-        megabytes_per_file=settings.megabytes_per_file,
-    )
+        scene = load_scene(
+            scene,
+            seconds_per_file=settings.seconds_per_file,
+            megabytes_per_file=settings.megabytes_per_file,
+        )
+    if settings.planar is None:
+        return scene
+    from satcheck.scene.planar.laid_flat import laid_flat
+
+    return laid_flat(scene, settings.planar)
 
 
 def _examine_all(

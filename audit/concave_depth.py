@@ -23,6 +23,7 @@ from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
 from satcheck.audit.triangles import crossing_depth
 from satcheck.audit.verify import Escape, verified_escape
+from satcheck.core.conventions import axis_across
 
 # Work units of the search in a second of `depth_budget`: what a slow machine of today gets done, so
 # that the budget is not exceeded there. A number and not a clock: the same input, the same answer.
@@ -37,7 +38,7 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     way_out = None
     if pair.may("exact"):
         found = search(pair, lower, hulls.upper, plan)
-        lower, way_out = found.lower, found.way_out
+        lower, way_out = found.lower, _in_the_plane(pair, found.way_out)
     elif contact.proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(pair, plan))
     if way_out is not None:
@@ -99,6 +100,15 @@ def _depth_of(pair: Pair, move: Vector, lower: float) -> Depth:
     length, normal = _length_and_normal(move)
     upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
     return Depth(min(lower, upper), upper, normal, Escape(move, True, upper))
+
+
+def _in_the_plane(pair: Pair, way_out: Vector | None) -> Vector | None:
+    """Prisms of one height are freed by the rest of a translation without the part along it."""
+    plane = pair.settings.planar
+    if plane is None or way_out is None:
+        return way_out
+    x, y, z = (0.0 if axis == axis_across(plane) else way_out[axis] for axis in range(3))
+    return x, y, z
 
 
 def _length_and_normal(translation: Vector) -> tuple[float, Vector]:

@@ -16,6 +16,7 @@ from satcheck.audit.oriented_box import oriented_boxes
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Relation, Vector
+from satcheck.audit.tolerances import rounding_pad
 
 RELATION_OF_OUTCOME: dict[str, Relation] = {
     "separated": "separated",
@@ -44,6 +45,16 @@ class Contact:
 
 def settle(pair: Pair, plan: Plan) -> Contact:
     """The relation of the pair by the lowest rung that settles what is asked."""
+    contact = _settled(pair, plan)
+    plane = pair.settings.planar
+    if plane is None:
+        return contact
+    from satcheck.audit.in_plane import refine_nesting
+
+    return refine_nesting(pair, contact, plane, plan)
+
+
+def _settled(pair: Pair, plan: Plan) -> Contact:
     gap = boxes_apart(pair, plan)
     if gap > pair.asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
@@ -51,6 +62,8 @@ def settle(pair: Pair, plan: Plan) -> Contact:
         return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
     if not pair.may("hull"):
         return _apart_or_guess(gap)
+    if _outlines_apart(pair, plan):
+        return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
     contact = _convex(pair, plan) if pair.both_convex else _hulls(pair, plan, gap)
     if contact is not None:
         return contact
@@ -88,6 +101,25 @@ def _oriented_boxes_apart(pair: Pair, plan: Plan) -> bool:
     apart = result.outcome == "separated"
     plan.record("obb", "separated" if apart else "meet", result.feature if apart else "")
     return apart
+
+
+def _outlines_apart(pair: Pair, plan: Plan) -> bool:
+    """Whether, in a check in a plane, an edge of two convex outlines proves what is asked."""
+    a, b = pair.a.body.file.outline, pair.b.body.file.outline
+    if a is None or b is None:
+        return False
+    import numpy as np
+
+    found = core.sat_polygons(np.array(a), np.array(b))
+    # The widest gap along an edge normal, less what its rounding can make of it.
+    gap = -found.penetration - rounding_pad(pair.largest_coordinate)
+    plan.record("sat", found.outcome, _edge_of(found))
+    return found.outcome == "separated" and gap > pair.asked_gap
+
+
+def _edge_of(found: core.PolygonResult) -> str:
+    body, edge = ("A", found.edge_a) if found.edge_a >= 0 else ("B", found.edge_b)
+    return f"outlines, edge {edge} of {body}"
 
 
 def _convex(pair: Pair, plan: Plan) -> Contact | None:

@@ -15,6 +15,9 @@ from satcheck.scene import Body
 if TYPE_CHECKING:
     from satcheck.scene import Scene
 
+# The sha256 of a file, and the part of it.
+MeshKey = tuple[str, str | None]
+
 
 @dataclass(frozen=True, slots=True)
 class Lost:
@@ -100,10 +103,12 @@ def _pairs(n: int) -> int:
     return n * (n - 1) // 2
 
 
-def place(scene: Scene, settings: Settings, shared: dict[str, SharedMesh] | None = None) -> Roster:
+def place(
+    scene: Scene, settings: Settings, shared: dict[MeshKey, SharedMesh] | None = None
+) -> Roster:
     """Put every body into the world; one whose pose leaves the number range is lost.
 
-    shared: what is known of mesh files by their sha256; those that are new here are added.
+    shared: what is known of meshes; those that are new here are added.
     """
     shared = {} if shared is None else shared
     placed: dict[int, PlacedBody] = {}
@@ -115,9 +120,10 @@ def place(scene: Scene, settings: Settings, shared: dict[str, SharedMesh] | None
             reason = f"unreadable {body.file}: {body.issue.code}"
             lost[index] = Lost(body.id, body.file, reason, body.groups)
             continue
-        if body.file.sha256 not in shared:
-            shared[body.file.sha256] = SharedMesh(body.file, settings)
-        mesh = shared[body.file.sha256]
+        key = (body.file.sha256, body.file.part)
+        if key not in shared:
+            shared[key] = SharedMesh(body.file, settings)
+        mesh = shared[key]
         try:
             placed[index] = PlacedBody(body, mesh)
         except (ValueError, OverflowError) as error:

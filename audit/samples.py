@@ -18,6 +18,7 @@ from satcheck.audit.report import (
     Tool,
     Verdict,
 )
+from satcheck.audit.roster import MeshKey
 from satcheck.audit.settings import Settings
 
 if TYPE_CHECKING:
@@ -122,7 +123,7 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     placed = [posed(scene, pose) for pose in poses]  # all poses are judged before work is done
-    meshes: dict[str, SharedMesh] = {}
+    meshes: dict[MeshKey, SharedMesh] = {}
     tallies: dict[tuple[str, str], PairTally] = {}
     samples: list[Sample] = []
     common: dict[Issue, None] = {}

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
+from satcheck.core.conventions import PLANES, Plane
 from satcheck.core.errors import SatcheckError
 
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
@@ -34,6 +35,7 @@ class Settings:
     accuracy: the highest rung of the ladder that may be climbed.
     allow_open: a body that may lie in another one without an inside is a note, not a warning.
     cross_check: other libraries are asked too; cross_check_*: what one question may cost.
+    planar: bodies are their outlines in this plane, and answers lie in it; None: as they are.
     certificate: every proven finding carries evidence that `satcheck verify` checks.
     list_pruned: findings for pairs that the broad phase settled; None: up to 16 bodies.
     depth_width: relative width of a depth interval that is narrow enough.
@@ -56,6 +58,7 @@ class Settings:
     cross_check: bool = False
     cross_check_seconds: float = 30.0
     cross_check_megabytes: int = 4096
+    planar: Plane | None = None
     certificate: bool = False
     list_pruned: bool | None = None
     depth_width: float = DEPTH_WIDTH
@@ -81,6 +84,11 @@ class Settings:
         for name in ("contacts", "volume"):
             if getattr(self, name) and self.accuracy != "exact":
                 raise _refused(f"{name} is found on triangles: not at accuracy {self.accuracy}")
+        for name in ("volume", "contacts", "cross_check", "certificate"):
+            if self.planar is not None and getattr(self, name):
+                raise _refused(f"{name} is about bodies in space: not with planar")
+        if self.planar not in (None, *PLANES):
+            raise _refused(f"planar must be one of {', '.join(PLANES)}")
         if self.contact_points < 0:
             raise _refused(f"contact_points must be 0 or more, not {self.contact_points!r}")
         if not 0 < self.depth_width < 1:
@@ -106,6 +114,7 @@ class Settings:
             "accuracy": self.accuracy,
             "allow_open": self.allow_open,
             "cross_check": self.cross_check,
+            "planar": self.planar,
             "list_pruned": self.list_pruned,
             "depth_width": self.depth_width,
             "depth_budget": self.depth_budget,

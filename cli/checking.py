@@ -45,6 +45,7 @@ class Choices:
     depth_budget: float
     allow_open: bool
     cross_check: bool
+    planar: str | None
     certificate: bool
     jobs: int
     cache: bool
@@ -147,6 +148,7 @@ def _settings(choices: Choices, scene: Scene) -> Any:
         depth_budget=choices.depth_budget,
         allow_open=choices.allow_open,
         cross_check=choices.cross_check,
+        planar=choices.planar,  # type: ignore[arg-type]  # one of PLANES, click saw to it
         certificate=choices.certificate,
         jobs=choices.jobs,
         cache=choices.cache,

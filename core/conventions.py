@@ -12,10 +12,26 @@ World frame, right-handed, float64, units as in the files.
 
 from __future__ import annotations
 
+from typing import Literal, get_args
+
 Vector = tuple[float, float, float]
 
 # What the numbers in PairResults.outcome stand for.
 OUTCOMES = ("separated", "touching", "penetrating", "undecided")
+
+Plane = Literal["xy", "yz", "xz"]
+PLANES: tuple[Plane, ...] = get_args(Plane)
+
+
+def axes_of(plane: Plane) -> tuple[int, int]:
+    """The world axes along which a plane is measured, in their order in the world."""
+    first, second = ("xyz".index(letter) for letter in plane)
+    return first, second
+
+
+def axis_across(plane: Plane) -> int:
+    """The world axis that the plane does not have."""
+    return 3 - sum(axes_of(plane))
 
 
 def depth_from_distance(distance: float) -> float:

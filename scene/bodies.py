@@ -28,7 +28,8 @@ class MeshFile:
     "glb", "gltf", "3mf" or "dae", or "shape": a primitive that the scene file at `path` states.
     resolution: how finely its coordinates were written, in file units. units: as the file declares
     them. mesh: welded, wound outward where that can be decided. topology: of the welded mesh before
-    that repair. issues: warnings about this file.
+    that repair. issues: warnings about this file. outline: the corners, counter-clockwise, of the
+    convex polygon over which the mesh is a prism, in a check in a plane.
     """
 
     path: str
@@ -40,6 +41,8 @@ class MeshFile:
     topology: Topology = field(repr=False)
     health: MeshHealth
     issues: tuple[Issue, ...]
+    part: str | None = None
+    outline: tuple[tuple[float, float], ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)

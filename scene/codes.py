@@ -72,6 +72,10 @@ _ALL = (
     Code("beyond-limits", "warning", "A joint stands beyond its limits."),
     Code("not-at-zero", "note", "A joint that no pose names cannot stand at 0."),
     Code("mimic-differs", "warning", "A pose contradicts what a mimic joint follows."),
+    # Flat bodies.
+    Code("no-outline", "error", "The body has no extent in the plane of the check."),
+    Code("planar-only", "error", "A drawing is flat: it is checked in a plane only."),
+    Code("planar-motion", "error", "A scene with motions is not checked in a plane."),
     # The scene file.
     Code("bad-scene", "error", "The scene file is not of the form satcheck-scene-1."),
     Code("duplicate-id", "error", "Two bodies of a scene have the same id."),

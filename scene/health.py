@@ -50,8 +50,8 @@ class Examined:
     warnings: tuple[tuple[str, str], ...]
 
 
-def examine(mesh: Mesh) -> Examined:
-    """Welds, inspects and orients a mesh.
+def examine(mesh: Mesh, *, orient: bool = True) -> Examined:
+    """Welds, inspects and, unless its winding is known to be meant, orients a mesh.
 
     Its vertices and triangles come in an order of their own, so that no answer depends on the
     order in the file. Raises MeshFileError (without a file name) when no triangle has an area.
@@ -63,7 +63,7 @@ def examine(mesh: Mesh) -> Examined:
             "only-degenerate",
             f"only degenerate triangles: all {topology.triangles} have area 0",
         )
-    repaired = welded.oriented() if topology.closed else welded
+    repaired = welded.oriented() if topology.closed and orient else welded
     turned = repaired.to_bytes() != welded.to_bytes()
     after = repaired.topology() if turned else topology
     # An even number of triangles at every edge, each face in pairs, and nothing enclosed: front and

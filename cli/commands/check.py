@@ -16,6 +16,7 @@ from satcheck.cli.commands.options import (
 )
 from satcheck.cli.lengths import length
 
+PLANES = ("xy", "yz", "xz")
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
 # More characters than the first sentence of any help text has.
 _WHOLE_SENTENCE = 200
@@ -129,6 +130,11 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     show_default=True,
     help="Stop narrowing after this much work a pair. The seconds, of a slow machine, stand for a "
     "number of steps: the answer is the same everywhere.",
+)
+@click.option(
+    "--planar",
+    type=click.Choice(PLANES),
+    help="Take bodies as their outlines in this plane: flat layouts, SVG and DXF drawings too.",
 )
 @click.option(
     "--allow-open",

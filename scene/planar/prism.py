@@ -1,0 +1,43 @@
+"""A flat region made solid: the prism over it.
+
+All prisms of a check stand on the plane and have one height, more than any of them is wide. Two of
+them then overlap, touch, or lie in each other exactly as the regions do. They are also as deep in
+each other as the regions: a translation that separates them has to separate the regions, unless it
+is as long as the prisms are high, and those that separate the regions need no third component.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+
+from satcheck.core import Mesh
+from satcheck.scene.planar.turns import Floats, Indices
+
+
+def prism(points: Floats, triangles: Indices, height: float) -> Mesh:
+    """The closed mesh, z from 0 to height, over signed triangles in the plane, (n, 2) and (m, 3).
+
+    Its winding number at a point above the plane is the sum of the signs of the triangles under
+    it. Walls stand on the edges that no neighbour takes back. No wall is welded here.
+    """
+    count = len(points)
+    ground = np.column_stack((points, np.zeros(count)))
+    roof = np.column_stack((points, np.full(count, height)))
+    walls = _walls(triangles, count)
+    faces = np.concatenate((triangles[:, ::-1], triangles + count, walls))
+    return Mesh(np.concatenate((ground, roof)), faces.astype(np.uint32))
+
+
+def _walls(triangles: Indices, roof: int) -> Indices:
+    edges: Counter[tuple[int, int]] = Counter()
+    for a, b, c in triangles.tolist():
+        edges.update(((a, b), (b, c), (c, a)))
+    walls = [
+        face
+        for (a, b), times in edges.items()
+        for _ in range(times - edges.get((b, a), 0))
+        for face in ((a, b, b + roof), (a, b + roof, a + roof))
+    ]
+    return np.array(walls, dtype=np.int64).reshape(-1, 3)

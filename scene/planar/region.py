@@ -1,0 +1,71 @@
+"""What a mesh covers when it is seen along an axis: triangles in the plane."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from satcheck.core import Mesh
+from satcheck.core.conventions import Plane, axes_of
+from satcheck.scene.planar.turns import Floats, Indices, turns
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """The points where the signs of the triangles do not add up to 0. points: (n, 2), each once;
+    triangles: (m, 3), none of area 0."""
+
+    points: Floats
+    triangles: Indices
+
+
+def region_of(mesh: Mesh, solid: bool, plane: Plane) -> Region:
+    """The outline of a mesh, exactly: dropping one coordinate rounds nothing.
+
+    Of a solid, the triangles that face the eye: a line of sight that meets the solid leaves it as
+    often as it enters, so they cover what all together do. Of another mesh, all triangles.
+    """
+    points, triangles = _merged(np.asarray(mesh.vertices)[:, axes_of(plane)], mesh.triangles)
+    signs = turns(points, triangles)
+    if solid:
+        return Region(points, triangles[signs > 0])
+    turned = np.where(signs[:, None] < 0, triangles[:, ::-1], triangles)
+    return Region(points, turned[signs != 0])
+
+
+def drawn_region(mesh: Mesh) -> Region:
+    """A sheet in the plane z = 0, its triangles with the signs they have."""
+    points, triangles = _merged(np.asarray(mesh.vertices)[:, :2], mesh.triangles)
+    return Region(points, triangles[turns(points, triangles) != 0])
+
+
+def _merged(points: Floats, triangles: object) -> tuple[Floats, Indices]:
+    """Points that coincide in the plane as one, so that walls between neighbours cancel."""
+    unique, index = np.unique(points + 0.0, axis=0, return_inverse=True)
+    return unique, index.reshape(-1)[np.asarray(triangles, dtype=np.int64)]
+
+
+def convex_corners(region: Region) -> Floats | None:
+    """The corners, counter-clockwise, of a region whose triangles make up a convex polygon, each
+    point of it covered once; None for any other."""
+    from satcheck.scene.planar.prism import prism
+
+    if not len(region.triangles):
+        return None
+    mesh = prism(region.points, region.triangles, 1.0).welded()
+    if not mesh.topology().solid or mesh.convexity_defect(0.0) != 0.0:
+        return None
+    flat = np.column_stack((region.points, np.zeros(len(region.points))))
+    hull = Mesh(flat, region.triangles.astype(np.uint32)).convex_hull()
+    corners = np.array(hull.vertices)[:, :2]
+    fan = fan_of(len(corners))
+    signs = turns(corners, fan)
+    if (signs < 0).all():
+        return corners[::-1].copy()
+    return corners if (signs > 0).all() else None
+
+
+def fan_of(corners: int) -> Indices:
+    """The triangles of a convex polygon from its first corner."""
+    return np.array([(0, k, k + 1) for k in range(1, corners - 1)], dtype=np.int64).reshape(-1, 3)
