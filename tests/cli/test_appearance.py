@@ -96,7 +96,7 @@ SLOW = (
     "import satcheck.audit as door\n"
     "real = door.check\n"
     "def slow(*arguments, **options):\n"
-    "    time.sleep(1.5)\n"
+    "    time.sleep(3)\n"
     "    return real(*arguments, **options)\n"
     "door.check = slow\n"
 )
