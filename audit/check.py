@@ -71,6 +71,7 @@ def check(
         summary=summarise(counts, findings),
         bodies=body_reports(roster),
         exempt=exempt_of(roster),
+        pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
         issues=issues,
         tracebacks=tuple(one.traceback for one in examined if one.traceback),

@@ -187,7 +187,10 @@ class Exempt:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """`tracebacks` is for --debug and never leaves the program in a document."""
+    """pose: of the robots, joint -> value; None without robots.
+
+    `tracebacks` is for --debug and never leaves the program in a document.
+    """
 
     tool: Tool
     units: str | None
@@ -197,6 +200,7 @@ class Report:
     findings: tuple[Finding, ...]
     issues: tuple[Issue, ...]
     exempt: Exempt = Exempt()
+    pose: Mapping[str, float | list[float]] | None = None
     truncated: None = None
     tracebacks: tuple[str, ...] = field(default=())
 
@@ -208,6 +212,7 @@ class Report:
             "units": self.units,
             "settings": dict(self.settings),
             "summary": _summary(self.summary),
+            **({} if self.pose is None else {"pose": dict(self.pose)}),
             "bodies": [_body(body) for body in self.bodies],
             "exempt": {
                 "groups": list(self.exempt.groups),
@@ -299,9 +304,9 @@ def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
     }
 
 
-def finding_values(finding: Finding) -> dict[str, Any]:
+def finding_values(finding: Finding, timings: bool = True) -> dict[str, Any]:
     """One finding as JSON values."""
-    return _finding(finding, timings=True)
+    return _finding(finding, timings)
 
 
 def _stage(stage: Stage, timings: bool) -> dict[str, Any]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from dataclasses import asdict, dataclass, field, replace
+from typing import TYPE_CHECKING, Any, get_args
 
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.placed_body import SharedMesh
@@ -17,6 +18,7 @@ from satcheck.audit.report import (
     Report,
     Tool,
     Verdict,
+    finding_values,
 )
 from satcheck.audit.roster import MeshKey
 from satcheck.audit.settings import Settings
@@ -26,12 +28,14 @@ if TYPE_CHECKING:
     from satcheck.scene.robot import Pose, Posture
 
 SCHEMA = "satcheck.samples/1"
+VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """One pose. findings: the pairs that are not plainly separated there."""
+    """One pose. number: from 1. findings: the pairs that are not plainly separated there."""
 
+    number: int
     posture: Posture
     verdict: Verdict
     findings: tuple[Finding, ...]
@@ -43,7 +47,7 @@ class PairTally:
     """One asked pair over all samples, in how many of which it is what.
 
     undecided: indeterminate, or checked by surfaces only. first_overlap: number of the first sample
-    with an overlap, from 0. Where none of the counts applies the pair is separated.
+    with an overlap. Where none of the counts applies the pair is separated.
     """
 
     a: str
@@ -58,6 +62,11 @@ class PairTally:
     def contacts(self) -> int:
         """In how many samples the two overlap or touch."""
         return self.overlaps + self.touches
+
+    @property
+    def settled(self) -> bool:
+        """Whether the pair is separated in all samples, and known to be."""
+        return not (self.contacts or self.near or self.undecided)
 
     def count(self, finding: Finding, number: int) -> None:
         if finding.relation in OVERLAPS:
@@ -78,7 +87,7 @@ class Samples:
 
     pairs: of every asked pair, in the order of the bodies, those that never met included. bodies
     and exempt: as in a report; the transforms are those of the last sample. issues: those that are
-    not about one pose.
+    not about one pose. seed: of the random poses; None where they are not random.
     """
 
     tool: Tool
@@ -89,14 +98,40 @@ class Samples:
     samples: tuple[Sample, ...]
     pairs: tuple[PairTally, ...]
     issues: tuple[Issue, ...]
+    seed: int | None = None
     tracebacks: tuple[str, ...] = field(default=())
 
     @property
     def verdict(self) -> Verdict:
         """The worst of the samples."""
         found = {sample.verdict for sample in self.samples}
-        worst: Sequence[Verdict] = ("fail", "incomplete", "pass")
-        return next(verdict for verdict in worst if verdict in found)
+        return next(verdict for verdict in ("fail", "incomplete", "pass") if verdict in found)
+
+    def to_dict(self, timings: bool = True) -> dict[str, Any]:
+        """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
+        verdicts = Counter(sample.verdict for sample in self.samples)
+        return {
+            "schema": SCHEMA,
+            "tool": {"name": self.tool.name, "version": self.tool.version},
+            "units": self.units,
+            "settings": self.settings,
+            "seed": self.seed,
+            "summary": {
+                "verdict": self.verdict,
+                "samples": len(self.samples),
+                "by_verdict": {name: verdicts[name] for name in VERDICTS},
+                "pairs": len(self.pairs),
+                "pairs_separated": sum(pair.settled for pair in self.pairs),
+            },
+            "bodies": [
+                {"id": body.id, "file": body.file, "sha256": body.sha256, "shape": body.shape}
+                for body in self.bodies
+            ],
+            "exempt": asdict(self.exempt),
+            "samples": [_sample_values(sample, timings) for sample in self.samples],
+            "pairs": [asdict(pair) for pair in self.pairs if not pair.settled],
+            "issues": [asdict(issue) for issue in self.issues],
+        }
 
 
 def check_poses(
@@ -113,8 +148,8 @@ def check_poses(
     (whether it is convex, its parts) is found once for all poses.
 
     For yes or no without depths, and much faster: Settings(depth=False). A pair of
-    `Samples.pairs` that is always in contact has `contacts == len(samples)`, one that never is has
-    `contacts == undecided == 0`.
+    `Samples.pairs` that is always in contact has `contacts == len(samples)`, one that is
+    separated throughout is `settled`.
 
     Raises SatcheckError for a pose that names what the robots do not have, and what `check` raises.
     """
@@ -129,9 +164,9 @@ def check_poses(
     common: dict[Issue, None] = {}
     tracebacks: list[str] = []
     report: Report | None = None
-    for number, one in enumerate(placed):
+    for number, one in enumerate(placed, 1):
         report = check(one, replace(settings, list_pruned=False), meshes=meshes)
-        sample, others = _sample(report, one.posture)
+        sample, others = _sample(number, report, one.posture)
         samples.append(sample)
         common |= dict.fromkeys(others)
         tracebacks += report.tracebacks
@@ -139,7 +174,7 @@ def check_poses(
             pair = finding.a, finding.b
             tallies.setdefault(pair, PairTally(*pair)).count(finding, number)
         if progress is not None:
-            progress(number + 1, len(placed))
+            progress(number, len(placed))
     assert report is not None
     return Samples(
         tool=report.tool,
@@ -154,7 +189,7 @@ def check_poses(
     )
 
 
-def _sample(report: Report, posture: Posture | None) -> tuple[Sample, list[Issue]]:
+def _sample(number: int, report: Report, posture: Posture | None) -> tuple[Sample, list[Issue]]:
     """The sample, and the issues that are not about its pose."""
     assert posture is not None
     own = {(found.code, found.message) for found in posture.issues}
@@ -165,7 +200,17 @@ def _sample(report: Report, posture: Posture | None) -> tuple[Sample, list[Issue
         for finding in report.findings
         if finding.relation != "separated" or finding.severity == "warning"
     )
-    return Sample(posture, report.summary.verdict, findings, tuple(of_pose)), others
+    return Sample(number, posture, report.summary.verdict, findings, tuple(of_pose)), others
+
+
+def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
+    return {
+        "number": sample.number,
+        "pose": sample.posture.pose(),
+        "verdict": sample.verdict,
+        "findings": [finding_values(finding, timings) for finding in sample.findings],
+        "issues": [asdict(issue) for issue in sample.issues],
+    }
 
 
 def _all_pairs(report: Report, tallies: dict[tuple[str, str], PairTally]) -> tuple[PairTally, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,7 @@ from satcheck.cli.output import PLAIN_PAGE, CannotWrite, Document, talk, write_f
 if TYPE_CHECKING:
     from satcheck.audit.report import Report
     from satcheck.cli.output import Page
+    from satcheck.cli.posing import Posing
     from satcheck.scene import Scene
 
 # With -o at most this many warnings are repeated on stderr.
@@ -35,7 +37,7 @@ class Choices:
     form: str
     output: Path | None
     explain: bool
-    depth: bool
+    depth: bool | None
     contacts: bool
     volume: bool
     clearance: Length | None
@@ -52,19 +54,31 @@ class Choices:
     timings: bool
     exit_zero: bool
     debug: bool
+    packages: Mapping[str, Path]
+    posing: Posing
 
 
 def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
     refuse_early(choices.paths, choices.output)
     document = Document()
-    scene = load(choices.paths)
+    scene = load(choices.paths, choices.packages)
     if len(scene.bodies) > SMALL_BODIES or any(
         body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
         gc.enable()
     if len(scene.bodies) < 2 and choices.form == "table":  # every pair would be an empty row
         return exit_codes.ERROR
+    if choices.posing.given:
+        from satcheck.cli.posing import poses_of
+        from satcheck.scene.robot import posed
+
+        poses = poses_of(scene, choices.posing)
+        if isinstance(poses, list):
+            from satcheck.cli.sampling import check_and_tell
+
+            return check_and_tell(scene, poses, choices, document)
+        scene = posed(scene, poses)
     report = _report(scene, choices)
     page = PLAIN_PAGE if choices.output else document.page
     text = _render(report, choices, page)
@@ -93,12 +107,12 @@ def _is_an_input(output: Path, paths: tuple[str, ...]) -> bool:
         return any(output.absolute() == Path(path).absolute() for path in paths)
 
 
-def load(paths: tuple[str, ...]) -> Scene:
+def load(paths: tuple[str, ...], packages: Mapping[str, Path] | None = None) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone."""
     from satcheck.cli.report.words import issue_line
     from satcheck.scene import load_scene
 
-    scene = load_scene(paths)
+    scene = load_scene(paths, packages=packages)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])
@@ -123,7 +137,7 @@ def _report(scene: Scene, choices: Choices) -> Report:
     from satcheck.audit import check
     from satcheck.cli.progress import Bar
 
-    settings = _settings(choices, scene)
+    settings = settings_of(choices, scene)
     try:
         with Bar() as bar:
             return check(scene, settings, progress=bar)
@@ -131,14 +145,15 @@ def _report(scene: Scene, choices: Choices) -> Report:
         raise RuntimeError(f"a library called exit({stop.code!r})") from stop
 
 
-def _settings(choices: Choices, scene: Scene) -> Any:
+def settings_of(choices: Choices, scene: Scene, *, depth: bool = True) -> Any:
+    """depth: whether to find it where the command line says nothing about it."""
     from satcheck.audit import Settings
 
     def length(given: Length | None, option: str) -> float | None:
         return None if given is None else given.in_units_of(scene.units, option)
 
     return Settings(
-        depth=choices.depth,
+        depth=depth if choices.depth is None else choices.depth,
         contacts=choices.contacts,
         volume=choices.volume,
         clearance=length(choices.clearance, "--clearance"),

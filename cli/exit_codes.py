@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import Report
+    from satcheck.audit.report import Issue, Report, Verdict
 
 CLEAN = 0  # everything asked was checked, and nothing was found
 FINDINGS = 1  # bodies overlap, or are closer than the clearance
@@ -17,8 +18,12 @@ _BY_VERDICT = {"pass": CLEAN, "fail": FINDINGS, "incomplete": INCOMPLETE}
 
 
 def of_report(report: Report, *, exit_zero: bool) -> int:
+    return of_verdict(report.summary.verdict, report.issues, exit_zero=exit_zero)
+
+
+def of_verdict(verdict: Verdict, issues: Iterable[Issue], *, exit_zero: bool) -> int:
     """ERROR when an input could not be used, else by verdict; exit_zero forgives findings only."""
-    if any(issue.severity == "error" for issue in report.issues):
+    if any(issue.severity == "error" for issue in issues):
         return ERROR
-    code = _BY_VERDICT[report.summary.verdict]
+    code = _BY_VERDICT[verdict]
     return CLEAN if exit_zero and code == FINDINGS else code

@@ -14,6 +14,7 @@ from satcheck.cli.commands.options import (
     output_option,
     paths_argument,
 )
+from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 from satcheck.cli.lengths import length
 
 PLANES = ("xy", "yz", "xz")
@@ -86,8 +87,9 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 )
 @click.option(
     "--depth/--no-depth",
-    default=True,
-    help="Find how deep bodies overlap, and the shortest way out.  [default: depth]",
+    default=None,
+    help="Find how deep bodies overlap, and the shortest way out.  "
+    "[default: depth; of many poses no-depth]",
 )
 @click.option(
     "--contacts",
@@ -178,6 +180,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Leave out times: same input, same bytes.",
 )
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 even when something was found.")
+@package_option
+@pose_options
 @debug_option
 @click.option(
     "--version",
@@ -191,14 +195,17 @@ def command(**options: Any) -> int:
     """Do these meshes collide? How deep, and which way out?
 
     A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE), each one body, or scene
-    files (JSON, satcheck-scene-1) with several. Every pair of bodies is checked, in the coordinates
+    files (JSON, satcheck-scene-1) with several, or robots (URDF, and the SRDF about it), each link
+    of which is one. Every pair of bodies is checked, in the coordinates
     of the files. A body inside another collides with it.
 
     A LENGTH is a number in the units of the files. Where a scene declares its units, it may
     carry one of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
     from satcheck.cli.checking import Choices, run
+    from satcheck.cli.posing import Posing
 
+    options["posing"] = Posing(*(options.pop(name) for name in POSE_OPTIONS))
     options["form"] = form_of(options["form"], options["output"])
     if options["certificate"] and options["form"] != "json":
         raise click.UsageError(

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import click
 
-DOCUMENTS = ("report", "stability")
+DOCUMENTS = ("report", "samples", "stability")
 
 
 @click.command("schema")
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def command(document: str) -> None:
-    """Print the JSON Schema of a report, of a check or of stability."""
+    """Print the JSON Schema of a report: of a check, of robots in many poses, of stability."""
     from satcheck.cli.report.schema import text
 
     click.echo(text(document), nl=False)

@@ -1,12 +1,23 @@
-"""The JSON Schemas (2020-12) of the documents, as published in the package."""
+"""The JSON Schemas (2020-12) of the documents, as published in the package.
+
+What several of them describe stands in that of the report. One that refers to it comes with it
+inside, as an embedded resource, so that each is whole.
+"""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 HERE = Path(__file__).parent
 
 
 def text(name: str = "report") -> str:
-    """The schema of one kind of document: `report` of a check, or `stability`."""
-    return (HERE / f"{name}.schema.json").read_text(encoding="utf-8")
+    """The schema of one kind of document: `report` of a check, `samples` or `stability`."""
+    found = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")
+    report = json.loads((HERE / "report.schema.json").read_text(encoding="utf-8"))
+    if name == "report" or f'"{report["$id"]}#' not in found:
+        return found
+    document = json.loads(found)
+    document["$defs"] = {**document.get("$defs", {}), "report": report}
+    return json.dumps(document, indent=2) + "\n"

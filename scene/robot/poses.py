@@ -33,16 +33,21 @@ _MAX_BYTES = 256 << 20
 
 @dataclass(frozen=True, slots=True)
 class Posture:
-    """A complete pose. joints: of every joint that moves, mimics included. issues: about it."""
+    """A complete pose. joints: of every joint that moves. issues: about it.
+
+    mimics: the joints whose values follow from those of others.
+    """
 
     joints: dict[str, Values]
+    mimics: frozenset[str] = frozenset()
     issues: tuple[Issue, ...] = ()
 
-    def values(self) -> dict[str, float | list[float]]:
-        """As JSON values, and as a pose again."""
+    def pose(self) -> dict[str, float | list[float]]:
+        """What gives this posture again, as JSON values."""
         return {
             name: values[0] if len(values) == 1 else list(values)
             for name, values in self.joints.items()
+            if name not in self.mimics
         }
 
 
@@ -99,7 +104,11 @@ def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
             joints[joint.name] = _followed(joint, movable, joints, pose, issues)
     for joint in movable.values():
         issues.extend(_beyond(joint, joints[joint.name]))
-    return Posture({name: joints[name] for name in movable}, tuple(issues))
+    return Posture(
+        joints={name: joints[name] for name in movable},
+        mimics=frozenset(name for name, joint in movable.items() if joint.mimic),
+        issues=tuple(issues),
+    )
 
 
 def _text(path: str) -> str:

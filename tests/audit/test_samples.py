@@ -62,7 +62,7 @@ def test_every_asked_pair_has_its_tally() -> None:
     assert (fingers.touches, fingers.overlaps, fingers.contacts) == (3, 0, 3)
     assert fingers.first_overlap is None
     palm = tallies["turret", "fore/palm"]
-    assert (palm.overlaps, palm.first_overlap) == (2, 1)
+    assert (palm.overlaps, palm.first_overlap) == (2, 2)
     assert tallies["base", "upper"].contacts == 0
 
 

@@ -79,10 +79,8 @@ def test_what_is_no_file(tmp_path: Path, name: str, code: str) -> None:
 
 def test_joints_that_are_not_named_stand_at_0() -> None:
     posture = settle([ARM], {"elbow": (1.0,)})
-    assert posture.values() == {
-        **{"turn": 0.0, "shoulder": 0.0, "elbow": 1.0},
-        **{"grip": 0.0, "grip_right": 0.0},
-    }
+    assert posture.pose() == {"turn": 0.0, "shoulder": 0.0, "elbow": 1.0, "grip": 0.0}
+    assert posture.joints["grip_right"] == (0.0,)
     assert not posture.issues
 
 
@@ -112,7 +110,8 @@ def test_mimics_follow_along_a_chain_and_are_held_against_their_limits(tmp_path:
     limited = f'<limit lower="-1" upper="1"/>{again}'
     robot = chain(tmp_path, ("continuous", ""), ("continuous", MIMIC), ("revolute", limited))
     posture = settle([robot], {"j": (1.0,)})
-    assert posture.values() == {"j": 1.0, "k": -1.5, "l": -4.5}
+    assert posture.joints == {"j": (1.0,), "k": (-1.5,), "l": (-4.5,)}
+    assert posture.pose() == {"j": 1.0}
     assert codes(posture) == ["beyond-limits"]
 
 

@@ -1,0 +1,150 @@
+"""Many poses for people: a row a pose where they are few, else a row a pair with an example."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.table import Table
+from rich.text import Text
+
+from satcheck.audit.report import OVERLAPS
+from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.words import counted, depth, issue_line
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from satcheck.audit.report import Finding
+    from satcheck.audit.samples import PairTally, Sample, Samples
+    from satcheck.cli.output import Page
+
+# More poses than this, and pairs are listed instead of poses.
+FEW_POSES = 20
+# Of the pairs at most so many, the worst first.
+ROWS = 60
+# At most so many lines about single poses.
+REMARKS = 10
+# Colour only repeats what the word says.
+_COLOURS = {"pass": "green", "fail": "bold red", "incomplete": "bold magenta"}
+
+
+def render(found: Samples, page: Page) -> str:
+    """The whole text, final newline included. Errors are not in it: they go to stderr."""
+    console = Canvas(page)
+    if len(found.samples) <= FEW_POSES:
+        console.print(_poses(found.samples, unicode=page.unicode))
+    else:
+        met = sorted(
+            (pair for pair in found.pairs if not pair.settled),
+            key=lambda pair: (-pair.overlaps, -pair.undecided, -pair.near, -pair.touches),
+        )
+        if met:
+            console.print(_pairs(met[:ROWS], found.samples, unicode=page.unicode))
+        if len(met) > ROWS:
+            console.print(f"{counted(len(met) - ROWS, 'more pair')}: JSON has all")
+    for issue in found.issues:
+        if issue.severity != "error":
+            console.print(issue_line(issue))
+    for line in _remarks(found.samples):
+        console.print(line)
+    console.print(summary_line(found))
+    return console.text()
+
+
+def summary_line(found: Samples) -> str:
+    """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail. 9 pairs overlap.`"""
+    kind = "pose" if found.seed is None else "random pose"
+    seed = "" if found.seed is None else f" (seed {found.seed})"
+    verdicts = Counter(sample.verdict for sample in found.samples)
+    one = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
+    many = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
+    parts = [
+        f"{count:,} {one[verdict] if count == 1 else many[verdict]}"
+        for verdict in ("pass", "fail", "incomplete")
+        if (count := verdicts[verdict])
+    ]
+    line = (
+        f"{counted(len(found.samples), kind)}{seed}, "
+        f"{counted(len(found.bodies), 'body', 'bodies')}, "
+        f"{counted(len(found.pairs), 'pair')}: {', '.join(parts)}."
+    )
+    overlapping = sum(pair.overlaps > 0 for pair in found.pairs)
+    if overlapping:
+        verb = "overlaps" if overlapping == 1 else "overlap"
+        return f"{line} {counted(overlapping, 'pair')} {verb}."
+    return f"{line} No collision." if found.verdict == "pass" else line
+
+
+def _poses(samples: Sequence[Sample], *, unicode: bool) -> Table:
+    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
+    table.add_column("#", justify="right")
+    table.add_column("pose", overflow="fold")
+    table.add_column("verdict")
+    table.add_column("found", overflow="fold")
+    for sample in samples:
+        named = [text for finding in sample.findings if (text := _found(finding))]
+        table.add_row(
+            str(sample.number),
+            _pose(sample),
+            Text(sample.verdict, style=_COLOURS[sample.verdict]),
+            "\n".join(named),
+        )
+    return table
+
+
+def _found(finding: Finding) -> str:
+    """`base and left penetrating 0.25`; empty for a pair that does not matter."""
+    if finding.severity not in ("error", "warning"):
+        return ""
+    figure = f" {depth(finding)}" if finding.relation in OVERLAPS and finding.depth else ""
+    word = "by surfaces only" if finding.relation == "separated" else finding.relation
+    return f"{finding.a} and {finding.b} {word}{figure}"
+
+
+def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bool) -> Table:
+    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
+    table.add_column("A", overflow="fold")
+    table.add_column("B", overflow="fold")
+    counts = ("overlaps", "touches", "near", "undecided")
+    shown = [name for name in counts if any(getattr(pair, name) for pair in pairs)]
+    for name in shown:
+        table.add_column(name, justify="right")
+    table.add_column("the first overlap", overflow="fold")
+    for pair in pairs:
+        first = pair.first_overlap
+        table.add_row(
+            pair.a,
+            pair.b,
+            *(_share(getattr(pair, name), len(samples)) for name in shown),
+            "" if first is None else _pose(samples[first - 1]),
+        )
+    return table
+
+
+def _share(count: int, total: int) -> str:
+    """`24 (8 %)`; nothing for none, and neither 0 % nor 100 % for what is not."""
+    if not count:
+        return ""
+    percent = round(100 * count / total)
+    if percent == 0 or (percent == 100 and count < total):
+        return f"{count:,} ({'< 1' if percent == 0 else '> 99'} %)"
+    return f"{count:,} ({percent} %)"
+
+
+def _pose(sample: Sample) -> str:
+    """As --pose takes it."""
+    return json.dumps(sample.posture.pose(), ensure_ascii=False)
+
+
+def _remarks(samples: Sequence[Sample]) -> list[str]:
+    lines = [
+        f"pose {sample.number}: {issue_line(issue)}"
+        for sample in samples
+        for issue in sample.issues
+    ]
+    if len(lines) > REMARKS:
+        return [*lines[:REMARKS], f"{counted(len(lines) - REMARKS, 'more remark')}: JSON has all"]
+    return lines

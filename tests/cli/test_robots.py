@@ -1,0 +1,169 @@
+"""Robots on the command line: poses, states, samples, their documents and exit codes."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from satcheck.cli.report.schema import text
+from tests.cli.process import SAMPLES, VALIDATOR, satcheck
+
+ARM = ("arm.urdf", "arm.srdf")
+JSON = ("--format", "json")
+SCHEMA = json.loads(text("samples"))
+
+
+def test_a_robot_at_rest() -> None:
+    ran = satcheck(*ARM, *JSON)
+    assert ran.code == 0, ran.err
+    VALIDATOR.validate(ran.document)
+    assert ran.document["pose"] == {"turn": 0, "shoulder": 0, "elbow": 0, "grip": 0}
+    assert ran.document["units"] == "m"
+
+
+def test_without_a_robot_there_is_no_pose() -> None:
+    assert "pose" not in satcheck("box.obj", "cube.off", *JSON).document
+
+
+@pytest.mark.parametrize("given", [("--state", "folded"), ("--pose", '{"elbow": 3}')])
+def test_one_pose_is_a_check_like_any_other(given: tuple[str, str]) -> None:
+    ran = satcheck(*ARM, *given, *JSON)
+    assert ran.code == 1, ran.err
+    VALIDATOR.validate(ran.document)
+    assert ran.document["pose"]["elbow"] == 3
+    deepest = max(ran.document["findings"], key=lambda finding: finding["depth"] or 0)
+    assert {deepest["a"], deepest["b"]} in ({"base", "left"}, {"base", "right"})
+
+
+def test_states_are_put_together_and_a_pose_goes_on_top() -> None:
+    given = ("--state", "bowed", "--state", "open", "--pose", '{"shoulder": 0.25}')
+    pose = satcheck(*ARM, *given, *JSON).document["pose"]
+    assert pose == {"turn": 0, "shoulder": 0.25, "elbow": 1.25, "grip": 0.1875}
+
+
+@pytest.mark.parametrize(
+    ("given", "seed", "verdicts"),
+    [
+        (("--pose", "arm_poses.json"), None, ["pass", "fail", "fail"]),
+        (("--pose", "arm_poses.json", "--pose", "{}"), None, ["pass", "fail", "fail", "pass"]),
+        (("--pose", '[{"elbow": 3}]'), None, ["fail"]),
+        (("--sample", "2"), 0, ["pass", "pass"]),
+    ],
+)
+def test_several_poses_have_a_document_of_their_own(
+    given: tuple[str, ...], seed: int | None, verdicts: list[str]
+) -> None:
+    ran = satcheck(*ARM, *given, *JSON, "--no-timings")
+    assert ran.code == (1 if "fail" in verdicts else 0), ran.err
+    Draft202012Validator(SCHEMA).validate(ran.document)
+    assert [sample["verdict"] for sample in ran.document["samples"]] == verdicts
+    assert ran.document["seed"] == seed
+    assert ran.document["settings"]["depth"] is False
+    assert satcheck(*ARM, *given, *JSON, "--no-timings").out == ran.out
+
+
+def test_the_schema_is_whole() -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+    assert satcheck("schema", "samples").document == SCHEMA
+    found = satcheck(*ARM, "--sample", "1", *JSON).document
+    found["samples"][0]["findings"] = [{"a": "x"}]
+    assert not Draft202012Validator(SCHEMA).is_valid(found)
+
+
+def test_few_poses_have_a_row_each() -> None:
+    ran = satcheck(*ARM, "--pose", "arm_poses.json", "--depth")
+    assert ran.code == 1, ran.err
+    assert '{"turn": 0.0, "shoulder": 2.25, "elbow": 0.5, "grip": 0.125}' in ran.out
+    assert "base and upper penetrating 0.0250251" in ran.out
+    assert ran.out.endswith("3 poses, 7 bodies, 12 pairs: 1 passes, 2 fail. 4 pairs overlap.\n")
+
+
+def test_of_many_poses_the_pairs_are_listed_with_a_pose_to_paste() -> None:
+    ran = satcheck(*ARM, "--sample", "100", "--seed", "4")
+    assert ran.code == 1, ran.err
+    row = next(line for line in ran.out.splitlines() if "base" in line and "upper" in line)
+    again = satcheck(*ARM, "--pose", row[row.index("{") : row.index("}") + 1], *JSON)
+    relations = {(f["a"], f["b"]): f["relation"] for f in again.document["findings"]}
+    assert relations["base", "upper"] == "penetrating"
+    assert "100 random poses (seed 4), 7 bodies, 12 pairs:" in ran.out
+
+
+def test_samples_hold_on_to_what_is_given() -> None:
+    given = ("--sample", "3", "--state", "open", "--pose", '{"turn": 0.5}')
+    samples = satcheck(*ARM, *given, *JSON).document["samples"]
+    assert {(one["pose"]["turn"], one["pose"]["grip"]) for one in samples} == {(0.5, 0.1875)}
+    assert len({one["pose"]["elbow"] for one in samples}) == 3
+
+
+def test_beyond_limits_is_a_warning_beside_the_verdict() -> None:
+    ran = satcheck(*ARM, "--pose", '[{"elbow": 3.5}, {}]')
+    assert ran.code == 0, ran.err
+    assert "pose 1: warning: joint 'elbow': 3.5 is beyond its limits -3 .. 3 by 0.5" in ran.out
+    assert "warning: joint 'elbow': 3.5" in satcheck(*ARM, "--pose", '{"elbow": 3.5}').out
+
+
+def test_a_robot_among_other_bodies(tmp_path: Path) -> None:
+    scene = {
+        "schema": "satcheck-scene-1",
+        "bodies": [{"id": "wall", "mesh": str(SAMPLES / "box.obj")}],
+    }
+    (tmp_path / "wall.json").write_text(json.dumps(scene))
+    ran = satcheck(*ARM, str(tmp_path / "wall.json"), *JSON, "--no-depth")
+    assert ran.code == 1, ran.err
+    hit = {
+        f["a"] for f in ran.document["findings"] if f["b"] == "wall" and f["severity"] == "error"
+    }
+    assert "upper" in hit
+
+
+def test_packages_by_option(tmp_path: Path) -> None:
+    urdf = (SAMPLES / "arm.urdf").read_text().replace('filename="', 'filename="package://arm/m/')
+    (tmp_path / "arm.urdf").write_text(urdf)
+    ran = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf")
+    assert ran.code == 2
+    assert "package://arm/m/arm_beam.stl: the package is not found" in ran.err
+    ran = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf", "--package", "arm/m=.")
+    assert ran.code == 0, ran.err
+    shutil.copytree(SAMPLES, tmp_path / "arm" / "m")
+    ran = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf")
+    assert ran.code == 0, ran.err
+
+
+def test_a_missing_mesh_is_one_body_of_many(tmp_path: Path) -> None:
+    urdf = (SAMPLES / "arm.urdf").read_text().replace("arm_finger.obj", "gone.obj")
+    (tmp_path / "arm.urdf").write_text(urdf)
+    shutil.copy(SAMPLES / "arm_beam.stl", tmp_path)
+    for given in ((), ("--sample", "2")):
+        ran = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf", *given, *JSON)
+        assert ran.code == 2
+        assert "left: line 58: mesh file 'gone.obj' is missing" in ran.err
+        assert len(ran.document["bodies"]) == 7
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("box.obj", "cube.off", "--pose", "{}"), "no robot to pose"),
+        ((*ARM, "--seed", "1"), "add --sample N"),
+        ((*ARM, "--sample", "0"), "--sample"),
+        ((*ARM, "--sample", "2", "--pose", "arm_poses.json"), "of --pose it takes one"),
+        ((*ARM, "--pose", '{"elbo": 1}'), "unknown joint 'elbo' (did you mean 'elbow'?)"),
+        ((*ARM, "--pose", "gone.json"), "gone.json: no such file"),
+        ((*ARM, "--pose", "box.obj"), "box.obj: line 1: not well-formed JSON"),
+        ((*ARM, "--state", "flat"), "no state 'flat': the states are up, bowed, folded, open"),
+        ((*ARM, "--sample", "2", "--certificate", *JSON), "--certificate is about one pose"),
+        ((*ARM, "--sample", "2", "--explain"), "--explain is about one pose"),
+        ((*ARM, "--package", "arm"), "should be NAME=DIR"),
+        ((*ARM, "--package", "arm=gone"), "'gone' is no folder"),
+        (("arm.srdf", "box.obj"), "about robot 'arm', which is not here"),
+    ],
+)
+def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:
+    ran = satcheck(*arguments)
+    assert ran.code == 2
+    assert said in ran.err.replace("\n", " ")
+    assert ran.out == ""
