@@ -16,7 +16,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP
+from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
 from satcheck.audit.motion.moving_pair import BudgetSpent, MovingPair
 from satcheck.audit.motion.nudges import Nudges
 from satcheck.audit.report import OVERLAPS, Finding
@@ -89,8 +89,8 @@ class _Scan:
                     f"in contact at t = {self.t:.6g}, and nothing proves that the contact stays "
                     f"within the tolerance {self._pair.tolerance:.3g}"
                 )
-            elif (self.t - since) * self._pair.fastest(since) > 2.0 * self._pair.tolerance:
-                self.met = self.t  # farther than through the touch band: a contact that went on
+            elif (self.t - since) * self._pair.fastest(since) > SLID * self._pair.tolerance:
+                self.met = self.t
 
     def _in_contact(self, end: float) -> float:
         if self._pair.convex:

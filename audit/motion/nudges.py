@@ -5,25 +5,31 @@ for moving A by it ends the overlap: that is what depth means.
 
 from __future__ import annotations
 
-import math
+from collections import Counter
 from collections.abc import Iterator
+from itertools import combinations
 
+from satcheck import core
 from satcheck.audit.cheap_bounds import way_out_of_hulls
 from satcheck.audit.motion.limits import SHORTEST_STEP
 from satcheck.audit.motion.moving_pair import MovingPair
-from satcheck.audit.motion.turn import applied
 from satcheck.audit.pair import Pair
 from satcheck.audit.report import Vector
 from satcheck.audit.triangles import triangle_normal
-from satcheck.audit.vectors import added, scaled
+from satcheck.audit.vectors import scaled, unit
 from satcheck.audit.verify import FREE, relation_after
 
 # A part in a corner has to leave three walls.
 WALLS = 3
+# Directions that are tried, alone and two or three at once.
+MOST_WAYS = 8
+# Pairs of triangles that touch, of which the directions are taken; of more than that, of one.
+MOST_MEETING = 100_000
+# Decimals to which normals are told apart.
+DIGITS = 6
 # Of the touch band: a nudge that leaves room for rounding, and a shorter one, which what stands on
 # the other side is less likely to be in the way of.
 SHARES = (0.9, 0.3)
-ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 
 class Nudges:
@@ -58,38 +64,28 @@ class Nudges:
         return relation_after(placed, nudge) in FREE
 
     def _candidates(self, t: float, end: float, placed: Pair) -> Iterator[Vector]:
-        hulls = way_out_of_hulls(placed)
+        ways = self._ways_off(t, end, placed)
         for share in SHARES:
             length = share * self._pair.tolerance
-            if hulls.upper < length:
-                yield scaled(hulls.normal, -length)
-            yield self._off_the_walls(t, end, length, leave_b=True)
-            yield self._off_the_walls(t, end, length, leave_b=False)
+            for walls in range(1, WALLS + 1):
+                for chosen in combinations(ways, walls):
+                    x, y, z = (sum(way[axis] for way in chosen) for axis in range(3))
+                    yield scaled((x, y, z), length / walls)
 
-    def _off_the_walls(self, t: float, end: float, length: float, *, leave_b: bool) -> Vector:
-        """Off the triangles of B that stop A one after the other (or A's, off B), equal shares."""
-        nudge = ORIGIN
-        for _ in range(WALLS):
-            obstacle = self._pair.apart(t, end, nudge)
-            if obstacle.triangles is None or _is_step(obstacle.time, t, end):
-                break
-            normal = self._normal(t, obstacle.triangles, leave_b=leave_b)
-            if normal is None:
-                break
-            nudge = added(nudge, scaled(normal, length / WALLS))
-        return nudge
-
-    def _normal(self, t: float, triangles: tuple[int, int], *, leave_b: bool) -> Vector | None:
-        body, track = (
-            (self._pair.pair.b, self._pair.track_b)
-            if leave_b
-            else (self._pair.pair.a, self._pair.track_a)
-        )
-        normal = triangle_normal(body, triangles[1] if leave_b else triangles[0])
-        if normal is None:
-            return None
-        turned = applied(track.pose_at(t)[0], normal)
-        return scaled(turned, (1.0 if leave_b else -1.0) / math.hypot(*turned))
+    def _ways_off(self, t: float, end: float, placed: Pair) -> list[Vector]:
+        """Unit directions in which A may leave B: the most frequent normals of what touches."""
+        meeting = core.surface_intersection(placed.a.surface(), placed.b.surface(), MOST_MEETING)
+        pairs = meeting.triangle_pairs or [self._pair.apart(t, end).triangles]
+        normals: Counter[Vector] = Counter()
+        for triangles in filter(None, pairs):
+            for body, triangle, way in zip((placed.a, placed.b), triangles, (-1, 1), strict=True):
+                normal = triangle_normal(body, triangle)
+                if normal is not None:
+                    x, y, z = (round(way * c, DIGITS) + 0.0 for c in normal)
+                    normals[x, y, z] += 1
+        hulls = way_out_of_hulls(placed)
+        first = [scaled(hulls.normal, -1.0)] if hulls.upper < self._pair.tolerance else []
+        return first + [unit(normal) for normal, _ in normals.most_common(MOST_WAYS)]
 
 
 def _is_step(step: float, t: float, end: float) -> bool:

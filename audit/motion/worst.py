@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from satcheck.audit.finding import examine
-from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_WIDTH
+from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import BudgetSpent, MovingPair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS
@@ -44,16 +44,16 @@ def least_distance(pair: MovingPair, enough: float | None = None) -> Worst | Non
 def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     """Minus the depth of bodies that are not both convex and overlap at t = impact.
 
-    The depth of such a pair is no steady function of t: it is measured at a number of poses, of
-    which the deepest is refined. The lower end is that of the hulls, over the whole motion.
+    The depth of such a pair is no steady function of t: it is measured at a number of poses, and
+    where a way out is longest, more narrowly. The lower end is that of the hulls, over the motion.
     """
-    deepest, time = 0.0, impact
+    budget = pair.pair.settings.depth_budget
     step = (1.0 - impact) / (WORST_DEPTHS - 1)
-    for t in (impact + step * k for k in range(WORST_DEPTHS)):
-        depth = _depth_at(pair, min(t, 1.0), pair.pair.settings.depth_budget / WORST_DEPTHS)
-        if depth > deepest:
-            deepest, time = depth, min(t, 1.0)
-    deepest = max(deepest, _depth_at(pair, time, pair.pair.settings.depth_budget))
+    times = [min(impact + step * k, 1.0) for k in range(WORST_DEPTHS)]
+    found = [(*_depth_at(pair, t, budget / WORST_DEPTHS), t) for t in times]
+    longest = sorted(found, key=lambda one: -one[1])[:WORST_REFINED]
+    found += [(*_depth_at(pair, t, budget), t) for _, _, t in longest]
+    deepest, _, time = max(found, key=lambda one: one[0])
     hulls = _least(pair, lambda s, e: (pair.least_hull_gap(s, e), -deepest), None)
     return hulls and Worst(time, min(hulls.lower, -deepest), -deepest)
 
@@ -109,11 +109,11 @@ def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | No
     return Worst(search.time, search.least, search.best)
 
 
-def _depth_at(pair: MovingPair, t: float, budget: float) -> float:
-    """A proven lower bound of the depth, 0.0 where they do not overlap."""
+def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
+    """Proven bounds of the depth; 0.0 where they do not overlap."""
     placed = pair.placed(t)
     settings = replace(placed.settings, depth=True, depth_budget=budget)
     finding = examine(replace(placed, settings=settings), Plan())
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
-        return 0.0
-    return finding.depth_bounds[0]
+        return 0.0, 0.0
+    return finding.depth_bounds

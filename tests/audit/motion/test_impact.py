@@ -6,6 +6,7 @@ The interval is wider than rounding by as much as A moves while it sinks in by t
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -125,6 +126,49 @@ def test_random_convex_pairs_against_rationals(seed):
     assert impact.upper is None or max(truth[0], 0) <= impact.upper <= truth[1]
     # The overlap is missed only where it is never deeper than the band.
     assert impact.upper is not None or pair.tolerance > 1e-3 * float(truth[1] - truth[0])
+
+
+def grid_body(rng):
+    """A box or an L on a grid, so that faces, edges and corners meet often; and boxes it is made
+    of, which together have its interior up to their common faces."""
+    x, y, z = (int(c) for c in rng.integers(-6, 7, size=3))
+    if rng.random() < 0.5:
+        high = tuple(
+            int(c) + int(s) for c, s in zip((x, y, z), rng.integers(1, 6, size=3), strict=True)
+        )
+        return box((x, y, z), high), [((x, y, z), high)]
+    arms = [((x, y, z), (x + 6, y + 2, z + 4)), ((x, y, z), (x + 2, y + 6, z + 4))]
+    return moved(bracket(), x, y, z), arms
+
+
+def box_overlap(a, b, v):
+    """The open interval of t in which the boxes a + t v and b have a common interior, or None."""
+    start, end = Fraction(-1), Fraction(2)
+    for axis in range(3):
+        ahead, behind = b[0][axis] - a[1][axis], b[1][axis] - a[0][axis]
+        if v[axis] == 0:
+            if not ahead < 0 < behind:
+                return None
+            continue
+        times = sorted((Fraction(ahead, v[axis]), Fraction(behind, v[axis])))
+        start, end = max(start, times[0]), min(end, times[1])
+    return (start, end) if start < end and start < 1 and end > 0 else None
+
+
+@pytest.mark.parametrize("seed", range(80))
+def test_bodies_on_a_grid_against_rationals(seed):
+    """Slides, corners, edges on edges: contact is no impact, and none is left open."""
+    rng = np.random.default_rng(seed)
+    (a, parts_a), (b, parts_b) = grid_body(rng), grid_body(rng)
+    v = [int(c) for c in rng.integers(-6, 7, size=3) * rng.integers(0, 2, size=3)]
+    found = [box_overlap(p, q, v) for p in parts_a for q in parts_b]
+    truth = min((max(times[0], Fraction(0)) for times in found if times), default=None)
+    pair, impact = impact_of(a, Translation(tuple(map(float, v))), b)
+    if truth is None:
+        assert impact.free
+    else:  # along the axis of the first overlap the speed is 1 at least
+        width = 2 * SHORTEST_STEP + 2 * pair.tolerance
+        assert impact.lower <= truth <= impact.upper <= truth + Fraction(width)
 
 
 def helix(turns, rise, steps):

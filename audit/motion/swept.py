@@ -1,0 +1,60 @@
+"""The world box of a body over its whole motion, for the broad phase."""
+
+from __future__ import annotations
+
+import math
+
+from satcheck.audit.boxes import Box
+from satcheck.audit.motion.track import Piece, Track
+from satcheck.audit.motion.turn import applied
+
+# Radians that a body turns between two poses of which the boxes are taken: 15 degrees.
+STEP = math.pi / 12
+# A motion of more turns than this makes is boxed as what turns on for ever.
+MOST_POSES = 96
+
+
+def swept_box(bounds: Box, track: Track) -> Box:
+    """Holds the body, which `bounds` holds as placed, at every t, and as placed."""
+    boxes = [bounds]
+    for piece in track.pieces:
+        boxes += _boxes(bounds, piece)
+    pad = track.pad(bounds)
+    low, high = (
+        tuple(pick(box[side][axis] for box in boxes) + way * pad for axis in range(3))
+        for side, pick, way in ((0, min, -1.0), (1, max, 1.0))
+    )
+    return low, high  # type: ignore[return-value]
+
+
+def _boxes(bounds: Box, piece: Piece) -> list[Box]:
+    """Between two poses a point runs along an arc about the centre. It leaves the chord, run along
+    at a steady pace as the centre moves, by angle squared / 8 of its radius at most: the error of
+    linear interpolation."""
+    turned = math.radians(abs(piece.degrees))
+    count = min(max(math.ceil(turned / STEP), 1), MOST_POSES)
+    length = piece.end - piece.start
+    radius = max(math.dist(corner, piece.pivot) for corner in _corners(bounds))
+    grown = radius * min((turned / count) ** 2 / 8.0, 2.0)
+    times = [piece.start + length * k / count for k in range(count + 1)]
+    return [_box(bounds, piece, t, grown) for t in times]
+
+
+def _box(bounds: Box, piece: Piece, t: float, grown: float) -> Box:
+    turn, centre = piece.turn_at(t), piece.centre_at(t)
+    points = []
+    for corner in _corners(bounds):
+        x, y, z = (c - p for c, p in zip(corner, piece.pivot, strict=True))
+        points.append(applied(turn, (x, y, z)))
+    low, high = (
+        tuple(
+            centre[axis] + pick(point[axis] for point in points) + way * grown for axis in range(3)
+        )
+        for pick, way in ((min, -1.0), (max, 1.0))
+    )
+    return low, high  # type: ignore[return-value]
+
+
+def _corners(bounds: Box) -> list[tuple[float, float, float]]:
+    (x, y, z), (u, v, w) = bounds
+    return [(i, j, k) for i in (x, u) for j in (y, v) for k in (z, w)]
