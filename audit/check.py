@@ -20,7 +20,7 @@ from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
-    from satcheck.audit.placed_body import SharedMesh
+    from satcheck.audit.placed_body import MeshKey, SharedMesh
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Scene
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from satcheck.verify.bodies import Placed, Shape
 
 T = TypeVar("T")
+MeshKey = tuple[str, str, str | None]
 
 
 class Once(Generic[T]):
@@ -38,8 +39,14 @@ class Once(Generic[T]):
             return self.known
 
 
+def mesh_key(file: MeshFile) -> MeshKey:
+    """The same for the same mesh. Not the sha256 alone: files of the same bytes can refer to
+    neighbours that differ."""
+    return file.path, file.sha256, file.part
+
+
 class SharedMesh:
-    """What all bodies made of one file share, in file coordinates.
+    """What all bodies made of one mesh share, in file coordinates.
 
     convex(): closed, consistently outward, and exactly convex. An affine map keeps that, up to the
     one rounding of each world coordinate: the body is then taken as the hull of its world vertices.

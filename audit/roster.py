@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from satcheck.audit.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.placed_body import MeshKey, PlacedBody, SharedMesh, mesh_key
 from satcheck.audit.report import Issue
 from satcheck.audit.settings import Settings
 from satcheck.scene import Body
@@ -27,6 +27,7 @@ class Lost:
     file: str
     reason: str
     groups: tuple[str, ...] = ()
+    path: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,16 +119,17 @@ def place(
     for index, body in enumerate(members):
         if not isinstance(body, Body):
             reason = f"unreadable {body.file}: {body.issue.code}"
-            lost[index] = Lost(body.id, body.file, reason, body.groups)
+            lost[index] = Lost(body.id, body.file, reason, body.groups, body.path)
             continue
-        key = (body.file.sha256, body.file.part)
+        key = mesh_key(body.file)
         if key not in shared:
             shared[key] = SharedMesh(body.file, settings)
         mesh = shared[key]
         try:
             placed[index] = PlacedBody(body, mesh)
         except (ValueError, OverflowError) as error:
-            lost[index] = Lost(body.id, body.file.path, f"cannot be placed: {error}", body.groups)
+            reason = f"cannot be placed: {error}"
+            lost[index] = Lost(body.id, body.file.path, reason, body.groups, body.path)
             issues.append(_unplaceable(body, error))
     return Roster(
         placed=placed,

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any, get_args
 
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.placed_body import SharedMesh
+from satcheck.audit.placed_body import MeshKey, SharedMesh
 from satcheck.audit.report import (
     OVERLAPS,
     BodyReport,

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.cli.posing import Posing
     from satcheck.scene import Scene
+    from satcheck.scene.loader import Split
 
 # With -o at most this many warnings are repeated on stderr.
 WARNINGS = 5
@@ -45,6 +46,7 @@ class Choices:
     accuracy: str
     depth_width: float
     depth_budget: float
+    split: Split | None
     allow_open: bool
     cross_check: bool
     planar: str | None
@@ -62,7 +64,7 @@ def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
     refuse_early(choices.paths, choices.output)
     document = Document()
-    scene = load(choices.paths, choices.packages)
+    scene = load(choices.paths, choices.packages, choices.split)
     if len(scene.bodies) > SMALL_BODIES or any(
         body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
@@ -107,19 +109,28 @@ def _is_an_input(output: Path, paths: tuple[str, ...]) -> bool:
         return any(output.absolute() == Path(path).absolute() for path in paths)
 
 
-def load(paths: tuple[str, ...], packages: Mapping[str, Path] | None = None) -> Scene:
-    """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone."""
+def load(
+    paths: tuple[str, ...],
+    packages: Mapping[str, Path] | None = None,
+    split: Split | None = None,
+) -> Scene:
+    """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone, and
+    for a split of what says itself what its bodies are."""
     from satcheck.cli.report.words import issue_line
     from satcheck.scene import load_scene
+    from satcheck.scene.loader import is_mesh
 
-    scene = load_scene(paths, packages=packages)
+    if split and not any(map(is_mesh, paths)):
+        raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
+    scene = load_scene(paths, split=split, packages=packages)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])
     if len(scene.bodies) + len(scene.unreadable) < 2:
-        raise click.UsageError(
-            "one body alone cannot collide: give two or more mesh files, or a scene file"
-        )
+        hint = "give two or more mesh files, or a scene file"
+        if scene.bodies and split != "components" and is_mesh(paths[0]):
+            hint += "; --split components makes a body of each connected component"
+        raise click.UsageError(f"one body alone cannot collide: {hint}")
     return scene
 
 

@@ -11,6 +11,7 @@ from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.loader import load_scene
+from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.remeshed import remeshed
 from satcheck.scene.rules import Rule, Selector
 
@@ -21,6 +22,7 @@ __all__ = [
     "Issue",
     "MeshFile",
     "MeshFileError",
+    "MeshFiles",
     "MeshHealth",
     "Rule",
     "Scene",

@@ -22,14 +22,15 @@ Transform = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class MeshFile:
-    """One mesh file, flattened into one mesh in file units.
+    """One mesh file, flattened into one mesh in file units, or one mesh of it.
 
     path: as given, with "/". sha256: of the file's bytes. format: "obj", "stl", "ply", "off",
     "glb", "gltf", "3mf" or "dae", or "shape": a primitive that the scene file at `path` states.
     resolution: how finely its coordinates were written, in file units. units: as the file declares
     them. mesh: welded, wound outward where that can be decided. topology: of the welded mesh before
-    that repair. issues: warnings about this file. outline: the corners, counter-clockwise, of the
-    convex polygon over which the mesh is a prism, in a check in a plane.
+    that repair. issues: warnings about this file. part: the mesh within the file, in its own
+    coordinates; None: all of the file, where it places it. outline: the corners, counter-clockwise,
+    of the convex polygon over which the mesh is a prism, in a check in a plane.
     """
 
     path: str
@@ -51,7 +52,8 @@ class Body:
 
     transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1), affine and not
     singular; None: as in the file. groups: bodies of one group may be exempt from each other.
-    shape: what `file` is the mesh of; None: a file on disk.
+    shape: what `file` is the mesh of; None: a file on disk. path: of the node within the file;
+    None: all of the file.
     """
 
     id: str
@@ -61,6 +63,7 @@ class Body:
     groups: tuple[str, ...] = ()
     static: bool = False
     shape: Primitive | None = None
+    path: str | None = None
 
     def world_mesh(self) -> Mesh:
         """The mesh in world coordinates, each rounded once; ValueError when one overflows."""
@@ -88,6 +91,7 @@ class Unreadable:
     file: str
     issue: Issue
     groups: tuple[str, ...] = ()
+    path: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +99,8 @@ class Scene:
     """Everything that was asked to be checked, in the order given.
 
     order: the ids of bodies and unreadable ones together, in the order given.
-    units: as declared by the scene files, None where they disagree or say nothing.
+    units: as declared by the scene files, or where only mesh files are given by them; None where
+    they disagree or one says nothing.
     ignore_within_groups: groups whose bodies are not checked against each other.
     allowed_pairs: two body ids -> why they may overlap.
     rules: what is asked of pairs beyond the settings of a check, in the order in which they count.

@@ -43,6 +43,7 @@ _ALL = (
     Code("reference-cycle", "error", "Nodes or components refer to each other in a circle."),
     Code("missing-resource", "error", "A file that this file refers to is missing."),
     Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
+    Code("unknown-part", "error", "The file has no part of this name."),
     Code("entity-declaration", "error", "XML entity declarations are refused."),
     # Its geometry.
     Code("non-finite", "error", "A coordinate is infinite or not a number."),

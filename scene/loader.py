@@ -5,29 +5,35 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
+from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading import load_mesh_file
-from satcheck.scene.plain_ids import plain_ids
+from satcheck.scene.mesh_files import (
+    DEFAULT_MEGABYTES_PER_FILE,
+    DEFAULT_SECONDS_PER_FILE,
+    MeshFiles,
+)
+from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames, plain_ids
+from satcheck.scene.units import is_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.primitives import Primitive
     from satcheck.scene.robot import SceneRobot, Srdf
 
+Split = Literal["nodes", "components", "none"]
+
 SCENE_SUFFIX = ".json"
 ROBOT_SUFFIXES = frozenset((".urdf", ".xacro"))
 SRDF_SUFFIX = ".srdf"
 ROBOT_UNITS = "m"  # of every URDF
-DEFAULT_SECONDS_PER_FILE = 60.0
-DEFAULT_MEGABYTES_PER_FILE = 2048
 
 
 def load_scene(
     paths: Sequence[str | Path],
     *,
+    split: Split | None = None,
     seconds_per_file: float = DEFAULT_SECONDS_PER_FILE,
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE,
     packages: Mapping[str, str | Path] | None = None,
@@ -35,20 +41,28 @@ def load_scene(
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
-    A mesh file is one body: the whole file, flattened (nodes, instances and build items applied),
-    without unit or up-axis conversion. A `.json` file is a scene of the form satcheck-scene-1.
+    Coordinates are taken without unit or up-axis conversion. split: which bodies a mesh file is.
+    "none": one, the whole file, flattened (nodes, instances and build items applied). "nodes": one
+    for each node of a GLB or glTF file with a mesh, and for each way from the build of a 3MF file
+    to an object with a mesh; other formats have no nodes. "components": these taken apart into
+    pieces that share no edge. None: "nodes" for one file alone, otherwise "none".
+    A `.json` file is a scene of the form satcheck-scene-1.
     A `.urdf` file is a robot at rest, a body for each <collision>; a `.srdf` file says which of its
     links may touch. packages: where the packages lie that a URDF names, see `robot.MeshPlaces`.
-    Ids are those of the scene file or of the links, or of `plain_ids`, with -2, -3, ... where they
-    occur again. allow_outside: a robot's meshes may lie outside of its folder.
+    Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
+    the id of their file where there are several), with -2, -3, ... where they occur again.
+    allow_outside: a robot's meshes may lie outside of its folder.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
-    A mesh file that cannot be used becomes an Unreadable with an error issue and the rest still
-    loads. Raises SceneFileError for a scene file or a robot that is wrong in itself.
+    A mesh file, or a node of one, that cannot be used becomes an Unreadable with an error issue and
+    the rest still loads. Raises SceneFileError for a scene file or a robot that is wrong in itself.
     """
-    loader = _Loader(seconds_per_file, megabytes_per_file)
+    loader = _Loader(MeshFiles(seconds_per_file, megabytes_per_file))
     given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
-    ids = iter(plain_ids([path for path in given if _is_mesh(path)]))
+    ids = iter(plain_ids([path for path in given if is_mesh(path)]))
+    alone = len(given) == 1
+    if split is None:
+        split = "nodes" if alone else "none"
     for path in given:
         suffix = _suffix(path)
         if suffix == SCENE_SUFFIX:
@@ -57,8 +71,10 @@ def load_scene(
             loader.add_robot(path, Path(path), packages, allow_outside)
         elif suffix == SRDF_SUFFIX:
             loader.add_srdf(path, Path(path))
-        else:
+        elif split == "none":
             loader.add_mesh(next(ids), path, Path(path))
+        else:
+            loader.add_nodes(next(ids), path, Path(path), split, alone)
     return loader.scene()
 
 
@@ -66,18 +82,19 @@ def _suffix(path: str) -> str:
     return Path(path).suffix.lower()
 
 
-def _is_mesh(path: str) -> bool:
+def is_mesh(path: str) -> bool:
+    """Whether it is to be read as a mesh file, and not as a scene or a robot."""
     return _suffix(path) not in (SCENE_SUFFIX, SRDF_SUFFIX, *ROBOT_SUFFIXES)
 
 
 class _Loader:
-    def __init__(self, seconds: float, megabytes: int) -> None:
-        self._seconds = seconds
-        self._megabytes = megabytes
-        self._files: dict[Path, MeshFile | MeshFileError] = {}
-        self._ids: dict[str, None] = {}  # in the order given
+    def __init__(self, files: MeshFiles) -> None:
+        self._files = files
+        self._ids = UniqueNames()
+        self._order: list[str] = []
         self._names: list[str] = []
         self._units: list[str] = []
+        self._only_meshes = True
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
         self._ignored_groups: set[str] = set()
@@ -89,13 +106,28 @@ class _Loader:
     def add_mesh(self, id_: str, path: str, location: Path) -> None:
         name = location.stem or path
         self._names.append(name)
-        self._add_body(id_, name, path, location, None, (), False)
+        self._add(id_, name, path, self._files.whole(path, location), None)
+
+    def add_nodes(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
+        """alone: the paths of nodes need nothing before them to be ids."""
+        name = location.stem or path
+        self._names.append(name)
+        found = self._files.nodes(path, location, components=split == "components")
+        if isinstance(found, MeshFileError):
+            self._add(id_, name, path, found, None)
+            return
+        self._issues.extend(found.issues)
+        for node in found.nodes:
+            wanted = _node_id(node.path, id_, alone)
+            title = wanted if node.path else name
+            self._add(wanted, title, path, node.file, node.transform, node=node.path)
 
     def add_scene(self, path: str, location: Path) -> None:
         from satcheck.scene.scene_file import read_scene_file
 
         scene = read_scene_file(path, location)
         self._names.append(scene.name)
+        self._only_meshes = False
         if scene.units:
             self._units.append(scene.units)
         ids = {
@@ -125,7 +157,8 @@ class _Loader:
         groups: tuple[str, ...],
         static: bool,
     ) -> str:
-        return self._add(wanted, name, path, self._file(path, location), transform, groups, static)
+        file = self._files.whole(path, location)
+        return self._add(wanted, name, path, file, transform, groups, static)
 
     def add_robot(
         self,
@@ -145,6 +178,7 @@ class _Loader:
 
         robot, issues = read_urdf(path, location)
         self._names.append(robot.name)
+        self._only_meshes = False
         self._units.append(ROBOT_UNITS)
         self._issues += [*issues, *bare_links(robot)]
         bodies = []
@@ -171,37 +205,20 @@ class _Loader:
         name: str,
         path: str,
         file: MeshFile | MeshFileError,
-        transform: tuple[float, ...] | None,
+        transform: Transform | None,
         groups: tuple[str, ...] = (),
         static: bool = False,
         shape: Primitive | None = None,
+        node: str | None = None,
     ) -> str:
-        id_ = self._unique(wanted)
+        id_ = self._ids.unique(wanted)
+        self._order.append(id_)
         if isinstance(file, MeshFile):
-            self._bodies.append(Body(id_, name, file, transform, groups, static, shape))
+            self._bodies.append(Body(id_, name, file, transform, groups, static, shape, node))
         else:
             reason = issue(file.code, str(file), body=id_, file=path)
-            self._unreadable.append(Unreadable(id_, path, reason, groups))
+            self._unreadable.append(Unreadable(id_, path, reason, groups, node))
         return id_
-
-    def _unique(self, name: str) -> str:
-        id_, number = name, 2
-        while id_ in self._ids:
-            id_, number = f"{name}-{number}", number + 1
-        self._ids[id_] = None
-        return id_
-
-    def _file(self, path: str, location: Path) -> MeshFile | MeshFileError:
-        """Loaded once however many bodies use it, by whatever path."""
-        key = Path(location).absolute()
-        if key not in self._files:
-            try:
-                self._files[key] = load_mesh_file(
-                    path, location, seconds=self._seconds, megabytes=self._megabytes
-                )
-            except MeshFileError as error:
-                self._files[key] = error
-        return self._files[key]
 
     def _shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
         from satcheck.scene.shape_file import shape_file
@@ -227,13 +244,13 @@ class _Loader:
         return posed(scene, {})
 
     def _bodies_and_files(self) -> Scene:
-        units = set(self._units)
+        units = self._units_of_files() if self._only_meshes else set(self._units)
         return Scene(
             name=" ".join(self._names),
             units=units.pop() if len(units) == 1 else None,
             bodies=tuple(self._bodies),
             unreadable=tuple(self._unreadable),
-            order=tuple(self._ids),
+            order=tuple(self._order),
             ignore_within_groups=frozenset(self._ignored_groups),
             allowed_pairs=self._allowed,
             issues=(
@@ -243,19 +260,37 @@ class _Loader:
             ),
         )
 
+    def _units_of_files(self) -> set[str]:
+        """One where all files declare the same."""
+        declared = {body.file.units for body in self._bodies}
+        return (
+            {units for units in declared if units and is_unit(units)}
+            if len(declared) == 1
+            else set()
+        )
+
     def _file_issues(self) -> list[Issue]:
         """Each file's warnings once: with the body's id where only one body uses the file."""
-        users: dict[str, list[Body]] = {}
+        users: dict[tuple[str, str | None], list[Body]] = {}
         for body in self._bodies:
-            users.setdefault(body.file.path, []).append(body)
+            users.setdefault((body.file.path, body.file.part), []).append(body)
         return [
-            Issue(
-                found.code,
-                found.severity,
-                bodies[0].id if len(bodies) == 1 else None,
-                found.file,
-                found.message,
-            )
+            _shared_issue(found, bodies)
             for bodies in users.values()
             for found in bodies[0].file.issues
         ]
+
+
+def _shared_issue(found: Issue, bodies: list[Body]) -> Issue:
+    part, message = bodies[0].file.part, found.message
+    if len(bodies) == 1:
+        return replace(found, body=bodies[0].id)
+    return found if part is None else replace(found, message=f"mesh {part!r}: {message}")
+
+
+def _node_id(path: str | None, file_id: str, alone: bool) -> str:
+    if path is None:
+        return file_id
+    if path.startswith(COMPONENT_MARK):  # of a file without nodes
+        return file_id + path
+    return path if alone else f"{file_id}/{path}"

@@ -1,10 +1,27 @@
-"""Ids for the bodies of plain files: what a reader would call them, and as short as that goes."""
+"""Ids for bodies: what a reader would call them, as short as that goes, and each once."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Sequence
 from pathlib import Path, PurePath
+
+COMPONENT_MARK = "#"  # between the path of a node and the number of a component: in no name
+
+
+class UniqueNames:
+    """Gives out names: one that was given out before gets -2, -3, ..."""
+
+    def __init__(self) -> None:
+        self._given: dict[str, int] = {}
+
+    def unique(self, wanted: str) -> str:
+        name = wanted
+        while name in self._given:
+            self._given[wanted] += 1
+            name = f"{wanted}-{self._given[wanted]}"
+        self._given[name] = 1
+        return name
 
 
 def plain_ids(paths: Sequence[str]) -> list[str]:

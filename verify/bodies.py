@@ -11,14 +11,11 @@ from typing import Any
 import numpy as np
 
 from satcheck.scene import Body, MeshFile, MeshFileError
-from satcheck.scene.loading import load_mesh_file
+from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.primitives import primitive_of
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
-
-SECONDS_PER_FILE = 60.0
-MEGABYTES_PER_FILE = 2048
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +46,8 @@ class Bodies:
 
     def __init__(self, root: Path) -> None:
         self._root = root
-        self._shapes: dict[tuple[str, str], Shape | str] = {}
+        self._files = MeshFiles()
+        self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
     def place(self, entry: Any) -> Placed:
         """entry: one of the report's bodies. A file that is gone or has changed is a reason."""
@@ -64,11 +62,10 @@ class Bodies:
             return Placed(name, groups, None, reason="the report could not read it", claims=False)
         if not isinstance(file, str) or not isinstance(digest, str):
             raise Rejected("a body of the report names no file")
-        values = entry.get("shape")
-        key = (file, json.dumps(values))
-        if key not in self._shapes:
-            self._shapes[key] = self._read(file) if values is None else _primitive(file, values)
-        shape = self._shapes[key]
+        path, values = entry.get("path"), entry.get("shape")
+        if path is not None and not isinstance(path, str):
+            raise Rejected("the path of a body within its file is a text")
+        shape = self._read(file, path) if values is None else self._primitive(file, values)
         if isinstance(shape, str):
             return Placed(name, groups, None, reason=shape)
         if shape.file.sha256 != digest:
@@ -78,16 +75,31 @@ class Bodies:
         except Rejected as why:
             return Placed(name, groups, None, reason=str(why))
 
-    def _read(self, file: str) -> Shape | str:
-        try:
-            return shape_of(
-                load_mesh_file(
-                    file, self._root / file, seconds=SECONDS_PER_FILE, megabytes=MEGABYTES_PER_FILE
-                )
-            )
-        except (MeshFileError, Rejected) as error:
-            absent = isinstance(error, MeshFileError) and error.code == "file-not-found"
-            return f"{error}, looked for from {self._root.absolute()} on" if absent else str(error)
+    def _read(self, file: str, path: str | None) -> Shape | str:
+        """The file, or the mesh of its node `path`."""
+        location = self._root / file
+        if path is None:
+            found = self._files.whole(file, location)
+        else:
+            node = self._files.part(file, location, path)
+            found = node if isinstance(node, MeshFileError) else node.file
+        if isinstance(found, MeshFileError):
+            absent = found.code == "file-not-found"
+            return f"{found}, looked for from {self._root.absolute()} on" if absent else str(found)
+        key = (file, found.part, "")
+        if key not in self._shapes:
+            self._shapes[key] = _checked_shape(found)
+        return self._shapes[key]
+
+    def _primitive(self, file: str, values: Any) -> Shape | str:
+        """As the report states it; `file`, the scene that stated it, is not read again."""
+        key = (file, None, json.dumps(values))
+        if key not in self._shapes:
+            try:
+                self._shapes[key] = _checked_shape(shape_file(primitive_of(values), file))
+            except (MeshFileError, ValueError) as error:
+                self._shapes[key] = f"{file}: not a shape: {error}"
+        return self._shapes[key]
 
     def _placed(
         self, name: str, groups: frozenset[str], shape: Shape, entry: dict[str, Any]
@@ -98,12 +110,11 @@ class Bodies:
         return place_shape(name, groups, shape, _pose(entry.get("transform")))
 
 
-def _primitive(file: str, values: Any) -> Shape | str:
-    """The shape as the report states it; `file`, the scene that stated it, is not read again."""
+def _checked_shape(file: MeshFile) -> Shape | str:
     try:
-        return shape_of(shape_file(primitive_of(values), file))
-    except (MeshFileError, Rejected, ValueError) as error:
-        return f"{file}: not a shape: {error}"
+        return shape_of(file)
+    except Rejected as why:
+        return str(why)
 
 
 def shape_of(file: MeshFile) -> Shape:

@@ -19,6 +19,7 @@ from satcheck.cli.lengths import length
 
 PLANES = ("xy", "yz", "xz")
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
+SPLITS = ("nodes", "components", "none")
 # More characters than the first sentence of any help text has.
 _WHOLE_SENTENCE = 200
 
@@ -139,6 +140,12 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Take bodies as their outlines in this plane: flat layouts, SVG and DXF drawings too.",
 )
 @click.option(
+    "--split",
+    type=click.Choice(SPLITS),
+    help="What a body is: a node of a GLB, glTF or 3MF file, a connected component, or a whole "
+    "file. [default: nodes for one file alone, otherwise none]",
+)
+@click.option(
     "--allow-open",
     is_flag=True,
     help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
@@ -196,8 +203,9 @@ def command(**options: Any) -> int:
 
     A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE), each one body, or scene
     files (JSON, satcheck-scene-1) with several, or robots (URDF, and the SRDF about it), each link
-    of which is one. Every pair of bodies is checked, in the coordinates
-    of the files. A body inside another collides with it.
+    of which is one. One GLB, glTF or 3MF file alone is a scene too: each node with a mesh is a
+    body. Every pair of bodies is checked, in the coordinates of the files. A body inside another
+    collides with it.
 
     A LENGTH is a number in the units of the files. Where a scene declares its units, it may
     carry one of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).

@@ -11,31 +11,82 @@ from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.resolution import file_resolution
 
 
 def load_mesh_file(path: str, location: Path, *, seconds: float, megabytes: int) -> MeshFile:
-    """Reads one mesh file.
+    """Reads one mesh file as one mesh: all that it holds, where it places it.
 
     path: its name in messages and reports. location: where it lies. seconds, megabytes: limits for
     reading it; the file itself may take a quarter of the megabytes. Raises MeshFileError.
     """
+    source = open_source(path, location, megabytes)
+    scene = read_scene(source, flat=True, seconds=seconds, megabytes=megabytes)
+    raw = _only_mesh(scene)
+    return mesh_file(source, raw, mesh_of(source, raw))
+
+
+def open_source(path: str, location: Path, megabytes: int) -> Source:
     max_bytes = megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
-    source = read_source(path, location, max_bytes=max_bytes)
+    return read_source(path, location, max_bytes=max_bytes)
+
+
+def read_scene(source: Source, *, flat: bool, seconds: float, megabytes: int) -> RawScene:
+    """The meshes of a file and where it places them; flat: as one mesh. Raises MeshFileError."""
     try:
-        raw = _read(source, seconds, megabytes)
-        mesh = Mesh.from_bytes(raw.vertices, raw.triangles)
+        return _read(source, flat, seconds, megabytes)
+    except MeshFileError as error:
+        raise MeshFileError(error.code, error.message, file=source.path) from error.__cause__
+    except MemoryError:
+        raise MeshFileError("reader-out-of-memory", "out of memory", file=source.path) from None
+
+
+def _read(source: Source, flat: bool, seconds: float, megabytes: int) -> RawScene:
+    if source.format in NATIVE_FORMATS:
+        return alone(read_native(source))
+    is_gltf = source.format in ("glb", "gltf")
+    if is_gltf and len(source.data) <= limits.IN_PROCESS_BYTES:
+        from satcheck.scene.loading.flatten import flattened
+        from satcheck.scene.loading.gltf import read_gltf
+
+        directory = str(source.location.absolute().parent)
+        data = memoryview(source.data)
+        scene = read_gltf(data, directory, binary=source.format == "glb")
+        return alone(flattened(scene)) if flat else scene
+    from satcheck.scene.loading.foreign import read_foreign
+
+    return read_foreign(source, flat=flat, seconds=seconds, megabytes=megabytes)
+
+
+def _only_mesh(scene: RawScene) -> RawMesh:
+    (part,) = scene.parts
+    if isinstance(part.mesh, MeshFileError):
+        raise part.mesh
+    return part.mesh
+
+
+def mesh_of(source: Source, raw: RawMesh) -> Mesh:
+    """Raises MeshFileError for what a reader let through."""
+    try:
+        return Mesh.from_bytes(raw.vertices, raw.triangles)
+    except (MemoryError, OverflowError, ValueError) as error:
+        raise _refusal(source, error) from error
+
+
+def mesh_file(source: Source, raw: RawMesh, mesh: Mesh, part: str | None = None) -> MeshFile:
+    """A mesh of a file, inspected. raw: what was read, of which it is all or a piece.
+
+    part: its name in the file. Raises MeshFileError.
+    """
+    path = source.path
+    try:
         examined = examine(mesh)
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from error.__cause__
-    except MemoryError:
-        raise MeshFileError("reader-out-of-memory", "out of memory", file=path) from None
-    except ValueError as error:  # the mesh refuses what a reader let through
-        raise MeshFileError("bad-record", str(error), file=path) from error
-    except OverflowError as error:
-        raise MeshFileError("out-of-range", str(error), file=path) from error
+    except (MemoryError, OverflowError, ValueError) as error:
+        raise _refusal(source, error) from error
     low, high = examined.mesh.bounds
     largest = max(map(abs, (*low, *high)))
     return MeshFile(
@@ -50,18 +101,12 @@ def load_mesh_file(path: str, location: Path, *, seconds: float, megabytes: int)
         issues=tuple(
             issue(code, message, file=path) for code, message in (*raw.warnings, *examined.warnings)
         ),
+        part=part,
     )
 
 
-def _read(source: Source, seconds: float, megabytes: int) -> RawMesh:
-    if source.format in NATIVE_FORMATS:
-        return read_native(source)
-    is_gltf = source.format in ("glb", "gltf")
-    if is_gltf and len(source.data) <= limits.IN_PROCESS_BYTES:
-        from satcheck.scene.loading.gltf import read_gltf
-
-        directory = str(source.location.absolute().parent)
-        return read_gltf(memoryview(source.data), directory, binary=source.format == "glb")
-    from satcheck.scene.loading.foreign import read_foreign
-
-    return read_foreign(source, seconds=seconds, megabytes=megabytes)
+def _refusal(source: Source, error: Exception) -> MeshFileError:
+    if isinstance(error, MemoryError):
+        return MeshFileError("reader-out-of-memory", "out of memory", file=source.path)
+    code = "out-of-range" if isinstance(error, OverflowError) else "bad-record"
+    return MeshFileError(code, str(error), file=source.path)

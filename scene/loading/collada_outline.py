@@ -11,7 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.flatten import flatten
+from satcheck.scene.loading import limits
+from satcheck.scene.loading.placing import instances
 from satcheck.scene.loading.xml_guard import guarded_parser, parse_xml, split_name
 
 _ROOT = "COLLADA"
@@ -36,13 +37,19 @@ class Outline:
         """Triangles of all instances in the scene; raises MeshFileError for a circle."""
         if self.root is None or self.root not in self.children:
             raise MeshFileError("empty-mesh", "empty mesh: the file instantiates no visual scene")
-        instances = flatten(
+        placed = instances(
             [(self.root, None)],
             children=lambda key: [(child, None) for child in self._children_of(key)],
-            triangle_count=lambda key: self.triangles.get(key, 0),
-            name=lambda key: f"node {key!r}",
+            has_mesh=lambda key: self.triangles.get(key, 0) > 0,
+            name=str,
+            kind="node",
         )
-        return sum(self.triangles[instance.key] for instance in instances)
+        total = sum(self.triangles[instance.key] for instance in placed)
+        if total > limits.MAX_TRIANGLES:
+            raise MeshFileError(
+                "too-large", f"{total} triangles in all instances exceed {limits.MAX_TRIANGLES}"
+            )
+        return total
 
     def _children_of(self, key: str) -> list[str]:
         if key in self.children:

@@ -10,7 +10,7 @@ from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout, run_i
 from satcheck.scene.codes import CODES
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import protocol
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.raw_mesh import RawScene
 from satcheck.scene.loading.source import Source
 
 _WORKER = "satcheck.scene.loading.foreign_worker"
@@ -21,20 +21,19 @@ _CODE_OF_WORKER = {
 }
 
 
-def read_foreign(source: Source, *, seconds: float, megabytes: int) -> RawMesh:
-    """The mesh of a GLB, glTF, 3MF or DAE file; raises MeshFileError."""
-    request = protocol.pack_request(
-        source.format, str(source.location.absolute().parent), source.data
-    )
+def read_foreign(source: Source, *, flat: bool, seconds: float, megabytes: int) -> RawScene:
+    """The meshes of a GLB, glTF, 3MF or DAE file; flat: as one mesh. Raises MeshFileError."""
+    directory = str(source.location.absolute().parent)
+    request = protocol.pack_request(source.format, directory, source.data, flat=flat)
     try:
         reply = run_isolated(_WORKER, request, seconds=seconds, megabytes=megabytes)
     except WorkerError as error:
         raise refused_by_worker(error, source, megabytes) from error
-    answer = protocol.unpack_reply(reply)
-    if isinstance(answer, protocol.Refusal):
-        code = answer.code if answer.code in CODES else "reader-failed"
-        raise MeshFileError(code, answer.message, file=source.path)
-    return answer
+    try:
+        return protocol.unpack_reply(reply)
+    except MeshFileError as error:
+        code = error.code if error.code in CODES else "reader-failed"
+        raise MeshFileError(code, error.message, file=source.path) from None
 
 
 def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> MeshFileError:

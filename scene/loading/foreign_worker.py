@@ -4,18 +4,27 @@ from __future__ import annotations
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import protocol
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.raw_mesh import RawScene, alone
 
 
 def serve(request: bytes) -> bytes:
     """Answers one request of `protocol`; a file that cannot be used is an answer too."""
     try:
-        return protocol.pack_reply(_read(protocol.unpack_request(request)))
+        return protocol.pack_reply(_answer(protocol.unpack_request(request)))
     except MeshFileError as error:
-        return protocol.pack_reply(protocol.Refusal(error.code, error.message))
+        return protocol.pack_reply(error)
 
 
-def _read(request: protocol.Request) -> RawMesh:
+def _answer(request: protocol.Request) -> RawScene:
+    scene = _read(request)
+    if not request.flat:
+        return scene
+    from satcheck.scene.loading.flatten import flattened
+
+    return alone(flattened(scene))
+
+
+def _read(request: protocol.Request) -> RawScene:
     if request.format == "3mf":
         from satcheck.scene.loading.threemf import read_3mf
 
@@ -23,7 +32,7 @@ def _read(request: protocol.Request) -> RawMesh:
     if request.format == "dae":
         from satcheck.scene.loading.collada import read_collada
 
-        return read_collada(request.data)
+        return alone(read_collada(request.data))
     from satcheck.scene.loading.gltf import read_gltf
 
     return read_gltf(request.data, request.directory, binary=request.format == "glb")

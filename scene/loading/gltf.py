@@ -1,4 +1,4 @@
-"""glTF 2.0 and GLB: the triangles of the default scene, placed by its nodes, in their rest shape.
+"""glTF 2.0 and GLB: the meshes of the default scene, placed by its nodes, in their rest shape.
 
 Read here and not by a general loader: everything that has to be checked before such a loader may
 be trusted (chunks, buffers, views, accessors, the node graph) is most of the reading itself, and a
@@ -12,12 +12,15 @@ import json
 import math
 import sys
 from array import array
+from dataclasses import replace
 from typing import Any, NoReturn
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.flatten import Matrix, concatenate, flatten, multiply
+from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_buffers import Accessors, integer, items, member, split_glb
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.placing import instances, multiply, tidy_name
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.plain_ids import UniqueNames
 
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
 _NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
@@ -28,8 +31,8 @@ _HARMLESS = frozenset({"KHR_mesh_quantization"})
 _ADDING = frozenset({"EXT_mesh_gpu_instancing"})
 
 
-def read_gltf(data: memoryview, directory: str, *, binary: bool) -> RawMesh:
-    """The default scene of a glTF file, flattened.
+def read_gltf(data: memoryview, directory: str, *, binary: bool) -> RawScene:
+    """The default scene of a glTF file: its meshes, and the nodes that have one.
 
     directory: where relative buffer URIs start, and what they may not leave.
     binary: GLB. Raises MeshFileError without a file name.
@@ -77,30 +80,31 @@ class _Scene:
         self._document = document
         self._accessors = accessors
         self._nodes = items(document, "nodes")
-        self._warnings: dict[str, str] = {}
-        self._meshes: dict[int, list[tuple[bytes, bytes]]] = {}
-        self._counts: dict[int, int] = {}
+        self._all_meshes = items(document, "meshes")
+        self._meshes: dict[int, RawMesh | MeshFileError] = {}
+        self._skinned: set[int] = set()
+        self._ignored: dict[str, str] = {}  # warnings about meshes that have no triangles
 
-    def read(self) -> RawMesh:
-        instances = flatten(
+    def read(self) -> RawScene:
+        nodes = instances(
             [(root, self._matrix(root)) for root in self._roots()],
             children=self._children,
-            triangle_count=self._triangle_count,
-            name=lambda node: f"node {node}",
+            has_mesh=self._has_triangles,
+            name=self._name,
+            kind="node",
         )
-        vertices, triangles = concatenate(
-            (*primitive, instance.matrix)
-            for instance in instances
-            for primitive in self._mesh(self._mesh_of(instance.key))
-        )
-        if not triangles:
+        if not nodes:
             raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
-        return RawMesh(
-            vertices=vertices,
-            triangles=triangles,
-            precision="float32",
-            units="meter",
-            warnings=tuple(self._warnings.items()),
+        meshes = [self._mesh_of(node.key) for node in nodes]
+        used = {mesh: place for place, mesh in enumerate(dict.fromkeys(meshes))}
+        names = UniqueNames()
+        return RawScene(
+            parts=tuple(RawPart(names.unique(self._mesh_name(n)), self._found(n)) for n in used),
+            nodes=tuple(
+                RawNode(node.path, used[mesh], node.matrix)
+                for node, mesh in zip(nodes, meshes, strict=True)
+            ),
+            warnings=tuple(self._ignored.items()),
         )
 
     def _roots(self) -> list[int]:
@@ -124,6 +128,17 @@ class _Scene:
         numbers = items(member(self._nodes, node, "node"), "children")
         return [(child := self._node_number(n), self._matrix(child)) for n in numbers]
 
+    def _name(self, number: int) -> str:
+        """A node's own, or that of its mesh, or its number."""
+        name = tidy_name(self._nodes[number].get("name"), "")
+        mesh = self._mesh_of(number)
+        if not name and mesh >= 0:
+            name = tidy_name(self._all_meshes[mesh].get("name"), "")
+        return name or f"node{number}"
+
+    def _mesh_name(self, number: int) -> str:
+        return tidy_name(self._all_meshes[number].get("name"), f"mesh{number}")
+
     def _matrix(self, number: int) -> Matrix | None:
         node = member(self._nodes, number, "node")
         if "matrix" in node:
@@ -144,40 +159,67 @@ class _Scene:
         return placement
 
     def _mesh_of(self, number: int) -> int:
-        node = member(self._nodes, number, "node")
-        if "skin" in node:
-            self._warnings["rest-shape"] = "skinning is ignored: the rest shape is used"
-        return integer(node, "mesh", -1)
+        """The number of a node's mesh, -1 for none."""
+        mesh = integer(member(self._nodes, number, "node"), "mesh", -1)
+        if mesh >= 0:
+            member(self._all_meshes, mesh, "mesh")
+        return mesh
 
-    def _triangle_count(self, number: int) -> int:
+    def _has_triangles(self, number: int) -> bool:
+        """A mesh that cannot be used counts: its nodes must not get lost."""
         mesh = self._mesh_of(number)
         if mesh < 0:
-            return 0
-        if mesh not in self._counts:
-            self._counts[mesh] = sum(len(indices) // 12 for _, indices in self._mesh(mesh))
-        return self._counts[mesh]
+            return False
+        if "skin" in self._nodes[number]:
+            self._skinned.add(mesh)
+        if mesh not in self._meshes:
+            try:
+                self._meshes[mesh] = self._mesh(mesh)
+            except MeshFileError as error:
+                self._meshes[mesh] = error
+        found = self._meshes[mesh]
+        return isinstance(found, MeshFileError) or bool(found.triangles)
 
-    def _mesh(self, number: int) -> list[tuple[bytes, bytes]]:
-        """(float64 vertices, uint32 triangles) of each primitive that has triangles."""
-        if number not in self._meshes:
-            mesh = member(items(self._document, "meshes"), number, "mesh")
-            primitives = (
-                self._primitive(primitive, f"mesh {number}")
-                for primitive in items(mesh, "primitives")
-            )
-            self._meshes[number] = [primitive for primitive in primitives if primitive is not None]
-        return self._meshes[number]
+    def _found(self, number: int) -> RawMesh | MeshFileError:
+        found = self._meshes[number]
+        if isinstance(found, MeshFileError) or number not in self._skinned:
+            return found
+        skinned = ("rest-shape", "skinning is ignored: the rest shape is used")
+        return replace(found, warnings=(*found.warnings, skinned))
 
-    def _primitive(self, primitive: Any, where: str) -> tuple[bytes, bytes] | None:
+    def _mesh(self, number: int) -> RawMesh:
+        """All primitives that have triangles, as one."""
+        warnings: dict[str, str] = {}
+        primitives = (
+            self._primitive(primitive, f"mesh {number}", warnings)
+            for primitive in items(self._all_meshes[number], "primitives")
+        )
+        vertices, triangles = concatenate(
+            [(*primitive, None) for primitive in primitives if primitive is not None]
+        )
+        if not triangles:
+            self._ignored |= warnings
+        return RawMesh(
+            vertices=vertices,
+            triangles=triangles,
+            precision="float32",
+            units="meter",
+            warnings=tuple(warnings.items()),
+        )
+
+    def _primitive(
+        self, primitive: Any, where: str, warnings: dict[str, str]
+    ) -> tuple[bytes, bytes] | None:
+        """(float64 vertices, uint32 triangles), None where it has no triangles."""
         mode = integer(primitive, "mode", _TRIANGLES)
         if mode in _NO_TRIANGLES:
-            self._warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
+            warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
             return None
         attributes = primitive.get("attributes")
         if mode > _FAN or not isinstance(attributes, dict) or "POSITION" not in attributes:
             raise MeshFileError("bad-record", f"{where}: a primitive without positions or mode")
         if primitive.get("targets"):
-            self._warnings["rest-shape"] = "morphing is ignored: the rest shape is used"
+            warnings["rest-shape"] = "morphing is ignored: the rest shape is used"
         positions = self._accessors.positions(integer(attributes, "POSITION", -1))
         count = len(positions) // 3
         if "indices" in primitive:

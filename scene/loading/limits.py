@@ -8,7 +8,8 @@ BYTES_PER_MEGABYTE = 1 << 20
 # memory limit.
 FILE_SHARE_OF_MEMORY = 4
 
-# Instances multiply triangles: a dozen nested components can promise 10^12 of them.
+# Instances multiply: a dozen nested components can promise 10^12 of them, or of their triangles.
+MAX_PLACEMENTS = 1_000_000
 MAX_TRIANGLES = 50_000_000
 
 # XML compresses about 4:1 to 20:1; a part that unpacks further than this, to more than a few

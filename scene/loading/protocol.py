@@ -1,42 +1,44 @@
 """What this process and the reading child say to each other: headers, JSON, raw arrays. No pickle.
 
-request: uint32 length of a JSON object {format, directory}, the object, the file's bytes.
-reply: magic, uint32 length of a JSON object, uint64 bytes of vertices, uint64 bytes of triangles,
-then these three. The object is {"refusal": [code, message]} or a RawMesh without its arrays.
+request: uint32 length of a JSON object {format, directory, flat}, the object, the file's bytes.
+reply: magic, uint32 length of a JSON object, the object, and the arrays that it announces: vertices
+and triangles of each part that has a mesh, then three rows of each node that has a matrix.
+The object is {"refusal": [code, message]}, or a RawScene with numbers of bytes for its arrays.
 """
 
 from __future__ import annotations
 
 import json
 import struct
+from array import array
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
 
 _REQUEST = struct.Struct("<I")
-_REPLY = struct.Struct("<4sIQQ")
-_MAGIC = b"SCM1"
-
-
-@dataclass(frozen=True, slots=True)
-class Refusal:
-    """Why the file cannot be used: one of `codes.CODES` and a sentence."""
-
-    code: str
-    message: str
+_REPLY = struct.Struct("<4sI")
+_MAGIC = b"SCM2"
+_MATRIX = struct.Struct("<12d")
+_LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A file to read: its format, its bytes, and the directory its references start from."""
+    """A file to read: its format, its bytes, the directory its references start from, and whether
+    all of it is wanted as one mesh."""
 
     format: str
     directory: str
+    flat: bool
     data: memoryview
 
 
-def pack_request(file_format: str, directory: str, data: bytes) -> bytes:
-    header = json.dumps({"format": file_format, "directory": directory}).encode()
+def pack_request(file_format: str, directory: str, data: bytes, *, flat: bool) -> bytes:
+    values = {"format": file_format, "directory": directory, "flat": flat}
+    header = json.dumps(values).encode()
     return _REQUEST.pack(len(header)) + header + data
 
 
@@ -44,43 +46,106 @@ def unpack_request(request: bytes) -> Request:
     (length,) = _REQUEST.unpack_from(request)
     body = _REQUEST.size + length
     header = json.loads(request[_REQUEST.size : body])
-    return Request(header["format"], header["directory"], memoryview(request)[body:])
+    data = memoryview(request)[body:]
+    return Request(header["format"], header["directory"], header["flat"], data)
 
 
-def pack_reply(answer: RawMesh | Refusal) -> bytes:
-    if isinstance(answer, Refusal):
-        return _frame({"refusal": [answer.code, answer.message]}, b"", b"")
-    header: dict[str, object] = {
-        "precision": answer.precision,
-        "decimals": answer.decimals,
-        "significant": answer.significant,
-        "units": answer.units,
+def pack_reply(answer: RawScene | MeshFileError) -> bytes:
+    if isinstance(answer, MeshFileError):
+        return _frame({"refusal": [answer.code, answer.message]}, [])
+    arrays: list[bytes] = []
+    for part in answer.parts:
+        if isinstance(part.mesh, RawMesh):
+            arrays += [part.mesh.vertices, part.mesh.triangles]
+    matrices = array("d")
+    for node in answer.nodes:
+        if node.matrix is not None:
+            matrices.extend(node.matrix[:12])
+    header = {
+        "parts": [[part.name, _mesh_header(part.mesh)] for part in answer.parts],
+        "nodes": [[node.path, node.part, node.matrix is not None] for node in answer.nodes],
         "warnings": answer.warnings,
     }
-    return _frame(header, answer.vertices, answer.triangles)
+    return _frame(header, [*arrays, struct.pack(f"<{len(matrices)}d", *matrices)])
 
 
-def _frame(header: dict[str, object], vertices: bytes, triangles: bytes) -> bytes:
+def _mesh_header(mesh: RawMesh | MeshFileError) -> dict[str, Any]:
+    if isinstance(mesh, MeshFileError):
+        return {"refusal": [mesh.code, mesh.message]}
+    return {
+        "vertices": len(mesh.vertices),
+        "triangles": len(mesh.triangles),
+        "precision": mesh.precision,
+        "decimals": mesh.decimals,
+        "significant": mesh.significant,
+        "units": mesh.units,
+        "warnings": mesh.warnings,
+    }
+
+
+def _frame(header: dict[str, Any], arrays: list[bytes]) -> bytes:
     text = json.dumps(header).encode()
-    head = _REPLY.pack(_MAGIC, len(text), len(vertices), len(triangles))
-    return b"".join((head, text, vertices, triangles))
+    return b"".join((_REPLY.pack(_MAGIC, len(text)), text, *arrays))
 
 
-def unpack_reply(reply: bytes) -> RawMesh | Refusal:
-    magic, text_size, vertex_size, triangle_size = _REPLY.unpack_from(reply)
-    vertices_at = _REPLY.size + text_size
-    triangles_at = vertices_at + vertex_size
-    if magic != _MAGIC or len(reply) != triangles_at + triangle_size:
-        return Refusal("reader-failed", "the reader's answer is damaged")
-    header = json.loads(reply[_REPLY.size : vertices_at])
+def unpack_reply(reply: bytes) -> RawScene:
+    """Raises MeshFileError where the answer is one, or is damaged."""
+    damaged = MeshFileError("reader-failed", "the reader's answer is damaged")
+    magic, size = _REPLY.unpack_from(reply)
+    arrays = _Arrays(reply, _REPLY.size + size)
+    if magic != _MAGIC:
+        raise damaged
+    header = json.loads(reply[_REPLY.size : _REPLY.size + size])
     if "refusal" in header:
-        return Refusal(*header["refusal"])
+        raise MeshFileError(*header["refusal"])
+    parts = tuple(RawPart(name, _mesh(mesh, arrays)) for name, mesh in header["parts"])
+    placed = sum(has_matrix for _, _, has_matrix in header["nodes"])
+    matrices = arrays.matrices(placed)
+    if not arrays.at_end:
+        raise damaged
+    return RawScene(
+        parts=parts,
+        nodes=tuple(
+            RawNode(path, part, next(matrices) if has_matrix else None)
+            for path, part, has_matrix in header["nodes"]
+        ),
+        warnings=_warnings(header),
+    )
+
+
+class _Arrays:
+    """The bytes after the header, in order."""
+
+    def __init__(self, reply: bytes, start: int) -> None:
+        self._reply = reply
+        self._at = start
+
+    def take(self, size: int) -> bytes:
+        self._at += size
+        return self._reply[self._at - size : self._at]
+
+    def matrices(self, count: int) -> Iterator[tuple[float, ...]]:
+        rows = _MATRIX.iter_unpack(self.take(count * _MATRIX.size))
+        return ((*row, *_LAST_ROW) for row in rows)
+
+    @property
+    def at_end(self) -> bool:
+        return self._at == len(self._reply)
+
+
+def _mesh(header: dict[str, Any], arrays: _Arrays) -> RawMesh | MeshFileError:
+    if "refusal" in header:
+        return MeshFileError(*header["refusal"])
     return RawMesh(
-        vertices=reply[vertices_at:triangles_at],
-        triangles=reply[triangles_at:],
+        vertices=arrays.take(header["vertices"]),
+        triangles=arrays.take(header["triangles"]),
         precision=header["precision"],
         decimals=header["decimals"],
         significant=header["significant"],
         units=header["units"],
-        warnings=tuple((code, message) for code, message in header["warnings"]),
+        warnings=_warnings(header),
     )
+
+
+def _warnings(header: dict[str, Any]) -> tuple[tuple[str, str], ...]:
+    return tuple((code, message) for code, message in header["warnings"])

@@ -1,11 +1,14 @@
-"""A mesh between file and body: plain arrays and what is known about their precision."""
+"""Between a file and its bodies: plain arrays, where they are placed, and how precise they are."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import Literal
 
+from satcheck.scene.errors import MeshFileError
+
 Precision = Literal["written-digits", "float32", "float64"]
+Matrix = tuple[float, ...]  # row-major 4x4 for column vectors
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,3 +28,37 @@ class RawMesh:
     significant: int = 0
     units: str | None = None
     warnings: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class RawPart:
+    """One mesh of a file in its own coordinates, or why it cannot be used. name: unique there."""
+
+    name: str
+    mesh: RawMesh | MeshFileError
+
+
+@dataclass(frozen=True, slots=True)
+class RawNode:
+    """Part number `part` where the file places it. path: unique there; None: the whole file."""
+
+    path: str | None
+    part: int
+    matrix: Matrix | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RawScene:
+    """The meshes of a file and where they are placed; every part is placed at least once.
+
+    warnings: (code, message) about what belongs to no part.
+    """
+
+    parts: tuple[RawPart, ...]
+    nodes: tuple[RawNode, ...]
+    warnings: tuple[tuple[str, str], ...] = ()
+
+
+def alone(mesh: RawMesh) -> RawScene:
+    """A file that holds one mesh and does not place it."""
+    return RawScene((RawPart("", mesh),), (RawNode(None, 0),))

@@ -2,7 +2,8 @@
 
 Read here and not by trimesh, which inflates every part of the package, merges objects of equal id
 from different parts, and skips what it does not find. Only the parts that the build refers to are
-opened. Build items and components are applied; supports count like any other object of the build.
+opened. An object with a mesh is placed once for each way that leads to it from the build, through
+items and components; supports count like any other object.
 """
 
 from __future__ import annotations
@@ -13,14 +14,16 @@ import posixpath
 import zipfile
 import zlib
 from array import array
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import IO
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.flatten import Instance, flatten
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.placing import instances, tidy_name
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
 from satcheck.scene.loading.xml_guard import guarded_parser, parse_stream, split_name
+from satcheck.scene.plain_ids import UniqueNames
 
 _CORE = frozenset(
     {
@@ -35,13 +38,36 @@ _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _DEFAULT_PART = "3D/3dmodel.model"
 _ENCODINGS = frozenset({"utf-8", "utf-16"})
 _DEFAULT_UNIT = "millimeter"
+_MESH = frozenset({"vertex", "triangle"})  # what is wrong with them concerns their object alone
 
 
 @dataclass(slots=True)
 class _Object:
+    """decimals, significant: as in RawMesh. refusal: the first thing wrong with its mesh."""
+
+    name: str
     vertices: array[float] = field(default_factory=lambda: array("d"))
     triangles: array[int] = field(default_factory=lambda: array("I"))
     references: list[_Reference] = field(default_factory=list)
+    decimals: int = 0
+    significant: int = 0
+    refusal: MeshFileError | None = None
+
+    @property
+    def has_mesh(self) -> bool:
+        return self.refusal is not None or bool(self.triangles)
+
+    def mesh(self, unit: str) -> RawMesh | MeshFileError:
+        if self.refusal is not None:
+            return self.refusal
+        return RawMesh(
+            vertices=self.vertices.tobytes(),
+            triangles=self.triangles.tobytes(),
+            precision="written-digits",
+            decimals=self.decimals,
+            significant=self.significant,
+            units=unit,
+        )
 
 
 @dataclass(slots=True)
@@ -50,7 +76,7 @@ class _Reference:
 
     part: str
     id: str
-    matrix: tuple[float, ...] | None
+    matrix: Matrix | None
 
 
 @dataclass(slots=True)
@@ -58,12 +84,10 @@ class _Model:
     unit: str = _DEFAULT_UNIT
     objects: dict[str, _Object] = field(default_factory=dict)
     items: list[_Reference] = field(default_factory=list)
-    decimals: int = 0
-    significant: int = 0
 
 
-def read_3mf(data: memoryview) -> RawMesh:
-    """The build of a 3MF package, flattened; raises MeshFileError without a file name."""
+def read_3mf(data: memoryview) -> RawScene:
+    """What the build of a 3MF package places; raises MeshFileError without a file name."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as package:
             return _Package(package).read()
@@ -81,37 +105,31 @@ class _Package:
         self._names = {name.lower(): name for name in package.namelist()}
         self._models: dict[str, _Model] = {}
 
-    def read(self) -> RawMesh:
+    def read(self) -> RawScene:
         start = self._start_part()
         root = self._model(start)
         if not root.items:
             raise MeshFileError("empty-mesh", "empty mesh: the build has no items")
-        instances = flatten(
+        nodes = instances(
             [((item.part, item.id), item.matrix) for item in root.items],
             children=lambda key: [
                 ((reference.part, reference.id), reference.matrix)
                 for reference in self._object(*key).references
             ],
-            triangle_count=lambda key: len(self._object(*key).triangles) // 3,
-            name=lambda key: f"object {key[1]!r}",
+            has_mesh=lambda key: self._object(*key).has_mesh,
+            name=lambda key: self._object(*key).name,
+            kind="object",
         )
-        return self._assemble(root, instances)
-
-    def _assemble(self, root: _Model, instances: list[Instance[tuple[str, str]]]) -> RawMesh:
-        from satcheck.scene.loading.flatten import concatenate
-
-        vertices, triangles = concatenate(
-            (object_.vertices.tobytes(), object_.triangles.tobytes(), instance.matrix)
-            for instance in instances
-            if (object_ := self._object(*instance.key)).triangles
-        )
-        return RawMesh(
-            vertices=vertices,
-            triangles=triangles,
-            precision="written-digits",
-            decimals=max(model.decimals for model in self._models.values()),
-            significant=max(model.significant for model in self._models.values()),
-            units=root.unit,
+        if not nodes:
+            raise MeshFileError("empty-mesh", "empty mesh: the build has no triangles")
+        used = {key: place for place, key in enumerate(dict.fromkeys(node.key for node in nodes))}
+        names = UniqueNames()
+        return RawScene(
+            parts=tuple(
+                RawPart(names.unique(object_.name), object_.mesh(root.unit))
+                for object_ in (self._object(*key) for key in used)
+            ),
+            nodes=tuple(RawNode(node.path, used[node.key], node.matrix) for node in nodes),
         )
 
     def _start_part(self) -> str:
@@ -187,8 +205,8 @@ class _ModelReader:
         parse_stream(self._parser, stream)
         for id_, object_ in self._model.objects.items():
             count = len(object_.vertices) // 3
-            if object_.triangles and max(object_.triangles) >= count:
-                raise MeshFileError(
+            if object_.refusal is None and max(object_.triangles, default=-1) >= count:
+                object_.refusal = MeshFileError(
                     "index-out-of-range",
                     f"object {id_!r}: face index out of range: "
                     f"{max(object_.triangles)} of {count} vertices",
@@ -208,6 +226,16 @@ class _ModelReader:
         if handler is None or namespace not in _CORE:
             return
         try:
+            self._handle(handler, local, attributes)
+        except MeshFileError as error:
+            if self._object is None or local not in _MESH:
+                raise
+            self._object.refusal = self._object.refusal or error
+
+    def _handle(
+        self, handler: Callable[[dict[str, str]], None], local: str, attributes: dict[str, str]
+    ) -> None:
+        try:
             handler(attributes)
         except KeyError as error:
             raise self._fail("bad-record", f"<{local}> lacks {error.args[0]!r}") from None
@@ -225,7 +253,8 @@ class _ModelReader:
         id_ = attributes["id"]
         if id_ in self._model.objects:
             raise self._fail("bad-record", f"object id {id_!r} occurs twice")
-        self._object = self._model.objects[id_] = _Object()
+        name = tidy_name(attributes.get("name"), tidy_name(f"object{id_}", "object"))
+        self._object = self._model.objects[id_] = _Object(name)
 
     def _current(self) -> _Object:
         if self._object is None:
@@ -233,23 +262,14 @@ class _ModelReader:
         return self._object
 
     def _on_vertex(self, attributes: dict[str, str]) -> None:
-        vertices = self._current().vertices
+        object_ = self._current()
         for axis in ("x", "y", "z"):
             text = attributes[axis]
             value = float(text)
             if not math.isfinite(value):
                 raise self._fail("non-finite", f"non-finite coordinate {text[:24]!r}")
-            vertices.append(value)
-            self._note_digits(text)
-
-    def _note_digits(self, text: str) -> None:
-        mantissa, exponent, _ = text.lower().partition("e")
-        if exponent:
-            digits = len(mantissa.lstrip("+-0.").replace(".", ""))
-            self._model.significant = max(self._model.significant, digits)
-        else:
-            decimals = len(mantissa.rstrip().partition(".")[2])
-            self._model.decimals = max(self._model.decimals, decimals)
+            object_.vertices.append(value)
+            _note_digits(object_, text)
 
     def _on_triangle(self, attributes: dict[str, str]) -> None:
         triangles = self._current().triangles
@@ -266,7 +286,7 @@ class _ModelReader:
         part = _part_name(path) if path else self._part
         return _Reference(part, attributes["objectid"], self._matrix(attributes))
 
-    def _matrix(self, attributes: dict[str, str]) -> tuple[float, ...] | None:
+    def _matrix(self, attributes: dict[str, str]) -> Matrix | None:
         """3MF writes 4x3 values for row vectors; here they become a 4x4 for column vectors."""
         if "transform" not in attributes:
             return None
@@ -275,3 +295,13 @@ class _ModelReader:
             raise self._fail("bad-record", "a transform needs 12 finite numbers")
         rows = [(*values[axis::3],) for axis in range(3)]
         return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
+
+
+def _note_digits(object_: _Object, text: str) -> None:
+    mantissa, exponent, _ = text.lower().partition("e")
+    if exponent:
+        digits = len(mantissa.lstrip("+-0.").replace(".", ""))
+        object_.significant = max(object_.significant, digits)
+    else:
+        decimals = len(mantissa.rstrip().partition(".")[2])
+        object_.decimals = max(object_.decimals, decimals)

@@ -22,6 +22,8 @@ CUBE_QUADS: Faces = [
     (1, 5, 7, 3),
 ]
 CUBE: Faces = [half for a, b, c, d in CUBE_QUADS for half in ((a, b, c), (a, c, d))]
+TWO_CUBES_POINTS: Points = [*CUBE_POINTS, *((x + 3, y, z) for x, y, z in CUBE_POINTS)]
+TWO_CUBES: Faces = [*CUBE, *(tuple(i + 8 for i in face) for face in CUBE)]
 TETRAHEDRON_POINTS: Points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
 TETRAHEDRON: Faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
 

@@ -10,7 +10,7 @@ from satcheck.scene import MeshFile, Scene, load_scene
 def load(folder: Path, name: str, content: bytes) -> Scene:
     path = folder / name
     path.write_bytes(content)
-    return load_scene([path])
+    return load_scene([path], split="none")
 
 
 def loaded(folder: Path, name: str, content: bytes) -> MeshFile:

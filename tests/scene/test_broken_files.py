@@ -197,7 +197,7 @@ REFUSED = {
             '<item objectid="11"/>',
         ),
         "too-large",
-        "triangles",
+        "placed parts",
     ),
     "encoding.3mf": (
         files.package_3mf(

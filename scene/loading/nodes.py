@@ -1,0 +1,134 @@
+"""A mesh file taken apart: a body for each node, or for each connected component of each."""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from satcheck.core import Mesh
+from satcheck.scene.bodies import MeshFile
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading import limits, mesh_file, mesh_of, open_source, read_scene
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawPart
+from satcheck.scene.loading.source import Source
+from satcheck.scene.plain_ids import COMPONENT_MARK
+
+_ONLY_DEGENERATE = "only-degenerate"
+_CORNER = Mesh.from_bytes(
+    array("d", (0, 0, 0, 1, 0, 0, 0, 1, 0)).tobytes(), array("I", (0, 1, 2)).tobytes()
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A mesh of a file where the file places it, or why it cannot be used.
+
+    path: unique in the file, "#3" at its end for the third component; None: the whole file, which
+    has no parts. Nodes with one mesh share the MeshFile. transform: as in Body.
+    """
+
+    path: str | None
+    file: MeshFile | MeshFileError
+    transform: Matrix | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Nodes:
+    """All nodes of a file, in its order, and warnings that belong to none of them."""
+
+    nodes: tuple[Node, ...]
+    issues: tuple[Issue, ...] = ()
+
+
+def load_nodes(
+    path: str, location: Path, *, components: bool, seconds: float, megabytes: int
+) -> Nodes:
+    """Reads one mesh file and takes it apart.
+
+    components: each node once more, into parts that share no edge. They are numbered by their
+    lowest corners, so that the order of the triangles in the file does not matter.
+    seconds, megabytes: as in `load_mesh_file`. Raises MeshFileError where nothing can be used.
+    """
+    source = open_source(path, location, megabytes)
+    scene = read_scene(source, flat=False, seconds=seconds, megabytes=megabytes)
+    splitter = _Splitter(source, components)
+    meshes = [splitter.split(part) for part in scene.parts]
+    total = sum(len(meshes[node.part]) for node in scene.nodes)
+    if total > limits.MAX_PLACEMENTS:
+        raise MeshFileError(
+            "too-large", f"{total} bodies exceed {limits.MAX_PLACEMENTS}", file=path
+        )
+    nodes = tuple(
+        _placed(f"{node.path or ''}{mark}" or None, file, node.matrix)
+        for node in scene.nodes
+        for mark, file in meshes[node.part]
+    )
+    if all(isinstance(node.file, MeshFileError) for node in nodes):
+        raise next(node.file for node in nodes if isinstance(node.file, MeshFileError))
+    issues = (issue(code, message, file=path) for code, message in scene.warnings)
+    return Nodes(nodes, (*issues, *splitter.issues))
+
+
+def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Matrix | None) -> Node:
+    if matrix is not None and isinstance(file, MeshFile):
+        try:
+            _CORNER.transformed(matrix)
+        except ValueError as error:
+            file = MeshFileError("singular-transform", f"{path}: {error}", file=file.path)
+        except OverflowError:  # of this corner; that of the mesh is found when it is placed
+            pass
+    return Node(path, file, matrix)
+
+
+class _Splitter:
+    def __init__(self, source: Source, components: bool) -> None:
+        self._source = source
+        self._components = components
+        self.issues: list[Issue] = []
+
+    def split(self, part: RawPart) -> list[tuple[str, MeshFile | MeshFileError]]:
+        """What is appended to a node's path, and its mesh, one for each body."""
+        raw = part.mesh
+        if isinstance(raw, MeshFileError):
+            return [("", self._named(part, raw))]
+        try:
+            mesh = mesh_of(self._source, raw)
+            pieces = mesh.welded().sorted().components() if self._components else []
+            found = self._pieces(part, raw, pieces) if len(pieces) > 1 else []
+            return found or [("", mesh_file(self._source, raw, mesh, part.name or None))]
+        except MeshFileError as error:
+            return [("", self._named(part, error))]
+
+    def _pieces(
+        self, part: RawPart, raw: RawMesh, pieces: list[Mesh]
+    ) -> list[tuple[str, MeshFile | MeshFileError]]:
+        """Those that have an area; what was read with a warning is warned about once."""
+        found: list[tuple[str, MeshFile | MeshFileError]] = []
+        flat = 0
+        for piece in pieces:
+            mark = f"{COMPONENT_MARK}{len(found) + 1}"
+            try:
+                quiet = replace(raw, warnings=())
+                found.append((mark, mesh_file(self._source, quiet, piece, part.name + mark)))
+            except MeshFileError as error:
+                if error.code != _ONLY_DEGENERATE:
+                    raise
+                flat += 1
+        if found:
+            for code, message in raw.warnings:
+                self._warn(code, part, message)
+        if found and flat:
+            self._warn("degenerate-triangles", part, f"{flat} loose pieces of area 0 are left out")
+        return found
+
+    def _warn(self, code: str, part: RawPart, message: str) -> None:
+        self.issues.append(issue(code, self._where(part) + message, file=self._source.path))
+
+    def _named(self, part: RawPart, error: MeshFileError) -> MeshFileError:
+        return MeshFileError(error.code, self._where(part) + error.message, file=self._source.path)
+
+    @staticmethod
+    def _where(part: RawPart) -> str:
+        return f"mesh {part.name!r}: " if part.name else ""

@@ -1,0 +1,84 @@
+"""Mesh files, each read once, whole or taken apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from satcheck.scene.bodies import MeshFile
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading import load_mesh_file
+from satcheck.scene.plain_ids import COMPONENT_MARK
+
+if TYPE_CHECKING:
+    from satcheck.scene.loading.nodes import Node, Nodes
+
+DEFAULT_SECONDS_PER_FILE = 60.0
+DEFAULT_MEGABYTES_PER_FILE = 2048
+
+
+class MeshFiles:
+    """Reads each file once, by whatever path and however many bodies use it."""
+
+    def __init__(
+        self,
+        seconds: float = DEFAULT_SECONDS_PER_FILE,
+        megabytes: int = DEFAULT_MEGABYTES_PER_FILE,
+    ) -> None:
+        self._seconds = seconds
+        self._megabytes = megabytes
+        self._wholes: dict[Path, MeshFile | MeshFileError] = {}
+        self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}
+        self._by_path: dict[tuple[Path, bool], dict[str | None, Node]] = {}
+
+    def whole(self, path: str, location: Path) -> MeshFile | MeshFileError:
+        """All of the file as one mesh. path: its name in messages; location: where it lies."""
+        key = Path(location).absolute()
+        if key not in self._wholes:
+            try:
+                self._wholes[key] = load_mesh_file(
+                    path, location, seconds=self._seconds, megabytes=self._megabytes
+                )
+            except MeshFileError as error:
+                self._wholes[key] = error
+        return self._wholes[key]
+
+    def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
+        """The file taken apart."""
+        from satcheck.scene.loading.nodes import load_nodes
+
+        key = Path(location).absolute(), components
+        if key not in self._nodes:
+            try:
+                found = load_nodes(
+                    path,
+                    location,
+                    components=components,
+                    seconds=self._seconds,
+                    megabytes=self._megabytes,
+                )
+                self._nodes[key] = found
+                self._by_path[key] = {node.path: node for node in found.nodes}
+            except MeshFileError as error:
+                self._nodes[key] = error
+        return self._nodes[key]
+
+    def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
+        """One node of the file by its path, which may end in "#" and the number of a component."""
+        components = COMPONENT_MARK in part
+        found = self.nodes(path, location, components=components)
+        if isinstance(found, MeshFileError):
+            return found
+        by_path = self._by_path[Path(location).absolute(), components]
+        if part in by_path:
+            return by_path[part]
+        message = f"there is no part {part!r} in the file{_meant(part, by_path)}"
+        return MeshFileError("unknown-part", message, file=path)
+
+
+def _meant(part: str, known: Iterable[str | None]) -> str:
+    from difflib import get_close_matches
+
+    close = get_close_matches(part, [name for name in known if name], n=1)
+    return f" (did you mean {close[0]!r}?)" if close else ""

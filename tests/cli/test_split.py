@@ -1,0 +1,71 @@
+"""`--split`: what a body is, and what the command says where there is only one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from satcheck.cli.commands.check import SPLITS
+from satcheck.scene.loader import Split
+from tests.cli.process import VALIDATOR, satcheck
+from tests.scene import files
+
+
+def test_the_choices_are_those_of_the_loader() -> None:
+    assert set(SPLITS) == set(get_args(Split))
+
+
+def test_one_file_alone_is_its_nodes() -> None:
+    ran = satcheck("--format", "json", "--no-depth", "gripper.glb")
+    VALIDATOR.validate(ran.document)
+    bodies = ran.document["bodies"]
+    assert [body["id"] for body in bodies] == [
+        "gripper/palm",
+        "gripper/left",
+        "gripper/right",
+        "payload",
+    ]
+    assert [body["path"] for body in bodies] == [body["id"] for body in bodies]
+    assert {body["file"] for body in bodies} == {"gripper.glb"}
+    assert len({body["sha256"] for body in bodies}) == 1
+    assert ran.document["units"] == "meter"
+
+
+def test_units_of_a_file_are_those_of_lengths() -> None:
+    """In metres the payload is 0.5 under the palm: 600 mm is more, 400 mm is not."""
+    for clearance, relation in (("600mm", "near"), ("400mm", "separated")):
+        ran = satcheck("--format", "json", "--no-depth", "--clearance", clearance, "gripper.glb")
+        found = {(one["a"], one["b"]): one["relation"] for one in ran.document["findings"]}
+        assert found["gripper/palm", "payload"] == relation
+
+
+def test_components_of_a_plain_mesh(tmp_path: Path) -> None:
+    path = tmp_path / "two.stl"
+    path.write_bytes(files.binary_stl(files.TWO_CUBES_POINTS, files.TWO_CUBES))
+    ran = satcheck("--format", "json", "--split", "components", str(path))
+    assert ran.code == 0
+    assert [body["id"] for body in ran.document["bodies"]] == ["two#1", "two#2"]
+    assert [body["path"] for body in ran.document["bodies"]] == ["#1", "#2"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told", "hinted"),
+    [
+        (["box.obj"], "one body alone", True),
+        (["box.obj", "--split", "nodes"], "one body alone", True),
+        (["gripper.glb", "--split", "none"], "one body alone", True),
+        (["ring.glb"], "one body alone", True),
+        (["box.obj", "--split", "components"], "one body alone", False),
+        (["gone.glb"], "one body alone", False),
+        (["workcell.json", "--split", "nodes"], "a scene says what its bodies are", False),
+    ],
+)
+def test_one_body_alone_is_told_how_to_be_several(
+    arguments: list[str], told: str, hinted: bool
+) -> None:
+    ran = satcheck(*arguments)
+    assert ran.code == 2
+    assert told in " ".join(ran.err.split())
+    assert ("--split components makes a body of each" in " ".join(ran.err.split())) == hinted

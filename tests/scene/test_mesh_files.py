@@ -1,0 +1,69 @@
+"""Files are read once; a part is found by the path that a report shows."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.scene import MeshFile, MeshFileError, MeshFiles
+from satcheck.scene.loading.nodes import Node
+from tests.scene import files, graphs
+
+NODES = [{"name": "rim", "mesh": 0}, {"name": "tyre", "mesh": 0, "translation": [5, 0, 0]}]
+
+
+@pytest.fixture
+def wheel(tmp_path):
+    path = tmp_path / "wheel.glb"
+    path.write_bytes(graphs.glb(NODES))
+    return path
+
+
+def test_a_part_is_the_node_where_the_file_places_it(wheel):
+    read = MeshFiles()
+    rim, tyre = (read.part("wheel.glb", wheel, name) for name in ("rim", "tyre"))
+    assert isinstance(rim, Node)
+    assert isinstance(tyre, Node)
+    assert rim.file is tyre.file
+    assert isinstance(rim.file, MeshFile)
+    assert rim.file.path == "wheel.glb"
+    assert (rim.transform, tyre.transform) == (
+        None,
+        (1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1),
+    )
+
+
+def test_a_part_that_is_not_there_is_an_error_with_a_suggestion(wheel):
+    found = MeshFiles().part("wheel.glb", wheel, "tire")
+    assert isinstance(found, MeshFileError)
+    assert found.code == "unknown-part"
+    assert "did you mean 'tyre'?" in found.message
+
+
+def test_a_component_is_a_part_of_any_format(tmp_path):
+    path = tmp_path / "two.obj"
+    path.write_bytes(files.obj(files.TWO_CUBES_POINTS, files.TWO_CUBES))
+    read = MeshFiles()
+    found = read.part("two.obj", path, "#2")
+    assert isinstance(found, Node)
+    assert isinstance(found.file, MeshFile)
+    assert found.file.mesh.bounds == ((3, 0, 0), (4, 1, 1))
+    assert isinstance(read.part("two.obj", path, "#3"), MeshFileError)
+    assert isinstance(read.part("two.obj", path, "two"), MeshFileError)
+
+
+def test_a_file_is_read_once_whichever_way_it_is_named(wheel, monkeypatch):
+    read = MeshFiles()
+    first = read.whole("wheel.glb", wheel)
+    part = read.part("wheel.glb", wheel, "rim")
+    wheel.unlink()
+    monkeypatch.chdir(wheel.parent)
+    assert read.whole("wheel.glb", wheel.relative_to(wheel.parent)) is first
+    assert read.part("wheel.glb", wheel, "rim") is part
+
+
+def test_what_cannot_be_read_stays_so(tmp_path):
+    read = MeshFiles()
+    missing = read.part("gone.glb", tmp_path / "gone.glb", "a")
+    assert isinstance(missing, MeshFileError)
+    assert missing.code == "file-not-found"
+    assert read.part("gone.glb", tmp_path / "gone.glb", "b") is missing

@@ -1,0 +1,281 @@
+"""A file taken apart: which bodies it gives, where they are, and what becomes of a broken one."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.scene import load_scene
+from satcheck.scene.loading import limits
+from tests.scene import files, graphs
+
+
+def scene_of(folder, name, content, split=None):
+    path = folder / name
+    path.write_bytes(content)
+    return load_scene([path], split=split)
+
+
+def bounds(scene):
+    return {body.id: body.world_mesh().bounds for body in scene.bodies}
+
+
+def test_a_node_with_a_mesh_is_a_body_where_the_hierarchy_places_it(tmp_path):
+    nodes = [
+        {"name": "base", "mesh": 0, "children": [1, 2]},
+        {"name": "arm", "translation": [10, 0, 0], "children": [3]},
+        {"name": "empty"},
+        {"name": "hand", "mesh": 0, "scale": [-2, 1, 1], "rotation": [0, 0, 0, 1]},
+    ]
+    scene = scene_of(tmp_path, "robot.glb", graphs.glb(nodes))
+    assert bounds(scene) == {
+        "base": ((0, 0, 0), (1, 1, 1)),
+        "base/arm/hand": ((8, 0, 0), (10, 1, 1)),
+    }
+    base, hand = scene.bodies
+    assert base.file is hand.file
+    assert base.file.part == "cube"
+    assert (base.path, hand.path) == ("base", "base/arm/hand")
+    assert (base.transform, scene.units, scene.name) == (None, "meter", "robot")
+    assert hand.world_mesh().topology().volume == 2.0  # a mirror turns the winding
+
+
+def test_a_matrix_of_the_hierarchy_is_the_product_from_the_root_on(tmp_path):
+    turned = {"rotation": [0, 0, 0.5**0.5, 0.5**0.5], "children": [1]}  # a quarter, x to y
+    nodes = [turned, {"name": "b", "matrix": graphs.MOVED, "mesh": 0}]
+    (low, high) = bounds(scene_of(tmp_path, "a.glb", graphs.glb(nodes)))["node0/b"]
+    assert low == pytest.approx((-1, 5, 0), abs=4e-15)
+    assert high == pytest.approx((0, 6, 1), abs=4e-15)
+
+
+def test_ids_are_unique_printable_and_stable(tmp_path):
+    nodes = [
+        {"name": "wheel", "mesh": 0},
+        {"name": "wheel", "mesh": 0},
+        {"mesh": 1},
+        {"mesh": 0},
+        {"name": "a\nb#1\ud800", "mesh": 0},
+        {"name": "wheel-2", "mesh": 0},
+        {"children": [7]},
+        {"name": " ", "mesh": 0},
+    ]
+    scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes, "cube", None))
+    ids = [body.id for body in scene.bodies]
+    assert ids == ["wheel", "wheel-2", "node2", "cube", "a b1", "wheel-2-2", "node6/cube"]
+    assert [body.file.part for body in scene.bodies][:3] == ["cube", "cube", "mesh1"]
+    assert [body.path for body in scene.bodies] == ids
+
+
+def test_a_name_with_a_slash_collides_with_no_path(tmp_path):
+    nodes = [{"name": "a/b", "mesh": 0}, {"name": "a", "children": [2]}, {"name": "b", "mesh": 0}]
+    scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes))
+    assert [body.id for body in scene.bodies] == ["a/b", "a/b-2"]
+
+
+def test_long_paths_are_cut_in_front(tmp_path):
+    deep = [{"name": "n" * 70, "children": [k + 1], "mesh": 0} for k in range(500)]
+    scene = scene_of(tmp_path, "a.glb", graphs.glb([*deep, {"mesh": 0}]))
+    assert len({body.id for body in scene.bodies}) == 501
+    assert max(len(body.id) for body in scene.bodies) <= 210
+    assert scene.bodies[-1].id.startswith("...")
+
+
+def test_several_files_are_one_body_each_unless_asked(tmp_path):
+    nodes = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 0, "translation": [3, 0, 0]}]
+    for name in ("one.glb", "two.glb"):
+        (tmp_path / name).write_bytes(graphs.glb(nodes))
+    (tmp_path / "plain.obj").write_bytes(files.obj())
+    paths = [tmp_path / name for name in ("one.glb", "two.glb", "plain.obj")]
+    assert [body.id for body in load_scene(paths).bodies] == ["one", "two", "plain"]
+    nodes = load_scene(paths, split="nodes")
+    assert [body.id for body in nodes.bodies] == ["one/a", "one/b", "two/a", "two/b", "plain"]
+    assert nodes.units is None
+    assert load_scene(paths[:2]).units == "meter"
+    (alone,) = load_scene(paths[:1], split="none").bodies
+    assert (alone.id, alone.path, alone.file.part) == ("one", None, None)
+
+
+def test_components_are_numbered_by_their_lowest_corners(tmp_path):
+    content = files.binary_stl(
+        files.TWO_CUBES_POINTS[::-1], [tuple(15 - i for i in f) for f in files.TWO_CUBES]
+    )
+    scene = scene_of(tmp_path, "pair.stl", content, "components")
+    assert bounds(scene) == {
+        "pair#1": ((0, 0, 0), (1, 1, 1)),
+        "pair#2": ((3, 0, 0), (4, 1, 1)),
+    }
+    assert [(body.path, body.file.part) for body in scene.bodies] == [("#1", "#1"), ("#2", "#2")]
+    assert len({body.file.sha256 for body in scene.bodies}) == 1
+
+
+def test_components_of_nodes_share_their_meshes(tmp_path):
+    items = '<item objectid="1"/><item objectid="2" transform="1 0 0 0 1 0 0 0 1 0 9 0"/>'
+    two = graphs.named_3mf(1, "two", points=files.TWO_CUBES_POINTS, faces=files.TWO_CUBES)
+    resources = two + files.components_3mf(2, '<component objectid="1"/>') + files.object_3mf(3)
+    items += '<item objectid="3" transform="1 0 0 0 1 0 0 0 1 0 0 9"/>'
+    scene = scene_of(tmp_path, "a.3mf", files.threemf(resources, items), "components")
+    assert bounds(scene) == {
+        "two#1": ((0, 0, 0), (1, 1, 1)),
+        "two#2": ((3, 0, 0), (4, 1, 1)),
+        "object2/two#1": ((0, 9, 0), (1, 10, 1)),
+        "object2/two#2": ((3, 9, 0), (4, 10, 1)),
+        "object3": ((0, 0, 9), (1, 1, 10)),
+    }
+    assert scene.bodies[0].file is scene.bodies[2].file
+
+
+def test_loose_pieces_without_area_are_left_out_with_a_warning(tmp_path):
+    points = [*files.TWO_CUBES_POINTS, (9, 0, 0), (10, 0, 0), (11, 0, 0)]
+    content = files.obj(points, [*files.TWO_CUBES, (16, 17, 18)])
+    scene = scene_of(tmp_path, "a.obj", content, "components")
+    assert [body.id for body in scene.bodies] == ["a#1", "a#2"]
+    assert [(issue.code, issue.body) for issue in scene.issues] == [("degenerate-triangles", None)]
+
+
+def test_a_component_that_faces_inward_is_a_solid_of_its_own(tmp_path):
+    """The wall of a cavity, taken for itself, is the boundary of what fills it."""
+    big = [(4 * x - 1.5, 4 * y - 1.5, 4 * z - 1.5) for x, y, z in files.CUBE_POINTS]
+    faces = [*files.CUBE, *(tuple(i + 8 for i in reversed(face)) for face in files.CUBE)]
+    scene = scene_of(tmp_path, "a.obj", files.obj([*big, *files.CUBE_POINTS], faces), "components")
+    assert [body.file.health.solid for body in scene.bodies] == [True, True]
+    assert [(issue.code, issue.body) for issue in scene.issues] == [("inside-out", "a#2")]
+
+
+def test_a_broken_mesh_loses_its_own_nodes_alone(tmp_path):
+    scene = scene_of(tmp_path, "a.glb", graphs.with_broken_mesh())
+    assert [body.id for body in scene.bodies] == ["a", "c"]
+    (lost,) = scene.unreadable
+    assert (lost.id, lost.path, lost.issue.code) == ("b", "b", "index-out-of-range")
+    assert "mesh 'bad': mesh 1: index out of range: 8 of 8 vertices" in lost.issue.message
+    assert scene.order == ("a", "b", "c")
+    whole = scene_of(tmp_path, "a.glb", graphs.with_broken_mesh(), "none")
+    assert [lost.issue.code for lost in whole.unreadable] == ["index-out-of-range"]
+
+
+@pytest.mark.parametrize(
+    ("bad", "code"),
+    [
+        (graphs.named_3mf(2, "bad", faces=[(0, 1, 8)]), "index-out-of-range"),
+        (graphs.named_3mf(2, "bad", points=[(float("nan"), 0, 0)] * 3), "non-finite"),
+        (graphs.named_3mf(2, "bad").replace('v3="', 'v3="x', 1), "bad-record"),
+        (graphs.named_3mf(2, "bad", points=[(0, 0, 0)] * 8), "only-degenerate"),
+    ],
+)
+def test_a_broken_object_loses_its_own_items_alone(tmp_path, bad, code):
+    resources = graphs.named_3mf(1, "good") + bad
+    items = '<item objectid="2"/><item objectid="1"/>'
+    scene = scene_of(tmp_path, "a.3mf", files.threemf(resources, items))
+    assert [body.id for body in scene.bodies] == ["good"]
+    assert [(lost.id, lost.issue.code) for lost in scene.unreadable] == [("bad", code)]
+    assert scene.units == "inch"
+
+
+@pytest.mark.parametrize("scale", [[1, 0, 1], [0, 0, 0]])
+def test_a_node_that_flattens_its_mesh_is_unreadable(tmp_path, scale):
+    nodes = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 0, "scale": scale}]
+    scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes))
+    assert [body.id for body in scene.bodies] == ["a"]
+    assert [lost.issue.code for lost in scene.unreadable] == ["singular-transform"]
+
+
+def test_a_file_of_which_nothing_can_be_used_is_one_unreadable_body(tmp_path):
+    document, _ = graphs.meshes("a", "b")
+    document["nodes"] = [{"mesh": 0}, {"mesh": 1}]
+    document["scenes"] = [{"nodes": [0, 1]}]
+    document["buffers"][0]["uri"] = "gone.bin"
+    scene = scene_of(tmp_path, "level.gltf", graphs.gltf(document))
+    assert [(lost.id, lost.path) for lost in scene.unreadable] == [("level", None)]
+    assert [issue.code for issue in scene.issues] == ["missing-resource"]
+
+
+def test_a_skin_is_warned_about_at_its_body(tmp_path):
+    nodes = [{"name": "a", "mesh": 0, "skin": 0}, {"name": "b", "mesh": 1}]
+    scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes, "skinned", "stiff"))
+    assert [(issue.code, issue.body) for issue in scene.issues] == [("rest-shape", "a")]
+
+
+def test_lines_are_no_body_and_not_silent(tmp_path):
+    document, buffer = graphs.meshes("cube", "line")
+    lines = {"attributes": {"POSITION": 0}, "mode": 1}
+    document["meshes"][1]["primitives"] = [lines]
+    document["nodes"] = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 1}]
+    document["scenes"] = [{"nodes": [0, 1]}]
+    scene = scene_of(tmp_path, "a.glb", files.glb(document, buffer))
+    assert [body.id for body in scene.bodies] == ["a"]
+    assert [(issue.code, issue.body) for issue in scene.issues] == [("ignored-geometry", None)]
+
+
+def test_a_shared_mesh_names_itself_in_its_one_warning(tmp_path):
+    document, buffer = graphs.meshes("sheet")
+    document["accessors"][1]["count"] -= 3
+    document["nodes"] = [{"mesh": 0}, {"mesh": 0, "translation": [2, 0, 0]}]
+    document["scenes"] = [{"nodes": [0, 1]}]
+    (issue,) = scene_of(tmp_path, "a.glb", files.glb(document, buffer)).issues
+    assert (issue.code, issue.body) == ("not-closed", None)
+    assert issue.message.startswith("mesh 'sheet': not closed")
+
+
+def test_the_child_process_gives_the_same_nodes(tmp_path, monkeypatch):
+    nodes = [
+        {"name": "a", "mesh": 0, "skin": 0},
+        {"name": "b", "mesh": 1, "rotation": [0.1, 0.2, 0.3, 0.4], "children": [2]},
+        {"name": "c", "mesh": 0, "scale": [2, 3, -4]},
+    ]
+    for content in (graphs.glb(nodes, "one", "two"), graphs.with_broken_mesh()):
+        here = scene_of(tmp_path, "a.glb", content)
+        with monkeypatch.context() as patch:
+            patch.setattr(limits, "IN_PROCESS_BYTES", 0)
+            there = scene_of(tmp_path, "a.glb", content)
+        assert [(b.id, b.transform, b.file.part) for b in here.bodies] == [
+            (b.id, b.transform, b.file.part) for b in there.bodies
+        ]
+        assert [b.file.mesh.to_bytes() for b in here.bodies] == [
+            b.file.mesh.to_bytes() for b in there.bodies
+        ]
+        assert here.issues == there.issues
+        assert here.units == there.units
+
+
+def test_limits_of_the_child_hold_for_nodes_too(tmp_path):
+    path = tmp_path / "a.3mf"
+    path.write_bytes(files.threemf())
+    (issue,) = load_scene([path], seconds_per_file=0.001).issues
+    assert issue.code == "reader-timeout"
+
+
+def test_more_bodies_than_the_limit_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(limits, "MAX_PLACEMENTS", 9)
+    nodes = [{"children": [2, 2, 2]}, {"mesh": 0}, {"children": [1, 1, 1]}]
+    scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes, roots=[0]))
+    assert [issue.code for issue in scene.issues] == ["too-large"]
+    monkeypatch.setattr(limits, "MAX_PLACEMENTS", 1)
+    scene = scene_of(
+        tmp_path, "a.obj", files.obj(files.TWO_CUBES_POINTS, files.TWO_CUBES), "components"
+    )
+    assert [issue.code for issue in scene.issues] == ["too-large"]
+
+
+def test_a_thousand_nodes_read_each_mesh_once(tmp_path, monkeypatch):
+    from satcheck.scene import loading
+    from satcheck.scene.loading import gltf
+
+    counts = {"read": 0, "examined": 0}
+
+    def counted(name, function):
+        def call(*arguments):
+            counts[name] += 1
+            return function(*arguments)
+
+        return call
+
+    monkeypatch.setattr(gltf._Scene, "_mesh", counted("read", gltf._Scene._mesh))
+    monkeypatch.setattr(loading, "examine", counted("examined", loading.examine))
+    nodes = [{"mesh": k % 2, "name": "n", "translation": [2 * k, 0, 0]} for k in range(1000)]
+    scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes, "a", "b"))
+    assert len(scene.bodies) == len({body.id for body in scene.bodies}) == 1000
+    assert counts == {"read": 2, "examined": 2}
+
+
+def test_collada_and_plain_formats_have_no_nodes(tmp_path):
+    for name, content in (("a.dae", files.collada()), ("b.stl", files.binary_stl())):
+        (body,) = scene_of(tmp_path, name, content, "nodes").bodies
+        assert (body.id, body.path, body.file.part) == (name[0], None, None)
