@@ -1,4 +1,4 @@
-"""The sample pairs: their truth, stated by hand in index.json, and their golden reports here.
+"""The sample pairs and scenes: their truth, by hand in index.json, and their golden reports here.
 
 `python -m tests.golden` (or `make golden`) rewrites the golden reports; look at the difference
 before it is committed. Truth is tested apart from them, so that a wrong golden cannot pass.
@@ -16,6 +16,8 @@ HERE = Path(__file__).resolve().parent
 SAMPLES = HERE.parent.parent / "sample_meshes"
 INDEX: dict[str, Any] = json.loads((SAMPLES / "index.json").read_text(encoding="utf-8"))
 PAIRS: dict[str, dict[str, Any]] = {pair["name"]: pair for pair in INDEX["pairs"]}
+SCENES: dict[str, dict[str, Any]] = {scene["name"]: scene for scene in INDEX["scenes"]}
+SAMPLE_CALLS = PAIRS | SCENES
 SECONDS = 300
 
 
@@ -24,8 +26,8 @@ def golden_file(name: str) -> Path:
 
 
 def report(name: str) -> tuple[int, bytes]:
-    """Exit code and JSON document of the command for one sample pair, run in their folder."""
-    pair = PAIRS[name]
+    """Exit code and JSON document of the command for one pair or scene, run in their folder."""
+    pair = SAMPLE_CALLS[name]
     command = [sys.executable, "-m", "satcheck.cli", "--format", "json", "--no-timings"]
     done = subprocess.run(
         [*command, "--no-cache", *pair.get("options", []), *pair["inputs"]],

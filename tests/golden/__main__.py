@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 
-from tests.golden import PAIRS, golden_file, report
+from tests.golden import SAMPLE_CALLS, golden_file, report
 
 
 def main() -> None:
-    for name in PAIRS:
+    for name in SAMPLE_CALLS:
         file = golden_file(name)
         _, document = report(name)
         before = file.read_bytes() if file.exists() else b""

@@ -11,7 +11,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.cli.report.schema import text
-from tests.golden import HERE, INDEX, PAIRS, SAMPLES, golden_file, report
+from tests.golden import HERE, INDEX, PAIRS, SAMPLE_CALLS, SAMPLES, SCENES, golden_file, report
 
 NAMES = list(PAIRS)
 # Truth is stated in decimals; the samples' sizes are between 1 and 20.
@@ -28,12 +28,12 @@ def finding(name: str) -> dict[str, Any]:
     return dict(only)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", SAMPLE_CALLS)
 def test_report_is_the_golden_one(name: str) -> None:
     assert answer(name)[1] == golden_file(name).read_bytes(), "see `make golden`"
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", SAMPLE_CALLS)
 def test_report_follows_the_schema(name: str) -> None:
     Draft202012Validator(json.loads(text())).validate(json.loads(answer(name)[1]))
 
@@ -82,23 +82,37 @@ def test_contacts_are_true(name: str) -> None:
     assert totals["area"] == pytest.approx(PAIRS[name]["contact_area"], abs=ROUNDING)
 
 
+@pytest.mark.parametrize("name", SCENES)
+def test_the_findings_of_a_scene_are_true(name: str) -> None:
+    code, document = answer(name)
+    assert code == SCENES[name]["exit"]
+    found = {(f["a"], f["b"]): f for f in json.loads(document)["findings"]}
+    for a, b, relation, depth in SCENES[name]["findings"]:
+        finding = found.pop((a, b))
+        assert finding["relation"] == relation, (a, b)
+        if depth is not None:
+            low, high = finding["depth_bounds"]
+            assert low - ROUNDING <= depth <= high + ROUNDING
+    assert {finding["relation"] for finding in found.values()} == {"separated"}
+
+
 @pytest.mark.parametrize("name", ["fin", "open", "inside_out"])
 def test_unhealthy_meshes_come_with_a_warning(name: str) -> None:
     issues = json.loads(answer(name)[1])["issues"]
     assert any(issue["severity"] == "warning" for issue in issues)
 
 
-def test_every_golden_report_belongs_to_a_pair() -> None:
-    assert {file.stem for file in HERE.glob("*.json")} == set(PAIRS)
+def test_every_golden_report_belongs_to_a_pair_or_scene() -> None:
+    assert {file.stem for file in HERE.glob("*.json")} == set(SAMPLE_CALLS)
 
 
 def test_every_mesh_has_its_sentence() -> None:
     meshes = {file.name for file in SAMPLES.iterdir() if file.suffix not in (".py", ".json")}
     assert meshes - {"__pycache__"} == set(INDEX["meshes"])
-    assert all(set(pair["inputs"]) <= meshes for pair in PAIRS.values())
+    assert all(set(pair["inputs"]) <= meshes for pair in SAMPLE_CALLS.values())
 
 
-@pytest.mark.parametrize("maker", ["make", "kitchen"])
+@pytest.mark.parametrize("maker", ["make", "kitchen", "hierarchies"])
 def test_the_generators_write_the_committed_bytes(maker: str) -> None:
     for name, content in importlib.import_module(f"sample_meshes.{maker}").samples().items():
         assert (SAMPLES / name).read_bytes() == content, name
