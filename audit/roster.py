@@ -15,9 +15,6 @@ from satcheck.scene import Body
 if TYPE_CHECKING:
     from satcheck.scene import Scene
 
-# The sha256 of a file, and the part of it.
-MeshKey = tuple[str, str | None]
-
 
 @dataclass(frozen=True, slots=True)
 class Lost:

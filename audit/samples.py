@@ -20,7 +20,6 @@ from satcheck.audit.report import (
     Verdict,
     finding_values,
 )
-from satcheck.audit.roster import MeshKey
 from satcheck.audit.settings import Settings
 
 if TYPE_CHECKING:
