@@ -74,10 +74,13 @@ class Nudges:
 
     def _ways_off(self, t: float, end: float, placed: Pair) -> list[Vector]:
         """Unit directions in which A may leave B: the most frequent normals of what touches."""
-        meeting = core.surface_intersection(placed.a.surface(), placed.b.surface(), MOST_MEETING)
-        pairs = meeting.triangle_pairs or [self._pair.apart(t, end).triangles]
+        surfaces = placed.a.surface(), placed.b.surface()
+        pairs = core.surface_intersection(*surfaces, MOST_MEETING).triangle_pairs
+        nearest = self._pair.apart(t, end).triangles
+        if not pairs and nearest is not None:
+            pairs = [nearest]
         normals: Counter[Vector] = Counter()
-        for triangles in filter(None, pairs):
+        for triangles in pairs:
             for body, triangle, way in zip((placed.a, placed.b), triangles, (-1, 1), strict=True):
                 normal = triangle_normal(body, triangle)
                 if normal is not None:
