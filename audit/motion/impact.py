@@ -17,7 +17,7 @@ import math
 from dataclasses import dataclass
 
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
-from satcheck.audit.motion.moving_pair import BudgetSpent, MovingPair
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.nudges import Nudges
 from satcheck.audit.report import OVERLAPS, Finding
 
@@ -44,7 +44,10 @@ class Impact:
 
 
 def first_impact(pair: MovingPair) -> Impact:
-    start = pair.found_at(0.0)
+    try:
+        start = pair.found_at(0.0)
+    except Unanswerable as why:
+        return Impact(0.0, None, 0.0, None, str(why))
     if overlaps(start):
         return Impact(0.0, 0.0, 0.0, 0.0)
     if start.exact_relation is None:
@@ -53,8 +56,8 @@ def first_impact(pair: MovingPair) -> Impact:
     scan = _Scan(pair)
     try:
         scan.run()
-    except BudgetSpent:
-        scan.reason = f"the budget of the sweep was spent at t = {scan.t:.6g}"
+    except Unanswerable as why:
+        scan.reason = f"{why}, at t = {scan.t:.6g}"
     return scan.impact()
 
 
@@ -100,7 +103,10 @@ class _Scan:
     def impact(self) -> Impact:
         if self.reason is None:
             return Impact(1.0, None, 1.0, self.contact)
-        upper = _first_overlap(self._pair, self.t)
+        try:
+            upper = _first_overlap(self._pair, self.t)
+        except Unanswerable as why:
+            return Impact(self.t, None, self.t, self.contact, str(why))
         if upper is None:
             return Impact(self.t, None, self.t, self.contact, self.reason)
         return Impact(self.met, upper, self.t, self.contact)

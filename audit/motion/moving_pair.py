@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from satcheck import core
+from satcheck.audit.boxes import diagonal
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, Track
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
+from satcheck.audit.tolerances import TOUCH_FRACTION
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,8 +22,15 @@ if TYPE_CHECKING:
     from satcheck.audit.report import Finding, Vector
 
 
-class BudgetSpent(Exception):
+class Unanswerable(Exception):
+    """Why a question about a moving pair has no answer: in words for its report."""
+
+
+class BudgetSpent(Unanswerable):
     """More questions were asked about a pair than a sweep may ask."""
+
+    def __init__(self) -> None:
+        super().__init__("the budget of the sweep was spent")
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +45,22 @@ class Obstacle:
 class MovingPair:
     """World frame. tolerance: half width of the touch band; poses are known to rounding, so it is
     never less than what that amounts to. pad: that rounding, of a gap. hulls_apart: whether the
-    hulls alone answered what was asked so far."""
+    hulls alone answered what was asked so far. Raises Unanswerable where a band that rounding makes
+    would be wide for bodies of this size.
+    """
 
     def __init__(self, pair: Pair, track_a: Track, track_b: Track) -> None:
         self.pair = pair
         self.track_a = track_a
         self.track_b = track_b
         self.pad = track_a.pad(pair.a.bounds) + track_b.pad(pair.b.bounds)
-        self.tolerance = max(pair.tolerance, PADS_IN_BAND * self.pad)
+        rounding = PADS_IN_BAND * self.pad
+        size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
+        if not rounding <= max(pair.tolerance, TOUCH_FRACTION * size):
+            raise Unanswerable(
+                f"the motion is so long that rounding moves the bodies by {self.pad:.3g}"
+            )
+        self.tolerance = max(pair.tolerance, rounding)
         self.times = sorted({*track_a.times, *track_b.times})
         self.convex = pair.both_convex
         self.hulls_apart = True
@@ -105,10 +122,14 @@ class MovingPair:
             certificate=False,
             tolerance=self.tolerance,
         )
+        try:
+            a, b = _placed(self.pair.a, self.track_a, t), _placed(self.pair.b, self.track_b, t)
+        except (ValueError, OverflowError) as error:
+            raise Unanswerable(f"a body cannot be placed at t = {t:.6g}: {error}") from None
         return replace(
             self.pair,
-            a=_placed(self.pair.a, self.track_a, t),
-            b=_placed(self.pair.b, self.track_b, t),
+            a=a,
+            b=b,
             settings=settings,
             meter=None,
             peers=None,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from satcheck.audit.motion.impact import Impact, first_impact
-from satcheck.audit.motion.moving_pair import MovingPair
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.track import STANDS, track_of
 from satcheck.audit.motion.worst import Worst, deepest_pose, least_distance
 from satcheck.audit.motion_report import Place, Relation, Sweep, WorstPose
@@ -18,7 +18,10 @@ def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
     against the other: that is no question for a sweep.
     """
     tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
-    moving = MovingPair(pair, *tracks)
+    try:
+        moving = MovingPair(pair, *tracks)
+    except Unanswerable as why:
+        return Sweep("indeterminate", pair.tolerance, 0.0, reason=str(why))
     impact = first_impact(moving)
     if impact.reason is not None:
         return _undecided(moving, impact)

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
-from satcheck.audit.motion.moving_pair import BudgetSpent, MovingPair
+from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS
 
@@ -50,9 +50,12 @@ def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     budget = pair.pair.settings.depth_budget
     step = (1.0 - impact) / (WORST_DEPTHS - 1)
     times = [min(impact + step * k, 1.0) for k in range(WORST_DEPTHS)]
-    found = [(*_depth_at(pair, t, budget / WORST_DEPTHS), t) for t in times]
-    longest = sorted(found, key=lambda one: -one[1])[:WORST_REFINED]
-    found += [(*_depth_at(pair, t, budget), t) for _, _, t in longest]
+    try:
+        found = [(*_depth_at(pair, t, budget / WORST_DEPTHS), t) for t in times]
+        longest = sorted(found, key=lambda one: -one[1])[:WORST_REFINED]
+        found += [(*_depth_at(pair, t, budget), t) for _, _, t in longest]
+    except Unanswerable:
+        return None
     deepest, _, time = max(found, key=lambda one: one[0])
     hulls = _least(pair, lambda s, e: (pair.least_hull_gap(s, e), -deepest), None)
     return hulls and Worst(time, min(hulls.lower, -deepest), -deepest)
@@ -103,7 +106,7 @@ def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | No
             if search.narrow and decided:
                 break
             search.halve()
-    except BudgetSpent:
+    except Unanswerable:
         if search is None:
             return None
     return Worst(search.time, search.least, search.best)

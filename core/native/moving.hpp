@@ -64,6 +64,14 @@ class MotionQuestion {
   double level_, extent_;
 };
 
+// Along the axis, of length 1 whatever its size; zero where it has no direction.
+inline Vec3 unit_along(Vec3 axis) {
+  const double largest = max_abs(axis), inverse = 1 / largest;
+  if (!(largest > 0) || !is_finite(axis) || !std::isfinite(inverse)) return {};
+  const Vec3 small = axis * inverse;
+  return small * (1 / norm(small));
+}
+
 // Part: `Interval along(Vec3 world direction)`, the extent of dot(direction, p) over its points, and
 // `double turning(const Moving&)`, an upper bound of |spin x r|.
 template <class Part>

@@ -48,9 +48,9 @@ MotionAnswer ask_motion(const Shape& a, const Moving& moving_a, const Shape& b, 
   if (!now.has_distance) return result;
   result.upper = now.upper;
   const auto consider = [&](Vec3 axis) {
-    const double length = norm(axis);
-    if (!(length > 0) || !std::isfinite(length)) return;
-    const Closing closing = closing_along(part_a, moving_a, part_b, moving_b, axis * (1 / length), rounding);
+    const Vec3 n = unit_along(axis);
+    if (n == Vec3{}) return;
+    const Closing closing = closing_along(part_a, moving_a, part_b, moving_b, n, rounding);
     result.value = std::fmax(result.value, question.answer(closing));
   };
   consider(now.normal);

@@ -142,9 +142,9 @@ class MotionSearch {
   // Tries an axis of any length; whether the pair is no more in the way than what is known.
   template <class Part>
   bool improve(const Part& a, const Part& b, Vec3 axis, double& value) const {
-    const double length = norm(axis);
-    if (!(length > 0) || !std::isfinite(length)) return false;
-    const Closing closing = closing_along(a, moving_a_, b, moving_b_, axis * (1 / length), rounding_);
+    const Vec3 n = unit_along(axis);
+    if (n == Vec3{}) return false;
+    const Closing closing = closing_along(a, moving_a_, b, moving_b_, n, rounding_);
     value = std::fmax(value, question_.answer(closing));
     return !(value < result_.value);
   }

@@ -1,0 +1,110 @@
+"""What is said of a pair over its whole motion, and that nothing is said that was not shown."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from satcheck.audit.motion import sweep
+from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
+from tests.audit.motion.pairs import pair_of
+from tests.audit.shapes import box, bracket, moved, open_box, unit_box
+
+ORIGIN = (0.0, 0.0, 0.0)
+Z = (0.0, 0.0, 1.0)
+
+
+def swept(a, path, b, other=None, **settings):
+    return sweep(pair_of(a, b, **settings), path, other)
+
+
+def test_a_hit_is_told_in_the_terms_of_the_motion():
+    """The front of a blade turns onto a wall whose face lies at 90 degrees."""
+    blade = box((1, -0.2, 0), (3, 0, 1))
+    found = swept(blade, Rotation(ORIGIN, Z, 180.0), box((-0.5, 1, 0), (0, 3, 1)))
+    assert found.relation == "penetrating"
+    assert found.time_of_impact[0] <= 0.5 <= found.time_of_impact[1]
+    (at,) = found.at
+    assert (at.body, at.term) == ("a", "degrees")
+    assert at.value == pytest.approx(90.0, abs=1e-4)
+    assert found.worst.depth[0] <= found.worst.depth[1]
+    assert found.worst.distance is None
+
+
+def test_both_places_are_told():
+    found = swept(
+        unit_box(),
+        Translation((3.0, 0.0, 4.0)),
+        unit_box(2.5, 0, 0),
+        PosePath((Waypoint(0.0, ORIGIN), Waypoint(1.0, (0.0, 0.0, 9.0)))),
+    )
+    assert found.relation == "separated"
+    assert {(place.body, place.term) for place in found.worst.at} == {("a", "length"), ("b", "t")}
+
+
+@pytest.mark.parametrize("body", [unit_box(), moved(bracket(), -5, -5, 0)])
+def test_the_clearance_holds_on_the_way(body):
+    wall = box((-9, 2.0, -9), (9, 3.0, 9))
+    path = Translation((3.0, 0.5, 0.0))  # ends 0.5 away
+    assert swept(body, path, wall).relation == "separated"
+    near = swept(body, path, wall, clearance=0.75)
+    assert near.relation == "near"
+    assert near.worst.distance == pytest.approx((0.5, 0.5), rel=0.01)
+    assert swept(body, path, wall, clearance=0.25).relation == "separated"
+
+
+def test_without_depth_none_is_measured():
+    found = swept(unit_box(), Translation((9.0, 0.0, 0.0)), unit_box(3.0), depth=False)
+    assert found.relation == "penetrating"
+    assert found.worst is None
+
+
+def test_what_an_open_body_may_enclose_is_not_passed_over():
+    """Through the open top and out again; surfaces never meet."""
+    ball = box((1, 1, 6), (2, 2, 7))
+    there = PosePath((Waypoint(0.0, ORIGIN), Waypoint(1.0, (0.5, 0.5, -5.0))))
+    found = swept(ball, there, open_box())
+    assert found.relation == "separated"
+    assert "surfaces only: what b may enclose" in found.reason
+    away = swept(ball, Translation((0.0, 0.0, 5.0)), open_box())
+    assert away.reason is None
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        Translation((1e30, 0.0, 0.0)),
+        Translation((0.0, 1e300, 0.0)),
+        Rotation((9.0, 0.0, 0.0), Z, 1e300),
+        Rotation((1e40, 0.0, 0.0), Z, 90.0),
+    ],
+)
+def test_motions_beyond_float64_are_open(path):
+    found = swept(unit_box(), path, unit_box(3.0))
+    assert found.relation == "indeterminate"
+    assert found.reason
+
+
+def test_a_million_turns_end():
+    """Next to a wall that the corners pass at 0.1: proven, or open by the budget."""
+    square = box((-1, -1, 0), (1, 1, 1))
+    wall = box((math.sqrt(2.0) + 0.1, -5, 0), (9, 5, 1))
+    found = swept(square, Rotation(ORIGIN, Z, 3.6e8), wall)
+    assert found.relation in ("separated", "indeterminate")
+
+
+@pytest.mark.parametrize("scale", [2.0**-100, 2.0**-20, 1.0, 2.0**60])
+def test_scaled_by_a_power_of_two(scale):
+    """Nothing but lengths changes."""
+
+    def scaled(mesh):
+        return [tuple(c * scale for c in p) for p in mesh[0]], mesh[1]
+
+    blade, wall = box((1, -0.25, 0), (3, 0, 1)), box((-0.5, 1, 0), (0, 3, 1))
+    path = Rotation((scale / 4, 0.0, 0.0), Z, 180.0)
+    found = swept(scaled(blade), path, scaled(wall), tolerance=0.0)
+    reference = swept(blade, Rotation((0.25, 0.0, 0.0), Z, 180.0), wall, tolerance=0.0)
+    assert found.time_of_impact == reference.time_of_impact
+    assert found.worst.time == reference.worst.time
+    assert [d / scale for d in found.worst.depth] == list(reference.worst.depth)
