@@ -72,7 +72,7 @@ def _state(element: Element) -> State:
     joints: dict[str, Values] = {}
     for joint in element.all("joint"):
         name = joint.text("name")
-        if name in joints:
+        values = joint.numbers("value", len(joint.text("value").split()))
+        if joints.setdefault(name, values) != values:
             joint.refuse(f"a second value of joint {name!r}", "duplicate-id")
-        joints[name] = joint.numbers("value", len(joint.text("value").split()))
     return State(element.attributes.get("group", ""), element.text("name"), joints)

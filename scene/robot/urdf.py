@@ -55,7 +55,7 @@ def read_urdf(path: str, location: Path) -> tuple[Robot, tuple[Issue, ...]]:
 class _Reader:
     def __init__(self, path: str) -> None:
         self._path = path
-        self._issues: list[Issue] = []
+        self._unknown: dict[str, list[tuple[Element, str]]] = {}
 
     def read(self, root: Element) -> tuple[Robot, tuple[Issue, ...]]:
         links: dict[str, Link] = {}
@@ -73,19 +73,20 @@ class _Reader:
                 element.refuse(f"a second joint {joint.name!r}", "duplicate-id")
             joints[joint.name] = joint, element
         base, ordered = in_order(root, links, list(joints.values()))
-        return Robot(root.text("name"), self._path, base, links, ordered), tuple(self._issues)
+        name = root.attributes.get("name") or Path(self._path).stem
+        return Robot(name, self._path, base, links, ordered), self._unknown_elements()
 
     def _link(self, element: Element) -> Link:
         name = element.text("name")
-        self._warn_of_unknown(element, name, _LINK_PARTS)
+        self._note_unknown(element, _LINK_PARTS)
         return Link(
             name=name,
-            collisions=tuple(self._collision(one, name) for one in element.all("collision")),
+            collisions=tuple(self._collision(one) for one in element.all("collision")),
             visual=bool(element.all("visual")),
         )
 
-    def _collision(self, element: Element, link: str) -> Collision:
-        self._warn_of_unknown(element, link, _COLLISION_PARTS)
+    def _collision(self, element: Element) -> Collision:
+        self._note_unknown(element, _COLLISION_PARTS)
         geometry = element.need("geometry")
         shapes = geometry.children
         if len(shapes) != 1:
@@ -99,13 +100,13 @@ class _Reader:
 
     def _joint(self, element: Element) -> Joint:
         name = element.text("name")
-        self._warn_of_unknown(element, name, _JOINT_PARTS)
+        self._note_unknown(element, _JOINT_PARTS)
         given = element.text("type")
         kind = next((kind for kind in _KINDS if kind == given), None)
         if kind is None:
             element.refuse(f"type {given!r} is none of {', '.join(_KINDS)}")
-        mimic = element.only("mimic")
-        if mimic is not None and kind in ("fixed", "planar", "floating"):
+        mimic = element.only("mimic") if kind != "fixed" else None
+        if mimic is not None and kind in ("planar", "floating"):
             mimic.refuse(f"a {kind} joint cannot mimic another")
         return Joint(
             name=name,
@@ -124,22 +125,29 @@ class _Reader:
             return None
         if limit is None:
             element.refuse(f"a {kind} joint without <limit>: how far it goes has to be said")
-        limit.knows(
-            ("lower", "upper", "effort", "velocity", "acceleration", "deceleration", "jerk")
-        )
+        limit.knows(("lower", "upper"), others=True)
         limits = Limits(limit.number("lower", 0.0), limit.number("upper", 0.0))
         if limits.lower > limits.upper:
             limit.refuse(f"lower {limits.lower:g} is above upper {limits.upper:g}")
         return limits
 
-    def _warn_of_unknown(self, element: Element, owner: str, known: frozenset[str]) -> None:
+    def _note_unknown(self, element: Element, known: frozenset[str]) -> None:
         for child in element.children:
-            if child.tag in known or child.tag in _EXTENSIONS or ":" in child.tag:
-                continue
-            close = get_close_matches(child.tag, sorted(known), n=1)
-            hint = f" (did you mean <{close[0]}>?)" if close else ""
-            message = f"line {child.line}: unknown <{child.tag}> in {owner!r}{hint}: it is ignored"
-            self._issues.append(issue("unknown-element", message, file=self._path))
+            if child.tag not in known and child.tag not in _EXTENSIONS and ":" not in child.tag:
+                close = get_close_matches(child.tag, sorted(known), n=1)
+                hint = f" (did you mean <{close[0]}>?)" if close else ""
+                found = self._unknown.setdefault(child.tag, [])
+                found.append((child, f"in <{element.tag}>{hint}"))
+
+    def _unknown_elements(self) -> tuple[Issue, ...]:
+        """A warning for each name."""
+        issues = []
+        for tag, found in self._unknown.items():
+            first, where = found[0]
+            more = f", and {len(found) - 1} more" if len(found) > 1 else ""
+            message = f"line {first.line}: unknown <{tag}> {where}{more}: ignored"
+            issues.append(issue("unknown-element", message, file=self._path))
+        return tuple(issues)
 
 
 def _geometry(shape: Element) -> Geometry:

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Collection
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 from typing import NoReturn
 
@@ -64,15 +65,17 @@ class Element:
     def number(self, attribute: str, default: float | None = None) -> float:
         return self.numbers(attribute, 1, None if default is None else (default,))[0]
 
-    def knows(self, attributes: Collection[str]) -> None:
-        """Refuses attributes beyond these; those of other namespaces ("drake:...") may stay."""
-        from difflib import get_close_matches
+    def knows(self, attributes: Collection[str], *, others: bool = False) -> None:
+        """Refuses attributes beyond these, or with `others` only what resembles one of these.
 
+        Those of other namespaces ("drake:...") may stay.
+        """
         for name in self.attributes:
             if name not in attributes and ":" not in name:
                 close = get_close_matches(name, sorted(attributes), n=1)
                 hint = f" (did you mean {close[0]!r}?)" if close else ""
-                self.refuse(f"unknown attribute {name!r}{hint}")
+                if close or not others:
+                    self.refuse(f"unknown attribute {name!r}{hint}")
 
     def refuse(self, message: str, code: str = "bad-robot") -> NoReturn:
         raise SceneFileError(code, f"line {self.line}: <{self.tag}>: {message}", file=self.file)

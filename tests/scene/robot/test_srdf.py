@@ -54,7 +54,7 @@ def test_pairs_without_a_reason_and_links_that_are_silent_by_default(tmp_path: P
             'value="nan" is no finite number',
         ),
         (
-            '<group_state name="s"><joint name="j" value="1"/><joint name="j" value="1"/>'
+            '<group_state name="s"><joint name="j" value="1"/><joint name="j" value="2"/>'
             "</group_state>",
             "a second value of joint 'j'",
         ),

@@ -113,7 +113,7 @@ def test_wrong_origins(tmp_path: Path, origin: str, said: str) -> None:
         ("revolute", '<limit lover="0" upper="1"/>', "did you mean 'lower'?"),
         ("revolute", LIMIT + '<axis xyz="0 0 0"/>', "an axis of length 0"),
         ("revolute", LIMIT + '<axis xyz="0 1"/>', "should be 3 numbers"),
-        ("fixed", '<mimic joint="k"/>', "a fixed joint cannot mimic"),
+        ("planar", '<mimic joint="k"/>', "a planar joint cannot mimic"),
         ("floating", '<mimic joint="k"/>', "a floating joint cannot mimic"),
         ("revolute", LIMIT + "<mimic/>", 'attribute "joint" is missing'),
         ("revolute", LIMIT + LIMIT, "a second <limit> in one <joint>"),
@@ -152,10 +152,24 @@ def test_names(tmp_path: Path) -> None:
 def test_what_is_misspelt_is_told_and_what_simulators_add_is_not(tmp_path: Path) -> None:
     inside = "<inertial/><gazebo:x/><contact/><colision/>"
     path = tmp_path / "r.urdf"
-    path.write_text(robot_of(link("a", inside), "<gazebo/>", "<transmission/>"))
-    _, (issue,) = read_urdf("r.urdf", path)
-    assert issue.code == "unknown-element"
-    assert "line 2: unknown <colision> in 'a' (did you mean <collision>?)" in issue.message
+    bodies = [link("a", inside), link("b", "<colision/><x/>"), joint("j", "a", "b")]
+    path.write_text(robot_of(*bodies, "<gazebo/>", "<transmission/>"))
+    _, issues = read_urdf("r.urdf", path)
+    assert {issue.code for issue in issues} == {"unknown-element"}
+    assert [issue.message for issue in issues] == [
+        "line 2: unknown <colision> in <link> (did you mean <collision>?), and 1 more: ignored",
+        "line 3: unknown <x> in <link>: ignored",
+    ]
+
+
+def test_what_does_not_matter_is_no_reason_to_refuse(tmp_path: Path) -> None:
+    """A robot without a name, limits of other kinds, and a joint that was fixed later."""
+    inside = ['<mimic joint="gone"/>', '<limit lower="0" upper="1" command_effort="2"/>']
+    joints = [joint("j", "a", "b", "fixed", inside[0]), joint("k", "b", "c", "revolute", inside[1])]
+    text = robot_of(*(link(name) for name in "abc"), *joints).replace(' name="r"', "")
+    robot = read(tmp_path, text)
+    assert robot.name == "r"  # of the file
+    assert robot.joints[0].mimic is None
 
 
 @pytest.mark.parametrize(
