@@ -17,6 +17,7 @@ from satcheck.audit.roster import Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.drawing import DRAWINGS
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
@@ -88,6 +89,10 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
             megabytes_per_file=settings.megabytes_per_file,
         )
     if settings.planar is None:
+        drawn = next((body for body in scene.bodies if body.file.format in DRAWINGS.values()), None)
+        if drawn is not None:
+            path = drawn.file.path
+            raise SatcheckError("planar-only", f"{path}: a drawing is flat: add --planar xy")
         return scene
     from satcheck.scene.planar.laid_flat import laid_flat
 

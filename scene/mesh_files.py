@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from satcheck.scene.bodies import MeshFile
+from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import load_mesh_file
 from satcheck.scene.plain_ids import COMPONENT_MARK
@@ -37,32 +38,43 @@ class MeshFiles:
         key = Path(location).absolute()
         if key not in self._wholes:
             try:
-                self._wholes[key] = load_mesh_file(
-                    path, location, seconds=self._seconds, megabytes=self._megabytes
-                )
+                self._wholes[key] = self._load_whole(path, location)
             except MeshFileError as error:
                 self._wholes[key] = error
         return self._wholes[key]
 
+    def _load_whole(self, path: str, location: Path) -> MeshFile:
+        load = load_mesh_file
+        if is_drawing(location):
+            from satcheck.scene.drawing.bodies import load_drawing as load
+        return load(path, location, seconds=self._seconds, megabytes=self._megabytes)
+
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
         """The file taken apart."""
-        from satcheck.scene.loading.nodes import load_nodes
-
         key = Path(location).absolute(), components
         if key not in self._nodes:
             try:
-                found = load_nodes(
-                    path,
-                    location,
-                    components=components,
-                    seconds=self._seconds,
-                    megabytes=self._megabytes,
-                )
+                found = self._load_nodes(path, location, components)
                 self._nodes[key] = found
                 self._by_path[key] = {node.path: node for node in found.nodes}
             except MeshFileError as error:
                 self._nodes[key] = error
         return self._nodes[key]
+
+    def _load_nodes(self, path: str, location: Path, components: bool) -> Nodes:
+        if is_drawing(location):
+            from satcheck.scene.drawing.bodies import load_shapes
+
+            return load_shapes(path, location, seconds=self._seconds, megabytes=self._megabytes)
+        from satcheck.scene.loading.nodes import load_nodes
+
+        return load_nodes(
+            path,
+            location,
+            components=components,
+            seconds=self._seconds,
+            megabytes=self._megabytes,
+        )
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
         """One node of the file by its path, which may end in "#" and the number of a component."""

@@ -10,24 +10,48 @@ import numpy as np
 from satcheck.core import Mesh
 from satcheck.core.worker import WorkerError
 from satcheck.scene.bodies import MeshFile
-from satcheck.scene.drawing.reading import DRAWINGS, read_drawing
+from satcheck.scene.drawing import DRAWINGS
+from satcheck.scene.drawing.reading import read_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.foreign import refused_by_worker
+from satcheck.scene.loading.nodes import Node, Nodes
 from satcheck.scene.loading.source import Source, read_source
+from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 
 
-def load_drawing(
-    path: str, location: Path, *, whole: bool, seconds: float, megabytes: int
-) -> list[MeshFile]:
-    """The shapes of an SVG or DXF file, each a MeshFile with its name as `part`.
+def load_drawing(path: str, location: Path, *, seconds: float, megabytes: int) -> MeshFile:
+    """An SVG or DXF file as one mesh, all its shapes together.
 
-    whole: all shapes as one. The resolution is how far flattened curves may be off their polygons,
-    and the rounding of the coordinates. Raises MeshFileError.
+    The resolution is how far flattened curves may be off their polygons, and the rounding of the
+    coordinates. Raises MeshFileError.
     """
+    source, found = _read(path, location, seconds, megabytes)
+    for sheet in found["sheets"]:
+        _refuse(sheet, source)
+    return _sheet_file(source, found, _together(found["sheets"]))
+
+
+def load_shapes(path: str, location: Path, *, seconds: float, megabytes: int) -> Nodes:
+    """Its shapes, each a node by its name; one that cannot be used does not stop the others."""
+    source, found = _read(path, location, seconds, megabytes)
+    names = UniqueNames()
+    nodes = []
+    for sheet in found["sheets"]:
+        sheet["name"] = names.unique(sheet["name"])
+        try:
+            nodes.append(Node(sheet["name"], _sheet_file(source, found, sheet)))
+        except MeshFileError as error:
+            nodes.append(Node(sheet["name"], error))
+    return Nodes(tuple(nodes))
+
+
+def _read(
+    path: str, location: Path, seconds: float, megabytes: int
+) -> tuple[Source, dict[str, Any]]:
     max_bytes = megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
     source = read_source(path, location, max_bytes=max_bytes, formats=DRAWINGS)
     try:
@@ -36,13 +60,13 @@ def load_drawing(
         raise refused_by_worker(error, source, megabytes) from error
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from None
-    sheets = [_together(found["sheets"])] if whole else found["sheets"]
-    try:
-        return [_sheet_file(source, found, sheet) for sheet in sheets]
-    except MeshFileError as error:
-        raise MeshFileError(error.code, error.message, file=path) from None
-    except OverflowError as error:
-        raise MeshFileError("out-of-range", str(error), file=path) from None
+    return source, found
+
+
+def _refuse(sheet: dict[str, Any], source: Source) -> None:
+    if "refusal" in sheet:
+        code, message = sheet["refusal"]
+        raise MeshFileError(code, message, file=source.path)
 
 
 def _together(sheets: list[dict[str, Any]]) -> dict[str, Any]:
@@ -56,10 +80,16 @@ def _together(sheets: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _sheet_file(source: Source, found: dict[str, Any], sheet: dict[str, Any]) -> MeshFile:
+    _refuse(sheet, source)
     points = np.array(sheet["points"], dtype=np.float64)
     vertices = np.column_stack((points, np.zeros(len(points))))
     triangles = np.array(sheet["triangles"], dtype=np.uint32).reshape(-1, 3)
-    examined = examine(Mesh(vertices, triangles), orient=False)
+    try:
+        examined = examine(Mesh(vertices, triangles), orient=False)
+    except MeshFileError as error:
+        raise MeshFileError(error.code, error.message, file=source.path) from None
+    except OverflowError as error:
+        raise MeshFileError("out-of-range", str(error), file=source.path) from None
     warnings = [("ignored-geometry", words) for words in found["ignored"]]
     return MeshFile(
         path=source.path,

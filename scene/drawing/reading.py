@@ -1,7 +1,8 @@
 """Drawings are untrusted input to large parsers: they are read in a child process.
 
 request: a line with the format, then the file's bytes. reply: JSON, {"refusal": [code, message]} or
-{"units", "ignored", "sheets": [{"name", "points", "triangles", "deviation"}]}.
+{"units", "ignored", "sheets": [{"name", "points", "triangles", "deviation"}]}, where a shape that
+cannot be used has a "refusal" in the place of its points.
 """
 
 from __future__ import annotations
@@ -9,10 +10,9 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from satcheck.scene.drawing.contour import Drawing
+from satcheck.scene.drawing.contour import Drawing, DrawnShape
 from satcheck.scene.errors import MeshFileError
 
-DRAWINGS = {".svg": "svg", ".dxf": "dxf"}
 _WORKER = "satcheck.scene.drawing.reading"
 
 
@@ -48,21 +48,25 @@ def _drawing(form: str, data: bytes) -> Drawing:
 
 
 def _answer(drawing: Drawing) -> dict[str, Any]:
-    from satcheck.scene.drawing.sheet import sheet_of
-
     if not drawing.shapes:
         raise MeshFileError("empty-mesh", "the drawing has no closed outline")
-    sheets = [sheet_of(shape) for shape in drawing.shapes]
     return {
         "units": drawing.units,
         "ignored": drawing.ignored,
-        "sheets": [
-            {
-                "name": sheet.name,
-                "points": sheet.points.tolist(),
-                "triangles": sheet.triangles.tolist(),
-                "deviation": sheet.deviation,
-            }
-            for sheet in sheets
-        ],
+        "sheets": [_sheet(shape) for shape in drawing.shapes],
+    }
+
+
+def _sheet(shape: DrawnShape) -> dict[str, Any]:
+    from satcheck.scene.drawing.sheet import sheet_of
+
+    try:
+        sheet = sheet_of(shape)
+    except MeshFileError as error:
+        return {"name": shape.name, "refusal": [error.code, error.message]}
+    return {
+        "name": sheet.name,
+        "points": sheet.points.tolist(),
+        "triangles": sheet.triangles.tolist(),
+        "deviation": sheet.deviation,
     }

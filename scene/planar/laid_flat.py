@@ -12,7 +12,7 @@ from satcheck.core import Mesh
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
-from satcheck.scene.drawing.reading import DRAWINGS
+from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
