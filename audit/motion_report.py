@@ -52,8 +52,8 @@ class Sweep:
     relation: the worst of it. `separated`: no common point at any t; `near`: closer than the
     clearance at some; `touching`: they come as close as the tolerance, or could not be proven not
     to, and overlap by no more than it at any t; `penetrating`: they overlap by more at some t.
-    tolerance: the touch band of the sweep. time_of_impact: the first t of such an overlap lies in
-    it; at its end the bodies, posed and rounded to float64, overlap by more than the tolerance. at:
+    tolerance: the touch band of the sweep. time_of_impact: before its lower end there is no such
+    overlap; at its upper end a check of the bodies, posed and rounded to float64, finds one. at:
     the pose there. contact: a t before which they have no common point. reached: up to there
     no overlap is proven. reason: of `indeterminate`, or what
     surfaces alone left open. steps: what it took.

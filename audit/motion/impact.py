@@ -62,7 +62,7 @@ def first_impact(pair: MovingPair) -> Impact:
 
 
 def overlaps(found: Finding) -> bool:
-    """Proven, and by more than the touch band."""
+    """Proven, and not shown to be within the touch band."""
     return found.relation in OVERLAPS and found.exact_relation is not None
 
 

@@ -23,6 +23,39 @@ struct Moving {
   Vec3 velocity_at(Vec3 world) const { return velocity + cross(spin, world - centre); }
 };
 
+// Two bodies as seen from the world: the axes of their gaps stand still there. Where one body stands
+// and the other turns about a fixed axis, the world may as well turn and the body stand: the axis of the gap
+// then goes along with it, as that of a face that opens like a door does.
+class Views {
+ public:
+  struct View {
+    Moving a, b;
+  };
+
+  Views(const Moving& a, const Moving& b) : views_{{a, b}, {a, b}} {
+    if (turns(a) && stands(b)) exchange(views_[1].a, views_[1].b);
+    if (turns(b) && stands(a)) exchange(views_[1].b, views_[1].a);
+  }
+
+  const View* begin() const { return views_; }
+  const View* end() const { return views_ + count_; }
+  const View& world() const { return views_[0]; }
+
+ private:
+  static bool stands(const Moving& m) { return m.velocity == Vec3{} && m.spin == Vec3{}; }
+  static bool turns(const Moving& m) { return m.velocity == Vec3{} && !(m.spin == Vec3{}); }
+
+  void exchange(Moving& turning, Moving& standing) {
+    standing.centre = turning.centre;
+    standing.spin = -turning.spin;
+    turning.spin = {};
+    count_ = 2;
+  }
+
+  View views_[2];
+  int count_ = 1;
+};
+
 // What the bounds may be off by: of a gap, and of the rate at which it closes.
 struct MotionRounding {
   double gap = 0, rate = 0;
@@ -106,6 +139,19 @@ Closing closing_along(const PartA& a, const Moving& moving_a, const PartB& b, co
     speed->steady += rounding.rate;
   }
   return closing;
+}
+
+// A lower bound of the answer to a question, by an axis of any length from A to B, in all views.
+template <class PartA, class PartB>
+double answer_along(const PartA& a, const PartB& b, Vec3 axis, const Views& views, const MotionRounding& rounding,
+                    const MotionQuestion& question) {
+  const Vec3 n = unit_along(axis);
+  double answer = question.smallest();
+  if (n == Vec3{}) return answer;
+  for (const Views::View& view : views) {
+    answer = std::fmax(answer, question.answer(closing_along(a, view.a, b, view.b, n, rounding)));
+  }
+  return answer;
 }
 
 }  // namespace satcheck

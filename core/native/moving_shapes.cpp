@@ -47,11 +47,9 @@ MotionAnswer ask_motion(const Shape& a, const Moving& moving_a, const Shape& b, 
   result.visits = 1;
   if (!now.has_distance) return result;
   result.upper = now.upper;
+  const Views views(moving_a, moving_b);
   const auto consider = [&](Vec3 axis) {
-    const Vec3 n = unit_along(axis);
-    if (n == Vec3{}) return;
-    const Closing closing = closing_along(part_a, moving_a, part_b, moving_b, n, rounding);
-    result.value = std::fmax(result.value, question.answer(closing));
+    result.value = std::fmax(result.value, answer_along(part_a, part_b, axis, views, rounding, question));
   };
   consider(now.normal);
   const Vec3 v = moving_a.velocity_at(now.witness_a) - moving_b.velocity_at(now.witness_b);

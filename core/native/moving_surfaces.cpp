@@ -63,7 +63,7 @@ class MotionSearch {
  public:
   MotionSearch(const Surface& a, const Moving& moving_a, const Surface& b, const Moving& moving_b,
                const MotionQuestion& question, const MotionRounding& rounding, std::uint64_t work)
-      : a_(a), b_(b), moving_a_(moving_a), moving_b_(moving_b), question_(question), rounding_(rounding), work_(work) {
+      : a_(a), b_(b), moving_a_(moving_a), moving_b_(moving_b), views_(moving_a, moving_b), question_(question), rounding_(rounding), work_(work) {
     result_.value = question.largest();
   }
 
@@ -139,13 +139,10 @@ class MotionSearch {
     result_.triangle_b = tb;
   }
 
-  // Tries an axis of any length; whether the pair is no more in the way than what is known.
+  // Tries an axis; whether the pair is no more in the way than what is known.
   template <class Part>
   bool improve(const Part& a, const Part& b, Vec3 axis, double& value) const {
-    const Vec3 n = unit_along(axis);
-    if (n == Vec3{}) return false;
-    const Closing closing = closing_along(a, moving_a_, b, moving_b_, n, rounding_);
-    value = std::fmax(value, question_.answer(closing));
+    value = std::fmax(value, answer_along(a, b, axis, views_, rounding_, question_));
     return !(value < result_.value);
   }
 
@@ -153,7 +150,7 @@ class MotionSearch {
 
   // What is left of the direction across the relative motion of the two points.
   Vec3 across_motion(Vec3 direction, Vec3 on_a, Vec3 on_b) const {
-    const Vec3 v = moving_a_.velocity_at(on_a) - moving_b_.velocity_at(on_b);
+    const Vec3 v = views_.world().a.velocity_at(on_a) - views_.world().b.velocity_at(on_b);
     const double squared = norm_squared(v);
     return squared > 0 ? direction - v * (dot(direction, v) / squared) : Vec3{};
   }
@@ -162,6 +159,7 @@ class MotionSearch {
   const Surface& b_;
   const Moving& moving_a_;
   const Moving& moving_b_;
+  Views views_;
   const MotionQuestion& question_;
   const MotionRounding& rounding_;
   std::uint64_t work_;

@@ -34,6 +34,19 @@ Moving random_moving(double spread) {
   return {{rotation_by(random_vector(3)), random_vector(spread)}, random_vector(2), random_vector(3), random_vector(4)};
 }
 
+// Two bodies: both on the move, or one that stands while the other only turns.
+struct Two {
+  Moving a, b;
+};
+
+Two random_two(double spread, int i) {
+  Two two{random_moving(spread), random_moving(spread)};
+  if (i % 3 == 0) return two;
+  Moving &still = i % 3 == 1 ? two.a : two.b, &turning = i % 3 == 1 ? two.b : two.a;
+  still.velocity = still.spin = turning.velocity = {};
+  return two;
+}
+
 // The vertices of a body as it is at a time from now.
 std::vector<Vec3> moved(const std::vector<Vec3>& points, const Moving& moving, double time) {
   const Mat3 turn = rotation_by(moving.spin * time);
@@ -59,7 +72,8 @@ void promises_hold() {
   const Surface a = make_surface(uv_sphere(3), true), b = make_surface(box({-1, -0.5, -0.2}, {1, 0.5, 0.2}), true);
   int useful = 0, moments = 0;
   for (int i = 0; i < 200; ++i) {
-    const Moving ma = random_moving(4), mb = i % 3 ? random_moving(4) : Moving{};
+    const Two two = random_two(4, i);
+    const Moving &ma = two.a, &mb = two.b;
     const double now = distance(a, ma, b, mb, 0);
     if (now == 0) continue;
     const double level = uniform(0, 0.5) * now;
@@ -111,6 +125,20 @@ void sliding_is_not_slowed_down() {
   CHECK(std::fabs(time(sinks) - 0.1) < 1e-12);
 }
 
+// A door of which the far side sinks below the sill that it lies on: seen from the world its face gets in the
+// way of itself, seen from the door the sill goes away.
+void an_opening_door_is_not_held() {
+  const Surface sill = make_surface(box({1, -1, 0}, {2, -0.001, 1}), true);
+  const Surface door = make_surface(box({-3, 0, 0}, {3, 1, 1}), true);
+  const Moving opens{{}, {}, {}, {0, 0, 1}}, shuts{{}, {}, {}, {0, 0, -1}};
+  const auto time = [&](const Moving& a, const Surface& s, const Moving& b, const Surface& t) {
+    return ask_motion(s, a, t, b, MotionQuestion::time(0, 1), {}, kNoLimit).value;
+  };
+  CHECK(time(opens, door, {}, sill) > 0.1);
+  CHECK(time({}, sill, opens, door) > 0.1);
+  CHECK(time(shuts, door, {}, sill) < 0.001);
+}
+
 void shapes_keep_their_promises() {
   const Shape ball = make_sphere(0.5), cone = make_cone(0.7, 1.0);
   const Shape hull = make_hull(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
@@ -118,7 +146,8 @@ void shapes_keep_their_promises() {
   for (int i = 0; i < 300; ++i) {
     const Shape& a = i % 2 ? hull : ball;
     const Shape& b = i % 3 ? hull : cone;
-    const Moving ma = random_moving(1.5), mb = random_moving(1.5);
+    const Two two = random_two(1.5, i / 6);
+    const Moving &ma = two.a, &mb = two.b;
     const auto signed_distance = [&](double time) {
       const auto pose = [&](const Moving& m) {
         const Mat3 turn = rotation_by(m.spin * time);
@@ -148,6 +177,7 @@ int main() {
   promises_hold();
   cut_short_is_less();
   sliding_is_not_slowed_down();
+  an_opening_door_is_not_held();
   shapes_keep_their_promises();
   return exit_status();
 }

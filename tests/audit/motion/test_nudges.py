@@ -74,6 +74,14 @@ def test_along_the_walls_of_a_corner(path, tolerance):
     assert impact.contact == 0.0
 
 
+def test_opening_like_a_door():
+    """The arm of an L lies on a ledge and turns off it; its back end goes down where nothing is."""
+    path = Rotation((-4.0, 1.0, -6.0), (0.0, 0.0, 1.0), 90.0)
+    impact = impact_of(moved(bracket(), -5, 4, 2), path, moved(bracket(), -2, -2, 5))
+    assert impact.free
+    assert impact.contact == 0.0
+
+
 def test_into_the_wall_of_a_corner():
     path = Translation((-0.5, 0.0, 1.0))
     impact = impact_of(unit_box(3, 2, 1), path, bracket())
