@@ -51,13 +51,14 @@ def load_scene(
     links may touch. packages: where the packages lie that a URDF names, see `robot.MeshPlaces`.
     Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
     the id of their file where there are several), with -2, -3, ... where they occur again.
-    allow_outside: a robot's meshes may lie outside of its folder.
+    allow_outside: a robot's meshes, and the buffers of a glTF file, may lie outside of its folder.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file, or a node of one, that cannot be used becomes an Unreadable with an error issue and
     the rest still loads. Raises SceneFileError for a scene file or a robot that is wrong in itself.
     """
-    loader = _Loader(MeshFiles(seconds_per_file, megabytes_per_file))
+    files = MeshFiles(seconds_per_file, megabytes_per_file, allow_outside=allow_outside)
+    loader = _Loader(files)
     given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
     alone = len(given) == 1

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading import load_mesh_file
+from satcheck.scene.loading import ReadLimits, load_mesh_file
 from satcheck.scene.plain_ids import COMPONENT_MARK
 
 if TYPE_CHECKING:
@@ -26,9 +26,10 @@ class MeshFiles:
         self,
         seconds: float = DEFAULT_SECONDS_PER_FILE,
         megabytes: int = DEFAULT_MEGABYTES_PER_FILE,
+        *,
+        allow_outside: bool = False,
     ) -> None:
-        self._seconds = seconds
-        self._megabytes = megabytes
+        self._limits = ReadLimits(seconds, megabytes, allow_outside)
         self._wholes: dict[Path, MeshFile | MeshFileError] = {}
         self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}
         self._by_path: dict[tuple[Path, bool], dict[str | None, Node]] = {}
@@ -47,7 +48,7 @@ class MeshFiles:
         load = load_mesh_file
         if is_drawing(location):
             from satcheck.scene.drawing.bodies import load_drawing as load
-        return load(path, location, seconds=self._seconds, megabytes=self._megabytes)
+        return load(path, location, self._limits)
 
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
         """The file taken apart."""
@@ -65,16 +66,10 @@ class MeshFiles:
         if is_drawing(location):
             from satcheck.scene.drawing.bodies import load_shapes
 
-            return load_shapes(path, location, seconds=self._seconds, megabytes=self._megabytes)
+            return load_shapes(path, location, self._limits)
         from satcheck.scene.loading.nodes import load_nodes
 
-        return load_nodes(
-            path,
-            location,
-            components=components,
-            seconds=self._seconds,
-            megabytes=self._megabytes,
-        )
+        return load_nodes(path, location, self._limits, components=components)
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
         """One node of the file by its path, which may end in "#" and the number of a component."""

@@ -15,7 +15,7 @@ from satcheck.scene.drawing.reading import read_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
-from satcheck.scene.loading import limits
+from satcheck.scene.loading import ReadLimits
 from satcheck.scene.loading.foreign import refused_by_worker
 from satcheck.scene.loading.nodes import Node, Nodes
 from satcheck.scene.loading.source import Source, read_source
@@ -23,21 +23,21 @@ from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 
 
-def load_drawing(path: str, location: Path, *, seconds: float, megabytes: int) -> MeshFile:
+def load_drawing(path: str, location: Path, allowed: ReadLimits) -> MeshFile:
     """An SVG or DXF file as one mesh, all its shapes together.
 
     The resolution is how far flattened curves may be off their polygons, and the rounding of the
     coordinates. Raises MeshFileError.
     """
-    source, found = _read(path, location, seconds, megabytes)
+    source, found = _read(path, location, allowed)
     for sheet in found["sheets"]:
         _refuse(sheet, source)
     return _sheet_file(source, found, _together(found["sheets"]))
 
 
-def load_shapes(path: str, location: Path, *, seconds: float, megabytes: int) -> Nodes:
+def load_shapes(path: str, location: Path, allowed: ReadLimits) -> Nodes:
     """Its shapes, each a node by its name; one that cannot be used does not stop the others."""
-    source, found = _read(path, location, seconds, megabytes)
+    source, found = _read(path, location, allowed)
     names = UniqueNames()
     nodes = []
     for sheet in found["sheets"]:
@@ -49,11 +49,9 @@ def load_shapes(path: str, location: Path, *, seconds: float, megabytes: int) ->
     return Nodes(tuple(nodes))
 
 
-def _read(
-    path: str, location: Path, seconds: float, megabytes: int
-) -> tuple[Source, dict[str, Any]]:
-    max_bytes = megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
-    source = read_source(path, location, max_bytes=max_bytes, formats=DRAWINGS)
+def _read(path: str, location: Path, allowed: ReadLimits) -> tuple[Source, dict[str, Any]]:
+    source = read_source(path, location, max_bytes=allowed.file_bytes, formats=DRAWINGS)
+    seconds, megabytes = allowed.seconds, allowed.megabytes
     try:
         found = read_drawing(source.format, source.data, seconds=seconds, megabytes=megabytes)
     except WorkerError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 from satcheck.core import Mesh
@@ -16,34 +17,48 @@ from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.resolution import file_resolution
 
 
-def load_mesh_file(path: str, location: Path, *, seconds: float, megabytes: int) -> MeshFile:
+@dataclass(frozen=True, slots=True)
+class ReadLimits:
+    """What reading one file may take, of which the file itself may be a quarter of the megabytes.
+
+    allow_outside: whether the files that it refers to may lie outside of its folder.
+    """
+
+    seconds: float
+    megabytes: int
+    allow_outside: bool = False
+
+    @property
+    def file_bytes(self) -> int:
+        return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
+
+
+def load_mesh_file(path: str, location: Path, allowed: ReadLimits) -> MeshFile:
     """Reads one mesh file as one mesh: all that it holds, where it places it.
 
-    path: its name in messages and reports. location: where it lies. seconds, megabytes: limits for
-    reading it; the file itself may take a quarter of the megabytes. Raises MeshFileError.
+    path: its name in messages and reports. location: where it lies. Raises MeshFileError.
     """
-    source = open_source(path, location, megabytes)
-    scene = read_scene(source, flat=True, seconds=seconds, megabytes=megabytes)
+    source = open_source(path, location, allowed)
+    scene = read_scene(source, allowed, flat=True)
     raw = _only_mesh(scene)
     return mesh_file(source, raw, mesh_of(source, raw))
 
 
-def open_source(path: str, location: Path, megabytes: int) -> Source:
-    max_bytes = megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
-    return read_source(path, location, max_bytes=max_bytes)
+def open_source(path: str, location: Path, allowed: ReadLimits) -> Source:
+    return read_source(path, location, max_bytes=allowed.file_bytes)
 
 
-def read_scene(source: Source, *, flat: bool, seconds: float, megabytes: int) -> RawScene:
+def read_scene(source: Source, allowed: ReadLimits, *, flat: bool) -> RawScene:
     """The meshes of a file and where it places them; flat: as one mesh. Raises MeshFileError."""
     try:
-        return _read(source, flat, seconds, megabytes)
+        return _read(source, allowed, flat)
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=source.path) from error.__cause__
     except MemoryError:
         raise MeshFileError("reader-out-of-memory", "out of memory", file=source.path) from None
 
 
-def _read(source: Source, flat: bool, seconds: float, megabytes: int) -> RawScene:
+def _read(source: Source, allowed: ReadLimits, flat: bool) -> RawScene:
     if source.format in NATIVE_FORMATS:
         return alone(read_native(source))
     is_gltf = source.format in ("glb", "gltf")
@@ -52,12 +67,22 @@ def _read(source: Source, flat: bool, seconds: float, megabytes: int) -> RawScen
         from satcheck.scene.loading.gltf import read_gltf
 
         directory = str(source.location.absolute().parent)
-        data = memoryview(source.data)
-        scene = read_gltf(data, directory, binary=source.format == "glb")
+        scene = read_gltf(
+            memoryview(source.data),
+            directory,
+            binary=source.format == "glb",
+            allow_outside=allowed.allow_outside,
+        )
         return alone(flattened(scene)) if flat else scene
     from satcheck.scene.loading.foreign import read_foreign
 
-    return read_foreign(source, flat=flat, seconds=seconds, megabytes=megabytes)
+    return read_foreign(
+        source,
+        flat=flat,
+        allow_outside=allowed.allow_outside,
+        seconds=allowed.seconds,
+        megabytes=allowed.megabytes,
+    )
 
 
 def _only_mesh(scene: RawScene) -> RawMesh:

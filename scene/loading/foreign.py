@@ -21,10 +21,14 @@ _CODE_OF_WORKER = {
 }
 
 
-def read_foreign(source: Source, *, flat: bool, seconds: float, megabytes: int) -> RawScene:
+def read_foreign(
+    source: Source, *, flat: bool, allow_outside: bool, seconds: float, megabytes: int
+) -> RawScene:
     """The meshes of a GLB, glTF, 3MF or DAE file; flat: as one mesh. Raises MeshFileError."""
     directory = str(source.location.absolute().parent)
-    request = protocol.pack_request(source.format, directory, source.data, flat=flat)
+    request = protocol.pack_request(
+        source.format, directory, source.data, flat=flat, allow_outside=allow_outside
+    )
     try:
         reply = run_isolated(_WORKER, request, seconds=seconds, megabytes=megabytes)
     except WorkerError as error:

@@ -35,4 +35,9 @@ def _read(request: protocol.Request) -> RawScene:
         return alone(read_collada(request.data))
     from satcheck.scene.loading.gltf import read_gltf
 
-    return read_gltf(request.data, request.directory, binary=request.format == "glb")
+    return read_gltf(
+        request.data,
+        request.directory,
+        binary=request.format == "glb",
+        allow_outside=request.allow_outside,
+    )

@@ -31,16 +31,19 @@ _HARMLESS = frozenset({"KHR_mesh_quantization"})
 _ADDING = frozenset({"EXT_mesh_gpu_instancing"})
 
 
-def read_gltf(data: memoryview, directory: str, *, binary: bool) -> RawScene:
+def read_gltf(
+    data: memoryview, directory: str, *, binary: bool, allow_outside: bool = False
+) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
 
-    directory: where relative buffer URIs start, and what they may not leave.
+    directory: where relative buffer URIs start, and what they may not leave unless allow_outside.
     binary: GLB. Raises MeshFileError without a file name.
     """
     text, chunk = split_glb(data) if binary else (data, None)
     document = _parse_json(text)
     _check_extensions(document)
-    return _Scene(document, Accessors(document, chunk, directory)).read()
+    accessors = Accessors(document, chunk, directory, allow_outside=allow_outside)
+    return _Scene(document, accessors).read()
 
 
 def _parse_json(text: memoryview) -> dict[str, Any]:

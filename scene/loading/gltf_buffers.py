@@ -95,12 +95,20 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
 class Accessors:
     """Typed arrays of a glTF document; buffers are read when first asked for."""
 
-    def __init__(self, document: dict[str, Any], chunk: memoryview | None, directory: str) -> None:
+    def __init__(
+        self,
+        document: dict[str, Any],
+        chunk: memoryview | None,
+        directory: str,
+        *,
+        allow_outside: bool,
+    ) -> None:
         self._accessors = items(document, "accessors")
         self._views = items(document, "bufferViews")
         self._infos = items(document, "buffers")
         self._chunk = chunk
         self._directory = Path(directory)
+        self._allow_outside = allow_outside
         self._buffers: dict[int, memoryview] = {}
 
     def positions(self, index: int) -> array[float]:
@@ -208,7 +216,7 @@ class Accessors:
         if ":" in uri or "\\" in name or "\0" in name:
             raise MeshFileError("outside-path", f"buffer {name!r} is not a relative path: refused")
         path = (root / name).resolve()
-        if not path.is_relative_to(root):
+        if not self._allow_outside and not path.is_relative_to(root):
             raise MeshFileError(
                 "outside-path", f"buffer {name!r} lies outside the file's directory: refused"
             )

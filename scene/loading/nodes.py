@@ -10,7 +10,14 @@ from satcheck.core import Mesh
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading import limits, mesh_file, mesh_of, open_source, read_scene
+from satcheck.scene.loading import (
+    ReadLimits,
+    limits,
+    mesh_file,
+    mesh_of,
+    open_source,
+    read_scene,
+)
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawPart
 from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
@@ -42,17 +49,15 @@ class Nodes:
     issues: tuple[Issue, ...] = ()
 
 
-def load_nodes(
-    path: str, location: Path, *, components: bool, seconds: float, megabytes: int
-) -> Nodes:
+def load_nodes(path: str, location: Path, allowed: ReadLimits, *, components: bool) -> Nodes:
     """Reads one mesh file and takes it apart.
 
     components: each node once more, into parts that share no edge. They are numbered by their
-    lowest corners, so that the order of the triangles in the file does not matter.
-    seconds, megabytes: as in `load_mesh_file`. Raises MeshFileError where nothing can be used.
+    lowest corners, so that the order of the triangles in the file does not matter. Raises
+    MeshFileError where nothing can be used.
     """
-    source = open_source(path, location, megabytes)
-    scene = read_scene(source, flat=False, seconds=seconds, megabytes=megabytes)
+    source = open_source(path, location, allowed)
+    scene = read_scene(source, allowed, flat=False)
     splitter = _Splitter(source, components)
     meshes = [splitter.split(part) for part in scene.parts]
     total = sum(len(meshes[node.part]) for node in scene.nodes)

@@ -1,6 +1,7 @@
 """What this process and the reading child say to each other: headers, JSON, raw arrays. No pickle.
 
-request: uint32 length of a JSON object {format, directory, flat}, the object, the file's bytes.
+request: uint32 length of a JSON object {format, directory, flat, allow_outside},
+the object, the file's bytes.
 reply: magic, uint32 length of a JSON object, the object, and the arrays that it announces: vertices
 and triangles of each part that has a mesh, then three rows of each node that has a matrix.
 The object is {"refusal": [code, message]}, or a RawScene with numbers of bytes for its arrays.
@@ -27,17 +28,25 @@ _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A file to read: its format, its bytes, the directory its references start from, and whether
-    all of it is wanted as one mesh."""
+    """A file to read: its format, its bytes, the directory its references start from and whether
+    they may leave it, and whether all of it is wanted as one mesh."""
 
     format: str
     directory: str
     flat: bool
+    allow_outside: bool
     data: memoryview
 
 
-def pack_request(file_format: str, directory: str, data: bytes, *, flat: bool) -> bytes:
-    values = {"format": file_format, "directory": directory, "flat": flat}
+def pack_request(
+    file_format: str, directory: str, data: bytes, *, flat: bool, allow_outside: bool
+) -> bytes:
+    values = {
+        "format": file_format,
+        "directory": directory,
+        "flat": flat,
+        "allow_outside": allow_outside,
+    }
     header = json.dumps(values).encode()
     return _REQUEST.pack(len(header)) + header + data
 
@@ -46,8 +55,7 @@ def unpack_request(request: bytes) -> Request:
     (length,) = _REQUEST.unpack_from(request)
     body = _REQUEST.size + length
     header = json.loads(request[_REQUEST.size : body])
-    data = memoryview(request)[body:]
-    return Request(header["format"], header["directory"], header["flat"], data)
+    return Request(**header, data=memoryview(request)[body:])
 
 
 def pack_reply(answer: RawScene | MeshFileError) -> bytes:

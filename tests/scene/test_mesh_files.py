@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from satcheck.scene import MeshFile, MeshFileError, MeshFiles
+from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene
+from satcheck.scene.loading import limits
 from satcheck.scene.loading.nodes import Node
 from tests.scene import files, graphs
 
@@ -67,3 +68,23 @@ def test_what_cannot_be_read_stays_so(tmp_path):
     assert isinstance(missing, MeshFileError)
     assert missing.code == "file-not-found"
     assert read.part("gone.glb", tmp_path / "gone.glb", "b") is missing
+
+
+@pytest.mark.parametrize("in_process", [True, False])
+def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
+    tmp_path, monkeypatch, in_process
+):
+    if not in_process:
+        monkeypatch.setattr(limits, "IN_PROCESS_BYTES", 0)
+    document, buffer = files.gltf_document()
+    document["buffers"][0]["uri"] = "../shared.bin"
+    (tmp_path / "shared.bin").write_bytes(buffer)
+    path = tmp_path / "level" / "level.gltf"
+    path.parent.mkdir()
+    path.write_bytes(graphs.gltf(document))
+    refused = MeshFiles().whole("level.gltf", path)
+    assert isinstance(refused, MeshFileError)
+    assert refused.code == "outside-path"
+    assert isinstance(MeshFiles(allow_outside=True).whole("level.gltf", path), MeshFile)
+    (body,) = load_scene([path], allow_outside=True).bodies
+    assert body.file.health.solid
