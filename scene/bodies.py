@@ -30,7 +30,8 @@ class MeshFile:
     them. mesh: welded, wound outward where that can be decided. topology: of the welded mesh before
     that repair. issues: warnings about this file. part: the mesh within the file, in its own
     coordinates; None: all of the file, where it places it. outline: the corners, counter-clockwise,
-    of the convex polygon over which the mesh is a prism, in a check in a plane.
+    of the convex polygon over which the mesh is a prism, in a check in a plane. placement_step: how
+    finely its placement in the world is known, relative to the coordinates that it makes.
     """
 
     path: str
@@ -44,6 +45,7 @@ class MeshFile:
     issues: tuple[Issue, ...]
     part: str | None = None
     outline: tuple[tuple[float, float], ...] | None = None
+    placement_step: float = FLOAT64_ROUNDING
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,14 +75,14 @@ class Body:
 
     @property
     def resolution_world(self) -> float:
-        """How finely the world coordinates are known: the file's resolution, stretched, plus the
-        rounding of the placement."""
+        """How finely the world coordinates are known: the file's resolution, stretched, plus that
+        of the placement."""
         if self.transform is None:
             return self.file.resolution
         low, high = self.file.mesh.bounds
         largest = max(max(abs(a), abs(b)) for a, b in zip(low, high, strict=True))
-        rounding = _largest_coordinate(self.transform, largest) * FLOAT64_ROUNDING
-        return self.file.resolution * largest_stretch(self.transform) + rounding
+        step = _largest_coordinate(self.transform, largest) * self.file.placement_step
+        return self.file.resolution * largest_stretch(self.transform) + step
 
 
 @dataclass(frozen=True, slots=True)

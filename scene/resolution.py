@@ -12,6 +12,15 @@ FLOAT32_STEP = 2.0**-23  # spacing of float32 numbers relative to their power of
 FLOAT64_ROUNDING = 2.0**-53  # largest relative error of rounding to float64
 
 
+def placement_step(raw: RawMesh, *, by_file: bool) -> float:
+    """How finely the numbers of a placement are known, relative to the coordinates they make.
+
+    by_file: the file itself places its mesh. One that stores coordinates as float32 comes from a
+    program that keeps placements no finer; all others are taken as they are written.
+    """
+    return FLOAT32_STEP if by_file and raw.precision == "float32" else FLOAT64_ROUNDING
+
+
 def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
     """The input's own precision, in file units.
 

@@ -14,7 +14,7 @@ from satcheck.scene.loading import limits
 from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
 from satcheck.scene.loading.source import Source, read_source
-from satcheck.scene.resolution import file_resolution
+from satcheck.scene.resolution import file_resolution, placement_step
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,10 +100,12 @@ def mesh_of(source: Source, raw: RawMesh) -> Mesh:
         raise _refusal(source, error) from error
 
 
-def mesh_file(source: Source, raw: RawMesh, mesh: Mesh, part: str | None = None) -> MeshFile:
+def mesh_file(
+    source: Source, raw: RawMesh, mesh: Mesh, part: str | None = None, *, placed: bool = False
+) -> MeshFile:
     """A mesh of a file, inspected. raw: what was read, of which it is all or a piece.
 
-    part: its name in the file. Raises MeshFileError.
+    part: its name in the file. placed: by the file itself. Raises MeshFileError.
     """
     path = source.path
     try:
@@ -127,6 +129,7 @@ def mesh_file(source: Source, raw: RawMesh, mesh: Mesh, part: str | None = None)
             issue(code, message, file=path) for code, message in (*raw.warnings, *examined.warnings)
         ),
         part=part,
+        placement_step=placement_step(raw, by_file=placed),
     )
 
 

@@ -102,7 +102,7 @@ class _Splitter:
             mesh = mesh_of(self._source, raw)
             pieces = mesh.welded().sorted().components() if self._components else []
             found = self._pieces(part, raw, pieces) if len(pieces) > 1 else []
-            return found or [("", mesh_file(self._source, raw, mesh, part.name or None))]
+            return found or [("", self._file(part, raw, mesh))]
         except MeshFileError as error:
             return [("", self._named(part, error))]
 
@@ -115,8 +115,7 @@ class _Splitter:
         for piece in pieces:
             mark = f"{COMPONENT_MARK}{len(found) + 1}"
             try:
-                quiet = replace(raw, warnings=())
-                found.append((mark, mesh_file(self._source, quiet, piece, part.name + mark)))
+                found.append((mark, self._file(part, replace(raw, warnings=()), piece, mark)))
             except MeshFileError as error:
                 if error.code != _ONLY_DEGENERATE:
                     raise
@@ -127,6 +126,10 @@ class _Splitter:
         if found and flat:
             self._warn("degenerate-triangles", part, f"{flat} loose pieces of area 0 are left out")
         return found
+
+    def _file(self, part: RawPart, raw: RawMesh, mesh: Mesh, mark: str = "") -> MeshFile:
+        name = f"{part.name}{mark}" or None
+        return mesh_file(self._source, raw, mesh, name, placed=bool(part.name))
 
     def _warn(self, code: str, part: RawPart, message: str) -> None:
         self.issues.append(issue(code, self._where(part) + message, file=self._source.path))

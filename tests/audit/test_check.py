@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from importlib.resources import files
 
 import jsonschema
@@ -11,6 +12,7 @@ import pytest
 from satcheck.audit import Settings, check
 from satcheck.core.errors import SatcheckError
 from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
+from tests.scene import graphs
 
 
 def adds_up(report):
@@ -146,3 +148,22 @@ def test_the_report_keeps_to_the_published_schema(tmp_path):
     scene = scene_of(tmp_path, a=unit_box(), b=unit_box(0.5), c=unit_box(9), d=bracket())
     for settings in (Settings(clearance=10.0), Settings(depth=False), Settings(accuracy="aabb")):
         jsonschema.validate(check(scene, settings).to_dict(), schema)
+
+
+def test_flush_nodes_touch_however_far_out_a_program_put_them(tmp_path):
+    """Bricks of length 1.1 side by side, their places rounded to float32 as exporters do."""
+
+    def single(value):
+        return struct.unpack("<f", struct.pack("<f", value))[0]
+
+    nodes = [
+        {"mesh": 0, "scale": [single(1.1), 1, 1], "translation": [single(1000 + 1.1 * k), 0, 0]}
+        for k in range(8)
+    ]
+    path = tmp_path / "wall.glb"
+    path.write_bytes(graphs.glb(nodes))
+    findings = check([path], Settings(depth=False)).findings
+    side_by_side = [f for f in findings if f.relation != "separated"]
+    assert {f.relation for f in side_by_side} == {"touching"}
+    assert len(side_by_side) == len(nodes) - 1
+    assert {f.exact_relation for f in side_by_side} == {"penetrating", "separated"}

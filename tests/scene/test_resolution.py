@@ -6,11 +6,16 @@ import math
 
 import pytest
 
-from satcheck.scene import Body
+from satcheck.scene import Body, load_scene
 from satcheck.scene.bodies import largest_stretch
 from satcheck.scene.loading.raw_mesh import RawMesh
-from satcheck.scene.resolution import file_resolution
-from tests.scene import files
+from satcheck.scene.resolution import (
+    FLOAT32_STEP,
+    FLOAT64_ROUNDING,
+    file_resolution,
+    placement_step,
+)
+from tests.scene import files, graphs
 from tests.scene.loading import loaded
 
 
@@ -34,6 +39,29 @@ def raw(precision, decimals=0, significant=0):
 )
 def test_file_resolution(mesh, largest, resolution):
     assert file_resolution(mesh, largest) == pytest.approx(resolution, rel=1e-15, abs=0.0)
+
+
+@pytest.mark.parametrize(
+    ("precision", "by_file", "step"),
+    [
+        ("float32", True, FLOAT32_STEP),
+        ("float32", False, FLOAT64_ROUNDING),
+        ("written-digits", True, FLOAT64_ROUNDING),
+    ],
+)
+def test_placements_are_known_as_finely_as_the_file_stores_coordinates(precision, by_file, step):
+    assert placement_step(raw(precision), by_file=by_file) == step
+
+
+def test_a_node_far_out_is_known_no_finer_than_float32_there(tmp_path):
+    """As if the file stored the placed coordinates."""
+    nodes = [{"mesh": 0, "translation": [1000, 0, 0]}]
+    path = tmp_path / "a.glb"
+    path.write_bytes(graphs.glb(nodes))
+    (body,) = load_scene([path]).bodies
+    (flat,) = load_scene([path], split="none").bodies
+    assert flat.resolution_world == 1001 * FLOAT32_STEP
+    assert body.resolution_world == 1001 * FLOAT32_STEP + FLOAT32_STEP
 
 
 def test_noise_with_an_exponent_does_not_promise_its_decimals(tmp_path):
