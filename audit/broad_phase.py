@@ -1,7 +1,7 @@
 """Which asked pairs have world boxes close enough to be looked at.
 
 The search is that of the core; here its question is put: how far each body reaches, and what the
-scene exempts, so that no exempt pair is ever made.
+scene exempts, so that exempt pairs are not made where that can be told beforehand.
 """
 
 from __future__ import annotations
@@ -9,34 +9,40 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from satcheck import core
-from satcheck.audit.roster import Roster, kinds_of
-from satcheck.audit.settings import Settings
+from satcheck.audit.planner import Planner
+from satcheck.audit.roster import Roster
 
 IndexPair = tuple[int, int]
 
 
-def close_pairs(roster: Roster, settings: Settings) -> list[IndexPair]:
+def close_pairs(roster: Roster, planner: Planner) -> list[IndexPair]:
     """Asked pairs of placed bodies, sorted, no further apart by their boxes than is asked about."""
-    index = tuple(roster.placed)
+    index, book = tuple(roster.placed), roster.book
     place = {body: k for k, body in enumerate(index)}
-    kinds, exempt_kinds = kinds_of([roster.ignored_of[i] for i in index])
-    found = core.close_pairs(
+    close = core.close_pairs(
         [body.bounds for body in roster.placed.values()],
-        _reach(roster, settings),
-        kinds,
-        exempt_kinds,
-        _among(roster.allowed_pairs(), place),
+        planner.reach({k: body.resolution for k, body in roster.placed.items()}),
+        [book.kind_of[i] for i in index],
+        book.exempt_kinds(),
+        _among(book.exempt_named(), place),
     )
-    return found if len(index) == len(roster.ids) else [(index[i], index[j]) for i, j in found]
-
-
-def _reach(roster: Roster, settings: Settings) -> list[float]:
-    """Lengths of which two add up to what is asked about the pair, at least."""
-    half_clearance = 0.5 * (settings.clearance or 0.0)
-    if settings.tolerance is not None:
-        return [max(half_clearance, 0.5 * settings.tolerance)] * len(roster.placed)
-    return [max(half_clearance, body.resolution) for body in roster.placed.values()]
+    found = close if len(index) == len(roster.ids) else [(index[i], index[j]) for i, j in close]
+    if not book.rules:
+        return found
+    asked = [pair for pair in found if book.is_asked(*pair)]
+    return _within_own_gaps(roster, planner, asked) if planner.lengths_differ else asked
 
 
 def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]:
     return [(place[i], place[j]) for i, j in pairs if i in place and j in place]
+
+
+def _within_own_gaps(roster: Roster, planner: Planner, pairs: list[IndexPair]) -> list[IndexPair]:
+    """A body reaches as far as the furthest that any rule asks of it; each pair is asked less."""
+    placed = roster.placed
+    return [
+        (i, j)
+        for i, j in pairs
+        if core.box_gap(placed[i].bounds, placed[j].bounds)
+        <= planner.asked_gap(i, j, placed[i].resolution + placed[j].resolution)
+    ]

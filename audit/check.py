@@ -12,6 +12,7 @@ from satcheck.audit.broad_phase import close_pairs
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
+from satcheck.audit.planner import Planner
 from satcheck.audit.report import Finding, Issue, Report
 from satcheck.audit.roster import Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
@@ -60,18 +61,20 @@ def check(
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
     roster = place(scene, settings, meshes)
-    close = close_pairs(roster, settings)
-    examined = _examine_all(roster, close, settings, progress)
-    findings = _findings(roster, close, examined, settings)
+    planner = Planner(settings, roster.book, scene.composed)
+    close = close_pairs(roster, planner)
+    examined = _examine_all(roster, close, planner, progress)
+    findings = _findings(roster, close, examined, planner)
     issues = issues_of(scene, roster, (issue for one in examined for issue in one.issues))
     counts = count(roster, len(close), findings)
     return Report(
         tool=tool(),
         units=scene.units,
-        settings=settings.to_dict(),
-        summary=summarise(counts, findings),
+        settings=settings.to_dict() | {"depth": planner.depth},
+        summary=summarise(counts, findings, settings.fail_on),
         bodies=body_reports(roster),
-        exempt=exempt_of(roster),
+        exempt=exempt_of(scene),
+        rules=scene.rules,
         pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
         issues=issues,
@@ -100,13 +103,18 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
 
 
 def _examine_all(
-    roster: Roster, close: list[tuple[int, int]], settings: Settings, progress: Progress | None
+    roster: Roster, close: list[tuple[int, int]], planner: Planner, progress: Progress | None
 ) -> list[Examined]:
-    done = []
+    done, settings = [], planner.settings
+    asked = [planner.asked(i, j) for i, j in close]
     with ExitStack() as stack:
-        meter = stack.enter_context(_volume_meter(settings)) if settings.volume else None
+        measures = any(one.wants("volume") for one in asked)
+        meter = stack.enter_context(_volume_meter(settings)) if measures else None
         peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
-        pairs = [Pair(roster.placed[i], roster.placed[j], settings, meter, peers) for i, j in close]
+        pairs = [
+            Pair(roster.placed[i], roster.placed[j], settings, one, meter, peers)
+            for (i, j), one in zip(close, asked, strict=True)
+        ]
         for one in _in_order(pairs, settings.jobs):
             done.append(one)
             if progress is not None:
@@ -147,7 +155,7 @@ def _examine(pair: Pair) -> Examined:
     plan = Plan()
     try:
         finding = examine(pair, plan)
-        if pair.settings.certificate:
+        if pair.asked.wants("certificate"):
             finding = _with_certificate(pair, finding)
         return Examined(finding, tuple(plan.issues))
     except Exception as error:  # noqa: BLE001 the one place where a run survives its own faults
@@ -177,16 +185,17 @@ def _with_certificate(pair: Pair, finding: Finding) -> Finding:
 
 
 def _findings(
-    roster: Roster, close: list[tuple[int, int]], examined: list[Examined], settings: Settings
+    roster: Roster, close: list[tuple[int, int]], examined: list[Examined], planner: Planner
 ) -> list[Finding]:
     found = {pair: one.finding for pair, one in zip(close, examined, strict=True)}
     for i, j, reason in roster.unreadable_pairs():
         found[i, j] = indeterminate(roster.ids[i], roster.ids[j], reason, Plan())
+    settings = planner.settings
     listed = settings.list_pruned
     if len(roster.ids) <= LIST_PRUNED_BODIES if listed is None else listed:
         for i, j in roster.asked_pairs():
             if (i, j) not in found:
-                pair = Pair(roster.placed[i], roster.placed[j], settings)
+                pair = Pair(roster.placed[i], roster.placed[j], settings, planner.asked(i, j))
                 finding = apart_by_boxes(pair)
                 found[i, j] = _with_certificate(pair, finding) if settings.certificate else finding
     return [found[pair] for pair in sorted(found)]

@@ -20,7 +20,7 @@ from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
-from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.audit.tolerances import EXACT_WIDTH, UNIT_ROUNDOFF
 from satcheck.audit.triangles import crossing_depth
 from satcheck.audit.verify import Escape, verified_escape
 from satcheck.core.conventions import axis_across
@@ -28,6 +28,8 @@ from satcheck.core.conventions import axis_across
 # Work units of the search in a second of `depth_budget`: what a slow machine of today gets done, so
 # that the budget is not exceeded there. A number and not a clock: the same input, the same answer.
 WORK_PER_SECOND = 100_000_000
+# An interval on both sides of a limit is narrowed again, each time by this factor.
+NARROWER = 8
 
 
 def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
@@ -37,8 +39,8 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     lower = _cheap_lower_bound(pair, contact, plan)
     way_out = None
     if pair.may("exact"):
-        found = search(pair, lower, hulls.upper, plan)
-        lower, way_out = found.lower, _in_the_plane(pair, found.way_out)
+        lower, way_out = _searched(pair, lower, hulls.upper, plan)
+        way_out = _in_the_plane(pair, way_out)
     elif contact.proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(pair, plan))
     if way_out is not None:
@@ -51,17 +53,48 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     return Depth(min(lower, upper), upper, hulls.normal, escape)
 
 
-def search(pair: Pair, lower: float, upper: float, plan: Plan) -> core.DepthInterval:
+def _searched(pair: Pair, lower: float, upper: float, plan: Plan) -> tuple[float, Vector | None]:
+    """The lower bound and the way out that are narrow enough: also to say on which side of a limit
+    the depth is, as far as the budget goes."""
+    work, width = _budget(pair), pair.settings.depth_width
+    found = search(pair, lower, upper, plan)
+    way_out = found.way_out
+    while found.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, found):
+        width, work = width / NARROWER, work - found.work
+        if work <= 0:
+            break
+        found = search(pair, found.lower, found.upper, plan, width=width, work=work)
+        way_out = found.way_out or way_out
+    return found.lower, way_out
+
+
+def _straddles(pair: Pair, found: core.DepthInterval) -> bool:
+    limit = pair.asked.max_depth
+    return limit is not None and found.lower <= limit < found.upper
+
+
+def _budget(pair: Pair) -> int:
+    return math.ceil(pair.settings.depth_budget * WORK_PER_SECOND)
+
+
+def search(
+    pair: Pair,
+    lower: float,
+    upper: float,
+    plan: Plan,
+    *,
+    width: float | None = None,
+    work: int | None = None,
+) -> core.DepthInterval:
     """The interval between known bounds narrowed, by translations of A that free the meshes and by
-    proofs that others do not."""
-    settings = pair.settings
+    proofs that others do not. width, work: those of the settings."""
     found = core.search_depth(
         pair.a.surface(),
         pair.b.surface(),
         upper=upper,
         lower=min(lower, upper),
-        width=settings.depth_width,
-        work=math.ceil(settings.depth_budget * WORK_PER_SECOND),
+        width=pair.settings.depth_width if width is None else width,
+        work=_budget(pair) if work is None else work,
     )
     reason = "" if found.stop == "narrow" else "; the budget ended the search"
     plan.record(
@@ -88,7 +121,7 @@ def depth_by_move(pair: Pair, contact: Contact, move: Vector, plan: Plan) -> Dep
     A band that somebody asked for is not allowed to make the figures coarser: a shorter move is
     then searched, as without a band. Within the input precision there is nothing to refine.
     """
-    if pair.settings.tolerance is None:
+    if pair.asked.tolerance is None:
         return _depth_of(pair, move, crossing_depth(pair, contact.crossing))
     depth = concave_depth(pair, contact, plan)
     if depth.escape.verified and depth.upper <= math.hypot(*move):

@@ -9,20 +9,22 @@ from __future__ import annotations
 import hashlib
 import math
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.contact_report import Contacts
-from satcheck.audit.depth import Depth, measure_depth
 from satcheck.audit.gap import Gap, measure_gap
 from satcheck.audit.ladder import Contact, boxes_apart, settle
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
-from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Severity
+from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Vector
+from satcheck.audit.severity import judged
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.touch_band import estimate_is_within, move_within
-from satcheck.audit.unseen import unseen_inside, unseen_severity
+from satcheck.audit.unseen import unseen_inside
 
-CLEARANCE_RULE = "clearance"
+if TYPE_CHECKING:
+    from satcheck.audit.depth import Depth
+
 ID_DIGITS = 12
 
 
@@ -35,16 +37,20 @@ def finding_id(a: str, b: str) -> str:
 def examine(pair: Pair, plan: Plan) -> Finding:
     """Everything asked about one pair. Warnings go to the plan."""
     contact = settle(pair, plan)
+    gap, unseen = 0.0, None
     if contact.relation in OVERLAPS:
         finding = _overlapping(pair, contact, plan)
     else:
-        finding = _apart(pair, contact, measure_gap(pair, contact, plan), plan)
-    return _with_extras(finding, pair, contact, plan)
+        measured, unseen = measure_gap(pair, contact, plan), unseen_inside(pair, contact)
+        gap = measured.lower
+        finding = _apart(pair, contact, measured, unseen, plan)
+    finding = _with_extras(finding, pair, contact, plan)
+    return judged(finding, pair, gap, unseen is not None)
 
 
 def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> Finding:
     """The finding with what only some ask for."""
-    if pair.settings.volume:
+    if pair.asked.wants("volume"):
         from satcheck.audit.volume import common_volume
 
         volume = common_volume(pair, contact, plan)
@@ -54,7 +60,7 @@ def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> 
             volume_error=volume.error,
             reason=finding.reason or volume.refusal,
         )
-    if pair.settings.contacts:
+    if pair.asked.wants("contacts"):
         from satcheck.audit.contacts import find_contacts
 
         finding = replace(finding, contacts=find_contacts(pair, contact, plan))
@@ -78,14 +84,15 @@ def apart_by_boxes(pair: Pair) -> Finding:
         exact_relation="separated",
         quality="exact",
         tolerance=pair.tolerance,
-        contacts=Contacts() if pair.settings.contacts else None,
-        volume=0.0 if pair.settings.volume else None,
-        volume_error=0.0 if pair.settings.volume else None,
+        contacts=Contacts() if pair.asked.wants("contacts") else None,
+        volume=0.0 if pair.asked.wants("volume") else None,
+        volume_error=0.0 if pair.asked.wants("volume") else None,
     )
 
 
 def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:
-    return _finding(a, b, "indeterminate", plan, severity="warning", reason=reason)
+    undecided = {"severity": "warning", "undecided": "relation", "reason": reason}
+    return _finding(a, b, "indeterminate", plan, **undecided)
 
 
 def _weakness(pair: Pair, contact: Contact) -> str | None:
@@ -108,11 +115,11 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
     if contact.convex is None and pair.may("exact"):
         move = move_within(pair, contact, plan)
     guess = shallow and not contact.proven
-    depth = measure_depth(pair, contact, move, plan) if pair.settings.depth and not guess else None
+    depth = None if guess else _depth(pair, contact, move, plan)
     within = shallow or move is not None or _is_within(pair, depth)
     relation: Relation = "touching" if within else contact.relation
     figures = {} if depth is None else _depth_figures(depth)
-    if pair.settings.clearance is not None and contact.convex is not None:
+    if pair.asked.clearance is not None and contact.convex is not None:
         signed = contact.convex.distance or 0.0
         figures["distance"] = signed if depth is None else -depth.upper
     return _finding(
@@ -124,9 +131,16 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
         quality=_depth_quality(contact, depth),
         tolerance=pair.tolerance,
         reason=_weakness(pair, contact),
-        **(_broken_clearance(pair, 0.0) if within else {}),
         **figures,
     )
+
+
+def _depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Depth | None:
+    if not pair.asked.wants("depth"):
+        return None
+    from satcheck.audit.depth import measure_depth
+
+    return measure_depth(pair, contact, move, plan)
 
 
 def _is_shallow(pair: Pair, contact: Contact, plan: Plan) -> bool:
@@ -166,23 +180,20 @@ def _depth_quality(contact: Contact, depth: Depth | None) -> Quality:
     return "bounded"
 
 
-def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
+def _apart(pair: Pair, contact: Contact, gap: Gap, unseen: str | None, plan: Plan) -> Finding:
     relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
-    broken = _broken_clearance(pair, gap.lower)
     if gap.most <= _band_with_rounding(pair):
         relation = "touching"
-    elif broken and relation == "separated":
+    elif relation == "separated" and gap.lower < (pair.asked.clearance or 0.0):
         relation = "near"
         if math.isinf(gap.upper):
             proven, reason = False, _open_gap(pair)
-    unseen = unseen_inside(pair, contact)
     if unseen is not None:
         reason = unseen
         plan.record("containment", "not checked", unseen)
     figures: dict[str, Any] = {}
-    if pair.settings.clearance is not None and math.isfinite(gap.upper):
+    if pair.asked.clearance is not None and math.isfinite(gap.upper):
         figures = {"distance": gap.upper, "normal": gap.normal, "witness": gap.witness}
-    severity = {} if unseen is None else {"severity": unseen_severity(pair)}
     return _finding(
         pair.a.id,
         pair.b.id,
@@ -192,7 +203,6 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, plan: Plan) -> Finding:
         quality="exact" if proven else "estimate",
         tolerance=pair.tolerance,
         reason=reason,
-        **{**severity, **broken},
         **figures,
     )
 
@@ -203,21 +213,8 @@ def _open_gap(pair: Pair) -> str:
     return "the gap may be wider: the nearest wall has no thickness and may be no part of the body"
 
 
-def _broken_clearance(pair: Pair, gap: float) -> dict[str, Any]:
-    """gap: as far as it is proven. Empty where the clearance is kept or none was asked for."""
-    if gap < (pair.settings.clearance or 0.0):
-        return {"rule": CLEARANCE_RULE, "severity": "error"}
-    return {}
-
-
-def _severity(relation: Relation) -> Severity:
-    if relation in OVERLAPS:
-        return "error"
-    return "note" if relation == "touching" else "none"
-
-
 def _finding(a: str, b: str, relation: Relation, plan: Plan, **known: Any) -> Finding:
-    known.setdefault("severity", _severity(relation))
+    known.setdefault("severity", "none")
     return Finding(
         id=finding_id(a, b), a=a, b=b, relation=relation, plan=tuple(plan.stages), **known
     )

@@ -31,6 +31,8 @@ class Gap:
 def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     """The distance of a separated or touching pair, as far as the clearance or the band asks."""
     if contact.convex is not None:
+        if pair.asked.wants("distance"):
+            plan.record("distance", "measured", "with the hulls")
         return _convex_gap(contact.convex)
     if contact.relation == "touching":
         witness = contact.point and Witness(contact.point, contact.point)
@@ -39,15 +41,16 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     if settled or not pair.may("exact"):
         return Gap(contact.gap_lower, math.inf, math.inf)
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
-    limit = pair.tolerance if pair.settings.clearance is None else math.inf
+    asked = pair.asked.wants("distance")
+    stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
     found = core.mesh_distance(pair.a.surface(), pair.b.surface(), limit)
     if math.isinf(found.distance):
-        plan.record("distance", "beyond", f"more than {limit:.6g} apart")
+        plan.record(stage, "beyond", f"more than {limit:.6g} apart")
         return Gap(limit, math.inf, math.inf)
     if _is_void(pair, found):
-        plan.record("distance", "lower bound", "to a wall without thickness: no part of the body")
+        plan.record(stage, "lower bound", "to a wall without thickness: no part of the body")
         return Gap(found.distance, math.inf, math.inf)
-    plan.record("distance", "measured", f"triangles {found.triangle_a} and {found.triangle_b}")
+    plan.record(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}")
     return Gap(
         found.distance,
         found.distance,

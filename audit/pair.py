@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.boxes import diagonal, largest_coordinate
 from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.planner import Asked
 from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.tolerances import TOUCH_FRACTION
 
@@ -20,6 +21,7 @@ class Pair:
     a: PlacedBody
     b: PlacedBody
     settings: Settings
+    asked: Asked
     meter: VolumeMeter | None = None
     peers: Peers | None = None
 
@@ -34,16 +36,15 @@ class Pair:
         By default either surface may be off by its own input precision, so the sum of both; but
         coordinates without decimals, far from the origin, must not swallow a whole body.
         """
-        asked = self.settings.tolerance
-        if asked is not None:
-            return asked
+        if self.asked.tolerance is not None:
+            return self.asked.tolerance
         size = min(diagonal(self.a.bounds), diagonal(self.b.bounds))
         return min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
 
     @property
     def asked_gap(self) -> float:
         """A gap beyond this needs no figure: it is neither near nor in the touch band."""
-        return max(self.settings.clearance or 0.0, self.tolerance)
+        return max(self.asked.clearance or 0.0, self.tolerance)
 
     @property
     def largest_coordinate(self) -> float:

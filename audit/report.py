@@ -14,6 +14,9 @@ from typing import Any, Literal, get_args
 
 from satcheck.audit.contact_report import Contacts
 from satcheck.audit.contact_report import Vector as Vector
+from satcheck.scene.rules import SEVERITIES as SEVERITIES
+from satcheck.scene.rules import Rule
+from satcheck.scene.rules import Severity as Severity
 
 SCHEMA = "satcheck.report/1"
 
@@ -28,7 +31,9 @@ Relation = Literal[
     "indeterminate",
 ]
 Quality = Literal["exact", "bounded", "estimate"]
-Severity = Literal["error", "warning", "note", "none"]
+# What was asked of a pair and could not be decided: how the bodies relate, whether one lies in the
+# other, whether an overlap is within its limits.
+Undecided = Literal["relation", "inside", "limit"]
 Verdict = Literal["pass", "fail", "incomplete"]
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
@@ -63,13 +68,15 @@ class Summary:
     """by_relation counts every pair that is not allowed; pruned pairs count as separated.
 
     surfaces_only: of those, the decided pairs of which one body may lie inside the other, but the
-    other has no inside to check (warnings; none with Settings.allow_open).
+    other has no inside to check (none with Settings.allow_open). limits_undecided: the overlaps of
+    which it could not be decided whether they are within the limits of their rules.
     """
 
     verdict: Verdict
     pairs: PairCounts
     by_relation: Mapping[Relation, int]
     surfaces_only: int = 0
+    limits_undecided: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +94,7 @@ class BodyReport:
     An unreadable body has None everywhere but id, name and file. `convex` is None where no pair
     had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
     input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
-    None: as in the file. `groups`: as the scene says. `shape`: the primitive that the
+    None: as in the file. `groups`, `static`: as the scene says. `shape`: the primitive that the
     file states, as a scene file does; None: a mesh file.
     """
 
@@ -98,6 +105,7 @@ class BodyReport:
     path: str | None
     transform: tuple[float, ...] | None
     groups: tuple[str, ...]
+    static: bool
     triangles: int | None
     health: Mapping[str, bool | int | float | str | None] | None
     resolution: float | None
@@ -133,6 +141,9 @@ class Finding:
     open). tolerance: the touch band of this pair.
     quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
     is proven, the depth is a proven interval; estimate: not proven.
+    rule: what decided the severity, where it was no matter of course: "clearance", or the name of a
+    rule. undecided: what was asked and could not be decided; the severity is then a warning at
+    least.
     volume: what both have in common; volume_error: about how far off that is, not proven (0.0: the
     volume is exactly 0.0). Neither weakens the quality.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
@@ -145,6 +156,7 @@ class Finding:
     b: str
     rule: str | None = None
     severity: Severity
+    undecided: Undecided | None = None
     relation: Relation
     exact_relation: Relation | None = None
     tolerance: float | None = None
@@ -179,10 +191,11 @@ class Issue:
 
 @dataclass(frozen=True, slots=True)
 class Exempt:
-    """What the scene does not ask about: pairs within these groups, and pairs of these ids."""
+    """What the scene does not ask about, and does not count: pairs within these groups, and pairs
+    of static bodies."""
 
     groups: tuple[str, ...] = ()
-    pairs: tuple[tuple[str, str], ...] = ()
+    static_pairs: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,6 +213,7 @@ class Report:
     findings: tuple[Finding, ...]
     issues: tuple[Issue, ...]
     exempt: Exempt = Exempt()
+    rules: tuple[Rule, ...] = ()
     pose: Mapping[str, float | list[float]] | None = None
     truncated: None = None
     tracebacks: tuple[str, ...] = field(default=())
@@ -216,8 +230,9 @@ class Report:
             "bodies": [_body(body) for body in self.bodies],
             "exempt": {
                 "groups": list(self.exempt.groups),
-                "pairs": [list(pair) for pair in self.exempt.pairs],
+                "static_pairs": self.exempt.static_pairs,
             },
+            "rules": [rule_values(rule) for rule in self.rules],
             "findings": [_finding(finding, timings) for finding in self.findings],
             "issues": [_issue(issue) for issue in self.issues],
             "truncated": self.truncated,
@@ -250,6 +265,22 @@ def _summary(summary: Summary) -> dict[str, Any]:
         },
         "by_relation": {name: summary.by_relation.get(name, 0) for name in RELATIONS},
         "surfaces_only": summary.surfaces_only,
+        "limits_undecided": summary.limits_undecided,
+    }
+
+
+def rule_values(rule: Rule) -> dict[str, Any]:
+    return {
+        "a": rule.a.text,
+        "b": rule.b.text,
+        "allowed": rule.allowed,
+        "max_depth": _number(rule.max_depth),
+        "max_volume": _number(rule.max_volume),
+        "clearance": _number(rule.clearance),
+        "tolerance": _number(rule.tolerance),
+        "severity": rule.severity,
+        "reason": rule.reason,
+        "where": rule.where,
     }
 
 
@@ -264,6 +295,7 @@ def _body(body: BodyReport) -> dict[str, Any]:
         "shape": body.shape,
         "transform": body.transform and [_number(entry) for entry in body.transform],
         "groups": list(body.groups),
+        "static": body.static,
         "triangles": body.triangles,
         "health": None if body.health is None else dict(body.health),
         "resolution": _number(body.resolution),
@@ -282,6 +314,7 @@ def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
         "b": finding.b,
         "rule": finding.rule,
         "severity": finding.severity,
+        "undecided": finding.undecided,
         "relation": finding.relation,
         "exact_relation": finding.exact_relation,
         "tolerance": _number(finding.tolerance),

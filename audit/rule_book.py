@@ -1,8 +1,8 @@
 """What a scene says about its pairs of bodies, looked up and counted without visiting them all.
 
-Bodies are indices. Those that the same selectors choose, in the same ignored groups, are of one
-kind: what the rules say of a pair depends on the two kinds alone. Counts are those of bits in rows
-of the matrix of pairs, one row a kind.
+Bodies are indices. A rule whose selectors each choose one body is kept under that pair. By all the
+others bodies are of one kind: what is said of a pair depends on the two kinds alone. Counts are
+those of bits in rows of the matrix of pairs, one row a kind.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from satcheck.scene.rules import KEYS, Rule, Selector
 
 # Which side of a rule a body is on; it may be on both.
 _A, _B = 1, 2
+# More pairs of kinds than this are not listed.
+_MOST_KINDS = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,16 +48,19 @@ class Subject:
 
 @dataclass(frozen=True, slots=True)
 class _Kind:
-    """rules: number of a rule -> sides on which the bodies are, in the order of the rules."""
+    """sides: number of a rule -> on which sides of it the bodies are, in the order of the rules."""
 
-    rules: tuple[tuple[int, int], ...]
+    sides: tuple[tuple[int, int], ...]
     ignored_groups: frozenset[str]
     fixed: bool
 
 
 class RuleBook:
     """rules: in the order in which they count. Pairs within an ignored group are not asked about,
-    nor are pairs of static bodies unless check_static."""
+    nor are pairs of static bodies unless check_static.
+
+    kind_of: the kind of each body, a number.
+    """
 
     def __init__(
         self,
@@ -68,15 +73,15 @@ class RuleBook:
         self._count = len(subjects)
         members = _Members(subjects)
         self._sides = [(members.of(rule.a), members.of(rule.b)) for rule in self.rules]
+        self._named: dict[tuple[int, int], list[int]] = {}
         self._kinds: list[_Kind] = []
         self._bodies: list[list[int]] = []
-        self._kind_of: list[int] = []
+        self.kind_of: list[int] = []
         self._terms: dict[tuple[int, int], Terms] = {}
-        self._rows: dict[frozenset[int], int] = {}
         numbers: dict[_Kind, int] = {}
-        for index, (body, about) in enumerate(zip(subjects, self._about(), strict=True)):
+        for index, (body, sides) in enumerate(zip(subjects, self._sort_rules(), strict=True)):
             kind = _Kind(
-                tuple(about.items()),
+                tuple(sides.items()),
                 ignored_groups.intersection(body.groups),
                 body.static and not check_static,
             )
@@ -85,46 +90,77 @@ class RuleBook:
                 self._kinds.append(kind)
                 self._bodies.append([])
             self._bodies[number].append(index)
-            self._kind_of.append(number)
+            self.kind_of.append(number)
 
-    def _about(self) -> list[dict[int, int]]:
-        about: list[dict[int, int]] = [{} for _ in range(self._count)]
-        for number, sides in enumerate(self._sides):
-            for side, members in zip((_A, _B), sides, strict=True):
+    def _sort_rules(self) -> list[dict[int, int]]:
+        """Names the pairs of some rules; of the others, for each body, the sides it is on."""
+        found: list[dict[int, int]] = [{} for _ in range(self._count)]
+        for number, (a, b) in enumerate(self._sides):
+            if len(a) == len(b) == 1:
+                i, j = sorted((*a, *b))
+                if i != j:
+                    self._named.setdefault((i, j), []).append(number)
+                continue
+            for side, members in ((_A, a), (_B, b)):
                 for body in members:
-                    about[body][number] = about[body].get(number, 0) | side
-        return about
+                    found[body][number] = found[body].get(number, 0) | side
+        return found
 
-    def kinds(self, i: int, j: int) -> tuple[int, int]:
-        """A key for everything that the book says about this pair."""
-        return self._kind_of[i], self._kind_of[j]
+    def key(self, i: int, j: int) -> tuple[int, ...]:
+        """The same for pairs of which the book says the same, as far as it knows at once."""
+        pair = (i, j) if i < j else (j, i)
+        return (*pair, 1) if pair in self._named else (self.kind_of[i], self.kind_of[j])
 
     def is_ignored(self, i: int, j: int) -> bool:
         """Not asked about and not counted."""
-        a, b = (self._kinds[self._kind_of[k]] for k in (i, j))
+        a, b = (self._kinds[self.kind_of[k]] for k in (i, j))
         return (a.fixed and b.fixed) or not a.ignored_groups.isdisjoint(b.ignored_groups)
 
-    def terms(self, i: int, j: int) -> Terms:
-        key = self.kinds(i, j)
-        found = self._terms.get(key)
-        if found is None:
-            a, b = (self._kinds[k].rules for k in key)
-            found = self._terms[key] = self._merged(a, dict(b)) if a and b else NO_TERMS
-        return found
+    def is_asked(self, i: int, j: int) -> bool:
+        return not self.is_ignored(i, j) and not self.terms(i, j).allows
 
-    def _merged(self, a: Iterable[tuple[int, int]], b: dict[int, int]) -> Terms:
+    def terms(self, i: int, j: int) -> Terms:
+        named = self._named.get((i, j) if i < j else (j, i))
+        if named is not None:
+            return self._merged(sorted((*named, *self._about(i, j))))
+        key = self.kind_of[i], self.kind_of[j]
+        if key not in self._terms:
+            self._terms[key] = self._merged(self._about(i, j))
+        return self._terms[key]
+
+    def _about(self, i: int, j: int) -> list[int]:
+        """Numbers of the rules that are about the pair and name it not alone, in their order."""
+        a, b = (self._kinds[self.kind_of[k]].sides for k in (i, j))
+        if not a or not b:
+            return []
+        others = dict(b)
+        return [
+            number
+            for number, sides in a
+            if (sides & _A and others.get(number, 0) & _B)
+            or (sides & _B and others.get(number, 0) & _A)
+        ]
+
+    def _merged(self, numbers: Iterable[int]) -> Terms:
         deciding: dict[str, Rule] = {}
-        for number, sides in a:
-            others = b.get(number, 0)
-            if (sides & _A and others & _B) or (sides & _B and others & _A):
-                rule = self.rules[number]
-                deciding |= {key: rule for key in KEYS if getattr(rule, key) is not None}
+        for number in numbers:
+            rule = self.rules[number]
+            deciding |= {key: rule for key in KEYS if getattr(rule, key) is not None}
         return replace(NO_TERMS, **deciding) if deciding else NO_TERMS
 
-    def longest(self, key: str, body: int) -> float:
-        """The largest that a rule about this body sets the key to, overruled or not; 0.0: none."""
-        rules = (self.rules[number] for number, _ in self._kinds[self._kind_of[body]].rules)
-        return max((getattr(rule, key) or 0.0 for rule in rules), default=0.0)
+    def sets(self, key: str) -> bool:
+        """Whether any rule sets the key."""
+        return any(getattr(rule, key) is not None for rule in self.rules)
+
+    def longest(self, key: str) -> list[float]:
+        """Of each body the largest value that a rule about it gives the key, overruled or not; 0.0:
+        none."""
+        found = [0.0] * self._count
+        for rule, sides in zip(self.rules, self._sides, strict=True):
+            value = getattr(rule, key) or 0.0
+            for body in (*sides[0], *sides[1]) if value else ():
+                found[body] = max(found[body], value)
+        return found
 
     def unused(self) -> Iterator[Rule]:
         """Rules about no pair of bodies."""
@@ -137,52 +173,103 @@ class RuleBook:
         """How many pairs are not ignored, and how many of these are allowed."""
         total = allowed = 0
         everyone = (1 << self._count) - 1
-        ignoring = self._ignoring()
+        rows = _Rows(self._kinds, self.rules, self._sides, self._bodies)
         for kind, bodies in zip(self._kinds, self._bodies, strict=True):
-            ignored = 0
-            for one, row in ignoring:
-                if (one is None and kind.fixed) or one in kind.ignored_groups:
-                    ignored |= row
-            asked = everyone & ~ignored
+            asked = everyone & ~rows.ignored(kind)
             total += _ones(asked, bodies)
-            allowed += _ones(asked & self._allowed_row(kind), bodies)
-        return total // 2, allowed // 2
+            allowed += _ones(asked & rows.allowed(kind), bodies)
+        total, allowed = total // 2, allowed // 2
+        for i, j in self._named:
+            if not self.is_ignored(i, j):
+                allowed += self.terms(i, j).allows - self._merged(self._about(i, j)).allows
+        return total, allowed
 
-    def _ignoring(self) -> list[tuple[str | None, int]]:
-        """For each ignored group, and for what is fixed (None), the row of its members."""
-        members: dict[str | None, list[int]] = {}
-        for kind, bodies in zip(self._kinds, self._bodies, strict=True):
+    def exempt_named(self) -> list[tuple[int, int]]:
+        """The pairs (i, j), i < j, that rules of their own take out."""
+        return [(i, j) for i, j in self._named if not self.is_asked(i, j)]
+
+    def exempt_kinds(self) -> list[tuple[int, int]]:
+        """Pairs of kinds, the lower first, of which no pair of bodies is asked about. Where there
+        are very many, some of them."""
+        alone = [frozenset((k,)) for k in range(len(self._kinds))]
+        sides = [
+            tuple(frozenset(self.kind_of[k] for k in members) for members in pair)
+            for pair in self._sides
+        ]
+        rows = _Rows(self._kinds, self.rules, sides, alone)
+        taken_back = {
+            tuple(sorted((self.kind_of[i], self.kind_of[j])))
+            for i, j in self._named
+            if self.is_asked(i, j)
+        }
+        found: list[tuple[int, int]] = []
+        for number, kind in enumerate(self._kinds):
+            row = (rows.ignored(kind) | rows.allowed(kind)) >> number
+            while row and len(found) < _MOST_KINDS:
+                lowest = row & -row
+                pair = (number, number + lowest.bit_length() - 1)
+                row ^= lowest
+                if pair not in taken_back:
+                    found.append(pair)
+        return found
+
+
+class _Rows:
+    """Rows of the matrix of pairs of members, bodies or kinds, as the bits of a number each.
+
+    sides: the members on either side of each rule. of_kinds: those of each kind.
+    """
+
+    def __init__(
+        self,
+        kinds: Sequence[_Kind],
+        rules: Sequence[Rule],
+        sides: Sequence[tuple[frozenset[int], ...]],
+        of_kinds: Sequence[Iterable[int]],
+    ) -> None:
+        self._rules, self._sides = rules, sides
+        self._known: dict[tuple[int, int], int] = {}
+        together: dict[str | None, list[int]] = {}
+        for kind, members in zip(kinds, of_kinds, strict=True):
             for one in (*kind.ignored_groups, *([None] if kind.fixed else [])):
-                members.setdefault(one, []).extend(bodies)
-        return [(one, _row(bodies)) for one, bodies in members.items()]
+                together.setdefault(one, []).extend(members)
+        self._together = {one: _row(members) for one, members in together.items()}
 
-    def _allowed_row(self, kind: _Kind) -> int:
+    def ignored(self, kind: _Kind) -> int:
+        row = self._together[None] if kind.fixed else 0
+        for group in kind.ignored_groups:
+            row |= self._together[group]
+        return row
+
+    def allowed(self, kind: _Kind) -> int:
         row = 0
-        for number, sides in kind.rules:
-            allowed = self.rules[number].allowed
+        for number, sides in kind.sides:
+            allowed = self._rules[number].allowed
             if allowed is None:
                 continue
-            a, b = self._sides[number]
-            others = (self._row(b) if sides & _A else 0) | (self._row(a) if sides & _B else 0)
+            others = (self._side(number, 1) if sides & _A else 0) | (
+                self._side(number, 0) if sides & _B else 0
+            )
             row = row | others if allowed else row & ~others
         return row
 
-    def _row(self, members: frozenset[int]) -> int:
-        """Remembered where it is long to make; those of single bodies would fill the memory."""
-        if len(members) <= 1:
+    def _side(self, number: int, side: int) -> int:
+        """Remembered where it is long to make; those of single members would fill the memory."""
+        members = self._sides[number][side]
+        if len(members) == 1:
             return _row(members)
-        if members not in self._rows:
-            self._rows[members] = _row(members)
-        return self._rows[members]
+        if (number, side) not in self._known:
+            self._known[number, side] = _row(members)
+        return self._known[number, side]
 
 
-def _row(bodies: Iterable[int]) -> int:
+def _row(members: Iterable[int]) -> int:
     """The number with these bits."""
-    bodies = tuple(bodies)
-    if len(bodies) == 1:
-        return 1 << bodies[0]
-    octets = bytearray(max(bodies, default=0) // 8 + 1)
-    for k in bodies:
+    members = tuple(members)
+    if len(members) == 1:
+        return 1 << members[0]
+    octets = bytearray(max(members, default=0) // 8 + 1)
+    for k in members:
         octets[k >> 3] |= 1 << (k & 7)
     return int.from_bytes(octets, "little")
 

@@ -19,12 +19,15 @@ from satcheck.audit.report import (
     Tool,
     Verdict,
     finding_values,
+    rule_values,
 )
+from satcheck.audit.rule_book import RuleBook, Subject
 from satcheck.audit.settings import Settings
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose, Posture
+    from satcheck.scene.rules import Rule
 
 SCHEMA = "satcheck.samples/1"
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
@@ -76,7 +79,7 @@ class PairTally:
             self.touches += 1
         elif finding.relation == "near":
             self.near += 1
-        elif finding.relation == "indeterminate" or finding.severity == "warning":
+        elif finding.undecided is not None:
             self.undecided += 1
 
 
@@ -84,9 +87,9 @@ class PairTally:
 class Samples:
     """What `check_poses` found.
 
-    pairs: of every asked pair, in the order of the bodies, those that never met included. bodies
-    and exempt: as in a report; the transforms are those of the last sample. issues: those that are
-    not about one pose. seed: of the random poses; None where they are not random.
+    pairs: of every asked pair, in the order of the bodies, those that never met included. bodies,
+    exempt and rules: as in a report; the transforms are those of the last sample. issues: those
+    that are not about one pose. seed: of the random poses; None where they are not random.
     """
 
     tool: Tool
@@ -94,6 +97,7 @@ class Samples:
     settings: dict[str, object]
     bodies: tuple[BodyReport, ...]
     exempt: Exempt
+    rules: tuple[Rule, ...]
     samples: tuple[Sample, ...]
     pairs: tuple[PairTally, ...]
     issues: tuple[Issue, ...]
@@ -127,6 +131,7 @@ class Samples:
                 for body in self.bodies
             ],
             "exempt": asdict(self.exempt),
+            "rules": [rule_values(rule) for rule in self.rules],
             "samples": [_sample_values(sample, timings) for sample in self.samples],
             "pairs": [asdict(pair) for pair in self.pairs if not pair.settled],
             "issues": [asdict(issue) for issue in self.issues],
@@ -181,6 +186,7 @@ def check_poses(
         settings=dict(report.settings),
         bodies=report.bodies,
         exempt=report.exempt,
+        rules=report.rules,
         samples=tuple(samples),
         pairs=_all_pairs(report, tallies),
         issues=tuple(common),
@@ -197,7 +203,7 @@ def _sample(number: int, report: Report, posture: Posture | None) -> tuple[Sampl
     findings = tuple(
         finding
         for finding in report.findings
-        if finding.relation != "separated" or finding.severity == "warning"
+        if finding.relation != "separated" or finding.undecided is not None
     )
     return Sample(number, posture, report.summary.verdict, findings, tuple(of_pose)), others
 
@@ -214,12 +220,15 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
 
 def _all_pairs(report: Report, tallies: dict[tuple[str, str], PairTally]) -> tuple[PairTally, ...]:
     """Of every asked pair, in the order of the bodies."""
-    ignored = set(report.exempt.groups)
-    allowed = {frozenset(pair) for pair in report.exempt.pairs}
+    book = RuleBook(
+        [Subject(body.id, body.groups, body.static) for body in report.bodies],
+        report.rules,
+        frozenset(report.exempt.groups),
+        not report.exempt.static_pairs,
+    )
     pairs = []
     for j, b in enumerate(report.bodies):
-        for a in report.bodies[:j]:
-            together = ignored.intersection(a.groups, b.groups)
-            if not together and frozenset((a.id, b.id)) not in allowed:
+        for i, a in enumerate(report.bodies[:j]):
+            if book.is_asked(i, j):
                 pairs.append(tallies.get((a.id, b.id)) or PairTally(a.id, b.id))
     return tuple(pairs)

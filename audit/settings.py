@@ -12,6 +12,9 @@ from satcheck.core.errors import SatcheckError
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
 ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
 
+FailOn = Literal["error", "warning", "note"]
+FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
+
 # Relative width of the depth interval of a concave pair below which nothing finer is asked for.
 DEPTH_WIDTH = 0.01
 # Seconds, in work units of a slow machine, that narrowing the interval of one pair may take.
@@ -27,12 +30,14 @@ CONTACT_POINTS = 100_000
 class Settings:
     """Lengths are in the units of the files. None means "not asked for" unless said otherwise.
 
-    depth: depth and MTV of overlapping pairs.
+    depth: depth and MTV of overlapping pairs; None: of mesh files, and in a scene that places its
+    bodies only where a rule asks.
     volume: the volume that bodies have in common; volume_*: what a pair may cost.
     contacts: where surfaces meet; contact_points: how many points a pair may list.
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
     accuracy: the highest rung of the ladder that may be climbed.
+    fail_on: the least severity that makes a check fail.
     allow_open: a body that may lie in another one without an inside is a note, not a warning.
     cross_check: other libraries are asked too; cross_check_*: what one question may cost.
     planar: bodies are their outlines in this plane, and answers lie in it; None: as they are.
@@ -45,7 +50,7 @@ class Settings:
     jobs: threads over pairs, 0 for one per core. Changes no answer, nor does cache or timings.
     """
 
-    depth: bool = True
+    depth: bool | None = None
     volume: bool = False
     volume_seconds: float = 60.0
     volume_megabytes: int = 4096
@@ -54,6 +59,7 @@ class Settings:
     clearance: float | None = None
     tolerance: float | None = None
     accuracy: Accuracy = "exact"
+    fail_on: FailOn = "error"
     allow_open: bool = False
     cross_check: bool = False
     cross_check_seconds: float = 30.0
@@ -81,6 +87,8 @@ class Settings:
                 raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
         if self.accuracy not in ACCURACIES:
             raise _refused(f"accuracy must be one of {', '.join(ACCURACIES)}")
+        if self.fail_on not in FAIL_ON:
+            raise _refused(f"fail_on must be one of {', '.join(FAIL_ON)}")
         for name in ("contacts", "volume"):
             if getattr(self, name) and self.accuracy != "exact":
                 raise _refused(f"{name} is found on triangles: not at accuracy {self.accuracy}")
@@ -112,6 +120,7 @@ class Settings:
             "clearance": self.clearance,
             "tolerance": "input-precision" if self.tolerance is None else self.tolerance,
             "accuracy": self.accuracy,
+            "fail_on": self.fail_on,
             "allow_open": self.allow_open,
             "cross_check": self.cross_check,
             "planar": self.planar,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from satcheck._version import __version__
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.report import (
+    SEVERITIES,
     BodyReport,
     Exempt,
     Finding,
@@ -26,6 +27,7 @@ from satcheck.audit.roster import Lost, Roster
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
+    from satcheck.audit.settings import FailOn
     from satcheck.scene import Scene
     from satcheck.scene.primitives import Primitive
 
@@ -36,9 +38,9 @@ def tool() -> Tool:
 
 def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts:
     """close: how many pairs the broad phase left over. Raises RuntimeError if a pair is lost."""
-    total, allowed = roster.total(), sum(1 for _ in roster.allowed_pairs())
     unreadable = sum(1 for _ in roster.unreadable_pairs())
     indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
+    total, allowed = roster.book.count()
     counts = PairCounts(
         total=total,
         pruned=total - allowed - unreadable - close,
@@ -52,22 +54,26 @@ def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts
     return counts
 
 
-def summarise(counts: PairCounts, findings: Sequence[Finding]) -> Summary:
+def summarise(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Summary:
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     by_relation["separated"] += counts.total - counts.allowed - len(findings)
-    surfaces_only = sum(
-        finding.severity == "warning" and finding.relation != "indeterminate"
-        for finding in findings
+    undecided = Counter(finding.undecided for finding in findings)
+    return Summary(
+        verdict=_verdict(counts, findings, fail_on),
+        pairs=counts,
+        by_relation=by_relation,
+        surfaces_only=undecided["inside"],
+        limits_undecided=undecided["limit"],
     )
-    verdict = _verdict(counts, findings, surfaces_only)
-    return Summary(verdict, counts, by_relation, surfaces_only)
 
 
-def _verdict(counts: PairCounts, findings: Sequence[Finding], surfaces_only: int) -> Verdict:
-    """An error finding stands whatever else is unknown; a check of nothing never passes."""
-    if any(finding.severity == "error" for finding in findings):
+def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:
+    """What was found stands whatever else is unknown; a check of nothing never passes."""
+    grave = SEVERITIES[: SEVERITIES.index(fail_on) + 1]
+    found = (f for f in findings if f.undecided is None or f.severity == "error")
+    if any(finding.severity in grave for finding in found):
         return "fail"
-    unchecked = counts.indeterminate + surfaces_only
+    unchecked = any(finding.undecided is not None for finding in findings)
     return "incomplete" if unchecked or not counts.total else "pass"
 
 
@@ -87,6 +93,7 @@ def _lost_report(body: Lost) -> BodyReport:
         path=body.path,
         transform=None,
         groups=body.groups,
+        static=body.static,
         triangles=None,
         health=None,
         resolution=None,
@@ -108,6 +115,7 @@ def _body_report(body: PlacedBody) -> BodyReport:
         path=body.body.path,
         transform=body.body.transform,
         groups=body.body.groups,
+        static=body.body.static,
         triangles=file.mesh.triangle_count,
         health={
             field.name: _finite(getattr(file.health, field.name)) for field in fields(file.health)
@@ -133,16 +141,9 @@ def _finite(value: bool | int | float | str) -> bool | int | float | str | None:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def exempt_of(roster: Roster) -> Exempt:
-    """In the order of the bodies; only what concerns bodies that are here."""
-    rank = {id_: k for k, id_ in enumerate(roster.ids)}
-    pairs = [
-        sorted(pair, key=rank.__getitem__) for pair in roster.allowed_ids if pair <= rank.keys()
-    ]
-    pairs.sort(key=lambda pair: [rank[id_] for id_ in pair])
+def exempt_of(scene: Scene) -> Exempt:
     return Exempt(
-        groups=tuple(sorted(roster.ignored_groups)),
-        pairs=tuple((pair[0], pair[1]) for pair in pairs if len(pair) == 2),
+        groups=tuple(sorted(scene.ignore_within_groups)), static_pairs=not scene.check_static
     )
 
 

@@ -68,7 +68,7 @@ def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
 
 
 def _band(pair: Pair) -> str:
-    source = "the input precision" if pair.settings.tolerance is None else "as asked"
+    source = "the input precision" if pair.asked.tolerance is None else "as asked"
     return f"tolerance {pair.tolerance:.3g}, {source}"
 
 

@@ -10,7 +10,6 @@ from satcheck.audit.boxes import holds
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
-from satcheck.audit.report import Severity
 from satcheck.audit.verify import FREE
 
 
@@ -24,10 +23,6 @@ def unseen_inside(pair: Pair, contact: Contact) -> str | None:
         if not outer.solid and not health.flat and holds(outer.bounds, inner.bounds):
             return f"the inside of {outer.id} was not checked: {_why(outer)}"
     return None
-
-
-def unseen_severity(pair: Pair) -> Severity:
-    return "note" if pair.settings.allow_open else "warning"
 
 
 def _why(body: PlacedBody) -> str:

@@ -30,6 +30,10 @@ def common_volume(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
     nothing = contact.proven and contact.relation in ("separated", "touching")
     if nothing and (pair.both_solid or contact.gap_lower > 0):
         return NOTHING
+    if not pair.may("exact"):
+        refusal = f"found on triangles: not at --accuracy {pair.settings.accuracy}"
+        plan.record("volume", "not measured", refusal)
+        return CommonVolume(refusal=f"no volume: {refusal}")
     try:
         for body in (pair.a, pair.b):
             _require_measurable(body)

@@ -29,6 +29,7 @@ from satcheck.audit.ladder import settle
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.plan import Plan
+from satcheck.audit.planner import asked_by
 from satcheck.audit.report import OVERLAPS
 from satcheck.scene import load_scene
 
@@ -73,7 +74,7 @@ def pair_of(entry: dict[str, Any], folder: Path, settings: Settings) -> Pair | N
     if len(scene.bodies) < 2:
         return None
     a, b = (PlacedBody(body, SharedMesh(body.file, settings)) for body in scene.bodies)
-    pair = Pair(a, b, settings)
+    pair = Pair(a, b, settings, asked_by(settings))
     if pair.both_convex or settle(pair, Plan()).relation not in OVERLAPS:
         return None
     return pair

@@ -47,6 +47,7 @@ class Choices:
     depth_width: float
     depth_budget: float
     split: Split | None
+    fail_on: str
     allow_open: bool
     cross_check: bool
     planar: str | None
@@ -156,15 +157,14 @@ def _report(scene: Scene, choices: Choices) -> Report:
         raise RuntimeError(f"a library called exit({stop.code!r})") from stop
 
 
-def settings_of(choices: Choices, scene: Scene, *, depth: bool = True) -> Any:
-    """depth: whether to find it where the command line says nothing about it."""
+def settings_of(choices: Choices, scene: Scene) -> Any:
     from satcheck.audit import Settings
 
     def length(given: Length | None, option: str) -> float | None:
         return None if given is None else given.in_units_of(scene.units, option)
 
     return Settings(
-        depth=depth if choices.depth is None else choices.depth,
+        depth=choices.depth,
         contacts=choices.contacts,
         volume=choices.volume,
         clearance=length(choices.clearance, "--clearance"),
@@ -172,6 +172,7 @@ def settings_of(choices: Choices, scene: Scene, *, depth: bool = True) -> Any:
         accuracy=choices.accuracy,  # type: ignore[arg-type]  # one of ACCURACIES, click saw to it
         depth_width=choices.depth_width,
         depth_budget=choices.depth_budget,
+        fail_on=choices.fail_on,  # type: ignore[arg-type]  # one of FAIL_ON likewise
         allow_open=choices.allow_open,
         cross_check=choices.cross_check,
         planar=choices.planar,  # type: ignore[arg-type]  # one of PLANES, click saw to it

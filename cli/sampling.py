@@ -31,7 +31,7 @@ def check_and_tell(
         if getattr(choices, option):
             name = option.replace("_", "-")
             raise click.UsageError(f"--{name} is about one pose, and here are several")
-    settings = settings_of(choices, scene, depth=False)
+    settings = settings_of(choices, scene)
     with Bar("poses") as bar:
         found = check_poses(scene, poses, settings, progress=bar)
     found = replace(found, seed=choices.posing.random_seed)

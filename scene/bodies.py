@@ -94,6 +94,7 @@ class Unreadable:
     issue: Issue
     groups: tuple[str, ...] = ()
     path: str | None = None
+    static: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,9 +105,9 @@ class Scene:
     units: as declared by the scene files, or where only mesh files are given by them; None where
     they disagree or one says nothing.
     ignore_within_groups: groups whose bodies are not checked against each other.
-    allowed_pairs: two body ids -> why they may overlap.
     rules: what is asked of pairs beyond the settings of a check, in the order in which they count.
     check_static: whether two bodies that do not move are a pair to check.
+    composed: the bodies come, at least in part, from a file that places them.
     issues: all of them, those of `unreadable` and of each mesh file included.
     motions: at most one for a body (SatcheckError otherwise); ids of no body do no harm.
     robots: what can be posed, with `robot.posed`. posture: how they stand; None without robots.
@@ -117,9 +118,9 @@ class Scene:
     bodies: tuple[Body, ...]
     unreadable: tuple[Unreadable, ...] = ()
     ignore_within_groups: frozenset[str] = frozenset()
-    allowed_pairs: dict[frozenset[str], str] = field(default_factory=dict)
     rules: tuple[Rule, ...] = ()
     check_static: bool = True
+    composed: bool = False
     issues: tuple[Issue, ...] = ()
     order: tuple[str, ...] = ()
     motions: tuple[Motion, ...] = ()

@@ -16,6 +16,7 @@ from satcheck.scene.mesh_files import (
     MeshFiles,
 )
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames, plain_ids
+from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import is_unit
 
 if TYPE_CHECKING:
@@ -99,7 +100,8 @@ class _Loader:
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
         self._ignored_groups: set[str] = set()
-        self._allowed: dict[frozenset[str], str] = {}
+        self._rules: list[Rule] = []
+        self._taken_apart = False
         self._robots: list[SceneRobot] = []
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
@@ -118,6 +120,7 @@ class _Loader:
             self._add(id_, name, path, found, None)
             return
         self._issues.extend(found.issues)
+        self._taken_apart |= len(found.nodes) > 1
         for node in found.nodes:
             wanted = _node_id(node.path, id_, alone)
             title = wanted if node.path else name
@@ -144,8 +147,16 @@ class _Loader:
             for entry in scene.bodies
         }
         self._ignored_groups |= scene.ignore_within_groups
-        for pair, reason in scene.allowed_pairs.items():
-            self._allowed[frozenset(ids[id_] for id_ in pair)] = reason
+        self._rules += [
+            Rule(
+                a=Selector.exactly(ids[pair.a]),
+                b=Selector.exactly(ids[pair.b]),
+                allowed=True,
+                reason=pair.reason,
+                where=pair.where,
+            )
+            for pair in scene.allowed_pairs
+        ]
         self._issues.extend(scene.issues)
 
     def _add_body(
@@ -218,7 +229,7 @@ class _Loader:
             self._bodies.append(Body(id_, name, file, transform, groups, static, shape, node))
         else:
             reason = issue(file.code, str(file), body=id_, file=path)
-            self._unreadable.append(Unreadable(id_, path, reason, groups, node))
+            self._unreadable.append(Unreadable(id_, path, reason, groups, node, static))
         return id_
 
     def _shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
@@ -236,12 +247,17 @@ class _Loader:
         from satcheck.scene.robot import permissions, posed, with_srdfs
 
         robots = with_srdfs(self._robots, self._srdfs)
-        allowed, issues = dict(scene.allowed_pairs), list(scene.issues)
+        allowed, issues = [], list(scene.issues)
         for robot in robots:
             permitted, found = permissions(robot)
-            allowed |= permitted
+            allowed += permitted
             issues += found
-        scene = replace(scene, robots=tuple(robots), allowed_pairs=allowed, issues=tuple(issues))
+        scene = replace(
+            scene,
+            robots=tuple(robots),
+            rules=(*allowed, *scene.rules),  # so that a rule can take a permission back
+            issues=tuple(issues),
+        )
         return posed(scene, {})
 
     def _bodies_and_files(self) -> Scene:
@@ -253,7 +269,8 @@ class _Loader:
             unreadable=tuple(self._unreadable),
             order=tuple(self._order),
             ignore_within_groups=frozenset(self._ignored_groups),
-            allowed_pairs=self._allowed,
+            rules=tuple(self._rules),
+            composed=self._taken_apart or not self._only_meshes,
             issues=(
                 *self._issues,
                 *(lost.issue for lost in self._unreadable),

@@ -58,6 +58,16 @@ class BodyEntry:
 
 
 @dataclass(frozen=True, slots=True)
+class AllowedPair:
+    """Two ids of the scene file, why they may overlap, and where that is written."""
+
+    a: str
+    b: str
+    reason: str
+    where: str
+
+
+@dataclass(frozen=True, slots=True)
 class SceneFile:
     """A scene file, checked, its meshes not yet read."""
 
@@ -65,7 +75,7 @@ class SceneFile:
     units: str | None
     bodies: tuple[BodyEntry, ...]
     ignore_within_groups: frozenset[str]
-    allowed_pairs: dict[frozenset[str], str]
+    allowed_pairs: tuple[AllowedPair, ...]
     issues: tuple[Issue, ...]
 
 
@@ -270,10 +280,9 @@ class _Reader:
 
     def _allowed_pairs(
         self, document: dict[str, Any], ids: frozenset[str]
-    ) -> tuple[dict[frozenset[str], str], tuple[Issue, ...]]:
-        allowed: dict[frozenset[str], str] = {}
-        issues = []
-        for entry in self._list(document, "allowed_pairs"):
+    ) -> tuple[tuple[AllowedPair, ...], tuple[Issue, ...]]:
+        allowed, issues = [], []
+        for number, entry in enumerate(self._list(document, "allowed_pairs")):
             if not isinstance(entry, list) or len(entry) not in (2, 3):
                 raise self._error("bad-scene", "an allowed pair should be [id, id, reason]")
             a, b = (self._string(id_, "an id of allowed_pairs") for id_ in entry[:2])
@@ -284,8 +293,10 @@ class _Reader:
                 issues.append(issue("unknown-body", message, file=self._path))
             else:
                 reason = entry[2] if len(entry) == 3 else ""
-                allowed[frozenset((a, b))] = reason if isinstance(reason, str) else ""
-        return allowed, tuple(issues)
+                reason = reason if isinstance(reason, str) else ""
+                where = f"{self._path}: allowed_pairs[{number}]"
+                allowed.append(AllowedPair(a, b, reason, where))
+        return tuple(allowed), tuple(issues)
 
 
 def _meant(word: str, known: Iterable[str], form: str = " (did you mean {}?)") -> str:

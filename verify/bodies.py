@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -37,6 +37,7 @@ class Placed:
     world: World | None
     convex: bool = False
     resolution: float = 0.0
+    static: bool = False
     reason: str | None = None
     claims: bool = True  # False: the report calls it unreadable
 
@@ -56,10 +57,11 @@ class Bodies:
         listed = entry.get("groups")
         if not isinstance(listed, list) or not all(isinstance(group, str) for group in listed):
             raise Rejected("the groups of a body are a list of texts")
-        groups = frozenset(listed)
+        groups, static = frozenset(listed), entry.get("static") is True
         name, file, digest = entry["id"], entry.get("file"), entry.get("sha256")
         if digest is None:
-            return Placed(name, groups, None, reason="the report could not read it", claims=False)
+            reason = "the report could not read it"
+            return Placed(name, groups, None, static=static, reason=reason, claims=False)
         if not isinstance(file, str) or not isinstance(digest, str):
             raise Rejected("a body of the report names no file")
         path, values = entry.get("path"), entry.get("shape")
@@ -67,13 +69,14 @@ class Bodies:
             raise Rejected("the path of a body within its file is a text")
         shape = self._read(file, path) if values is None else self._primitive(file, values)
         if isinstance(shape, str):
-            return Placed(name, groups, None, reason=shape)
+            return Placed(name, groups, None, static=static, reason=shape)
         if shape.file.sha256 != digest:
-            return Placed(name, groups, None, reason=f"{file} has changed: its SHA-256 is another")
+            reason = f"{file} has changed: its SHA-256 is another"
+            return Placed(name, groups, None, static=static, reason=reason)
         try:
-            return self._placed(name, groups, shape, entry)
+            return replace(self._placed(name, groups, shape, entry), static=static)
         except Rejected as why:
-            return Placed(name, groups, None, reason=str(why))
+            return Placed(name, groups, None, static=static, reason=str(why))
 
     def _read(self, file: str, path: str | None) -> Shape | str:
         """The file, or the mesh of its node `path`."""

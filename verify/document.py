@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
@@ -12,7 +12,8 @@ from typing import Any, Literal
 
 from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.exact import Rejected
-from satcheck.verify.findings import Asked, Proven, check_finding, default_tolerance, number
+from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
+from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
 
 SCHEMA = "satcheck.report/1"
 CERTAINLY = 1 + 1e-12  # far more than a difference of two numbers can be off by
@@ -103,6 +104,7 @@ class _Report:
         self.bodies = {body.id: body for body in placed}
         if len(self.bodies) < len(placed):
             raise Rejected("not a report: two bodies have one id")
+        self.rules = Rules(document, self.bodies)
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
         self.listed_apart = 0  # of these, pairs that are apart by their boxes
@@ -134,21 +136,29 @@ class _Report:
         if self.order[a.id] >= self.order[b.id] or frozenset(names) in self.listed:
             raise Rejected("every pair is listed once, in the order of the bodies")
         self.listed.add(frozenset((a.id, b.id)))
-        self.listed_apart += _boxes_apart(a, b, self.asked)
+        asked = self.asked_of(a, b)
+        self.listed_apart += _boxes_apart(a, b, asked)
         if entry.get("relation") == "indeterminate":
-            if entry.get("severity") != "warning" or entry.get("certificate") is not None:
+            claims = (entry.get(key) for key in ("severity", "undecided", "certificate"))
+            if tuple(claims) != ("warning", "relation", None):
                 raise Rejected("an indeterminate pair is a warning, and proves nothing")
             return None
-        return check_finding(entry, a, b, self.asked)
+        return check_finding(entry, a, b, asked)
+
+    def asked_of(self, a: Placed, b: Placed) -> Asked:
+        """What the settings ask, but for what the rules ask of this pair. A pair that may overlap
+        has no clearance to keep."""
+        terms = self.rules.terms(a, b)
+        asked = replace(self.asked, **{key: terms[key] for key in ASKED & terms.keys()})
+        return replace(asked, clearance=None) if asked.limited else asked
 
     def check_unlisted(self, faults: list[str]) -> tuple[int, int]:
         """How many pairs that are not listed are apart by their boxes, and how many are exempt."""
-        exempt = _Exempt(_object(self.document, "exempt"), self.bodies)
         pruned = exempted = 0
-        for a, b, apart in _unlisted(list(self.bodies.values()), self.listed, self.asked):
-            if exempt.covers(a, b):
+        for a, b in _unlisted(list(self.bodies.values()), self.listed):
+            if self.rules.is_exempt(a, b):
                 exempted += 1
-            elif apart:
+            elif _boxes_apart(a, b, self.asked_of(a, b)):
                 pruned += 1
             else:
                 faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
@@ -158,10 +168,7 @@ class _Report:
         summary = _object(self.document, "summary")
         pairs = _object(summary, "pairs")
         relations = Counter(str(f.get("relation")) for f in self.findings)
-        exempt = _Exempt(_object(self.document, "exempt"), self.bodies)
-        allowed, ignored = exempt.count()
-        n = len(self.bodies)
-        total = n * (n - 1) // 2 - ignored
+        total, allowed = self.rules.count()
         indeterminate = relations["indeterminate"]
         expected = {"total": total, "allowed": allowed, "indeterminate": indeterminate}
         for key, value in expected.items():
@@ -176,54 +183,32 @@ class _Report:
         by_relation = _object(summary, "by_relation")
         if {k: v for k, v in by_relation.items() if v} != {k: v for k, v in relations.items() if v}:
             raise Rejected("the summary's counts by relation are not those of the findings")
-        warnings = sum(f.get("severity") == "warning" for f in self.findings) - indeterminate
-        if summary.get("surfaces_only", 0) != warnings:
-            raise Rejected(f"{warnings} pairs were checked by surfaces only")
-        failed = any(f.get("severity") == "error" for f in self.findings)
-        left_open = indeterminate or warnings or not total
+        undecided = Counter(str(f.get("undecided")) for f in self.findings)
+        for key, kind in (("surfaces_only", "inside"), ("limits_undecided", "limit")):
+            if summary.get(key) != undecided[kind]:
+                raise Rejected(f"the summary's {key} is not {undecided[kind]}")
+        fail_on = _object(self.document, "settings").get("fail_on")
+        if fail_on not in SEVERITIES[1:]:
+            raise Rejected("not a report: its settings do not say what fails")
+        failed = any(_fails(f, SEVERITIES.index(fail_on)) for f in self.findings)
+        left_open = len(self.findings) - undecided["None"] or not total
         verdict = "fail" if failed else "incomplete" if left_open else "pass"
         if summary.get("verdict") != verdict:
             raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
 
 
-class _Exempt:
-    """The pairs that the scene does not ask about."""
-
-    def __init__(self, value: dict[str, Any], bodies: dict[str, Placed]) -> None:
-        groups, pairs = _list(value, "groups"), _list(value, "pairs")
-        ignored = {group for group in groups if isinstance(group, str)}
-        self._ignored_of = {body.id: body.groups & ignored for body in bodies.values()}
-        self._pairs = {
-            frozenset(pair)
-            for pair in pairs
-            if isinstance(pair, list) and all(isinstance(id_, str) for id_ in pair)
-        }
-        if any(len(pair) != 2 or not pair <= bodies.keys() for pair in self._pairs):
-            raise Rejected("an exempt pair names two bodies of the report")
-
-    def covers(self, a: Placed, b: Placed) -> bool:
-        return self._ignored(a.id, b.id) or frozenset((a.id, b.id)) in self._pairs
-
-    def _ignored(self, a: str, b: str) -> bool:
-        return bool(self._ignored_of[a] & self._ignored_of[b])
-
-    def count(self) -> tuple[int, int]:
-        """Pairs that are allowed, and pairs that are not counted at all."""
-        alike = Counter(groups for groups in self._ignored_of.values() if groups)
-        ignored = sum(size * (size - 1) // 2 for size in alike.values()) + sum(
-            alike[one] * alike[other] for one, other in combinations(alike, 2) if one & other
-        )
-        return sum(not self._ignored(*pair) for pair in self._pairs), ignored
+def _unlisted(bodies: list[Placed], listed: set[frozenset[str]]) -> Iterator[tuple[Placed, Placed]]:
+    """Pairs without a finding."""
+    for a, b in combinations(bodies, 2):
+        if frozenset((a.id, b.id)) not in listed:
+            yield a, b
 
 
-def _unlisted(
-    bodies: list[Placed], listed: set[frozenset[str]], asked: Asked
-) -> Iterator[tuple[Placed, Placed, bool]]:
-    """Pairs without a finding, and whether their boxes are apart by more than was asked about."""
-    for k, a in enumerate(bodies):
-        for b in bodies[k + 1 :]:
-            if frozenset((a.id, b.id)) not in listed:
-                yield a, b, _boxes_apart(a, b, asked)
+def _fails(finding: dict[str, Any], least: int) -> bool:
+    """What was found, and not what was left open, as grave as that."""
+    severity = finding.get("severity")
+    found = finding.get("undecided") is None or severity == "error"
+    return found and severity in SEVERITIES[least:]
 
 
 def _boxes_apart(a: Placed, b: Placed, asked: Asked) -> bool:

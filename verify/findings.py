@@ -15,21 +15,14 @@ from satcheck.verify.evidence import axis, gap_along, member, on_body, rational,
 from satcheck.verify.exact import Point, Rejected, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import OVERLAPS, Pair, prove, prove_free
+from satcheck.verify.rules import Asked
+from satcheck.verify.severity import check_severity, proven_depth
 from satcheck.verify.world import Exact, World
 
 # Figures are rounded: a band of this relative width around the tolerance is granted.
 EXACT_WIDTH = Fraction(1, 10**9)
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
 SAME = 1e-12  # relative, of a length that was computed twice
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What the settings of the report say. tolerance: None: the input precision."""
-
-    tolerance: float | None
-    clearance: float | None
-    allow_open: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,10 +54,12 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     )
     mtv = _check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair)
+    proven = Proven(depth, mtv)
     if relation != exact:
-        _check_band(finding, certificate, pair, (a, b), tolerance, clearance, Proven(depth, mtv))
-    _check_severity(finding, a.world, b.world, hulls_apart, asked)
-    return Proven(depth, mtv)
+        _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
+    unseen = exact not in OVERLAPS and not hulls_apart and _may_hide(a.world, b.world)
+    check_severity(finding, asked, unseen, proven_depth(finding, depth, mtv), EXACT_WIDTH)
+    return proven
 
 
 def pair_of(a: Placed, b: Placed, world_a: World, world_b: World) -> Pair:
@@ -203,21 +198,6 @@ def _check_band(
             if dot(move, move) <= band * band:
                 return
     raise Rejected(f"{relation!r} does not follow from {exact!r}")
-
-
-def _check_severity(
-    finding: dict[str, Any], a: World, b: World, hulls_apart: bool, asked: Asked
-) -> None:
-    relation, exact = finding.get("relation"), finding.get("exact_relation")
-    expected = "error" if relation in OVERLAPS else "note" if relation == "touching" else "none"
-    if exact in ("separated", "touching") and not hulls_apart and _may_hide(a, b):
-        expected = "note" if asked.allow_open else "warning"
-    broken = (asked.clearance or 0.0) > 0 and (exact != "separated" or relation == "near")
-    if relation == "near" or broken:
-        expected = "error"
-    said = finding.get("severity")
-    if said != expected and not (relation == "touching" and said == "error" and asked.clearance):
-        raise Rejected(f"its severity is {expected!r}")
 
 
 def _may_hide(a: World, b: World) -> bool:

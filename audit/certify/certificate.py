@@ -14,7 +14,8 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.report import OVERLAPS, Finding, finding_values
 from satcheck.verify import Rejected
 from satcheck.verify.evidence import exceeds, gap_along, vector
-from satcheck.verify.findings import Asked, check_finding, depth_at_most, pair_of
+from satcheck.verify.findings import check_finding, depth_at_most, pair_of
+from satcheck.verify.rules import Asked
 
 Json = dict[str, Any]
 SURFACES: Json = {"kind": "surfaces"}
@@ -25,8 +26,14 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
     if finding.exact_relation is None:
         return "the relation is not proven"
     a, b = pair.a.checked(), pair.b.checked()
-    settings = pair.settings
-    asked = Asked(settings.tolerance, settings.clearance, settings.allow_open)
+    asked = Asked(
+        pair.asked.tolerance,
+        pair.asked.clearance,
+        pair.settings.allow_open,
+        pair.asked.max_depth,
+        pair.asked.max_volume,
+        pair.asked.severity,
+    )
     certificate = _Maker(pair, finding).make()
     if isinstance(certificate, str):
         return certificate
@@ -102,9 +109,7 @@ class _Maker:
         """A separation of the hulls as wide as asked about, or the surfaces themselves."""
         asked = Fraction(0)
         if self.finding.relation == "separated":
-            asked = max(
-                Fraction(self.pair.tolerance), Fraction(self.pair.settings.clearance or 0.0)
-            )
+            asked = max(Fraction(self.pair.tolerance), Fraction(self.pair.asked.clearance or 0.0))
         placed = self.placed
         for axis in self._axes():
             n = vector(axis)

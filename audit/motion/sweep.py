@@ -51,7 +51,7 @@ class _Answer:
     def _hit(self, upper: float) -> Sweep:
         pair, impact = self._pair, self._impact
         worst = None
-        if pair.pair.settings.depth:
+        if pair.pair.asked.wants("depth"):
             worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
         return Sweep(
             "penetrating",
@@ -68,7 +68,7 @@ class _Answer:
         pair, impact = self._pair, self._impact
         worst = self._nearest()
         relation, reason = self._relation(worst), self._hollow()
-        clearance = pair.pair.settings.clearance
+        clearance = pair.pair.asked.clearance
         if relation == "near" and clearance is not None and not worst.upper < clearance:
             relation, reason = "indeterminate", "whether the clearance is kept was not decided"
         return Sweep(
@@ -84,14 +84,14 @@ class _Answer:
     def _nearest(self) -> Worst:
         pair, contact = self._pair, self._impact.contact
         if contact is None or pair.convex:
-            worst = least_distance(pair, pair.pair.settings.clearance)
+            worst = least_distance(pair, pair.pair.asked.clearance)
             return Worst(0.0, 0.0, math.inf) if worst is None else worst
         return Worst(contact, 0.0, max(pair.least_gap(contact, contact)[1], 0.0))
 
     def _relation(self, worst: Worst) -> Relation:
         if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
             return "touching"
-        return "near" if worst.lower < (self._pair.pair.settings.clearance or 0.0) else "separated"
+        return "near" if worst.lower < (self._pair.pair.asked.clearance or 0.0) else "separated"
 
     def _hollow(self) -> str | None:
         """What surfaces alone do not show: whether a body came to lie in one that has no inside."""

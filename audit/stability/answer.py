@@ -9,6 +9,7 @@ from satcheck import core
 from satcheck.audit.check import check
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.planner import asked_by
 from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Report, Vector, Witness
 from satcheck.audit.settings import Settings
 from satcheck.audit.stability.variant import Rows, Variant
@@ -106,7 +107,7 @@ def _hold(relation: Relation, finding: Finding, bodies: tuple[Body, Body]) -> fl
         return 0.0
     settings = Settings()
     a, b = (PlacedBody(one, SharedMesh(one.file, settings)) for one in bodies)
-    pair = Pair(a, b, settings)
+    pair = Pair(a, b, settings, asked_by(settings))
     if relation in NESTED:
         return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
     found = core.mesh_relation(pair.a.surface(), pair.b.surface())

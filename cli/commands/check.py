@@ -20,6 +20,7 @@ from satcheck.cli.lengths import length
 PLANES = ("xy", "yz", "xz")
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
 SPLITS = ("nodes", "components", "none")
+SEVERITIES = ("error", "warning", "note")
 # More characters than the first sentence of any help text has.
 _WHOLE_SENTENCE = 200
 
@@ -89,8 +90,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--depth/--no-depth",
     default=None,
-    help="Find how deep bodies overlap, and the shortest way out.  "
-    "[default: depth; of many poses no-depth]",
+    help="Find how deep bodies overlap, and the shortest way out.  [default: depth for mesh files; "
+    "for a scene only where a rule asks]",
 )
 @click.option(
     "--contacts",
@@ -144,6 +145,14 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     type=click.Choice(SPLITS),
     help="What a body is: a node of a GLB, glTF or 3MF file, a connected component, or a whole "
     "file. [default: nodes for one file alone, otherwise none]",
+)
+@click.option(
+    "--fail-on",
+    type=click.Choice(SEVERITIES),
+    default="error",
+    show_default=True,
+    help="The least severity of a finding that makes the check fail. Overlaps and gaps below the "
+    "clearance are errors, unless a rule of the scene says otherwise; what only touches is a note.",
 )
 @click.option(
     "--allow-open",

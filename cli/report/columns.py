@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from rich.cells import cell_len, chop_cells
 
+from satcheck.audit.report import OVERLAPS
 from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.numbers import duration, number, vector
 from satcheck.cli.report.words import contacts, depth
@@ -62,7 +63,7 @@ class Layout:
 
 def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool) -> list[Column]:
     """Columns that would be empty in every row are left out."""
-    known = unit_of(units)
+    known, some_deep = unit_of(units), any(finding.depth is not None for finding in findings)
     unit = f" ({known})" if known else ""
 
     def column(
@@ -75,7 +76,12 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column("B", lambda finding: finding.b),
         column("relation", lambda finding: finding.relation),
         column(f"gap{unit}", _gap, right=True, folds=True),
-        column(f"depth{unit}", depth, right=True, folds=True),
+        column(
+            f"depth{unit}",
+            lambda finding: depth(finding) or (_unasked(finding) if some_deep else ""),
+            right=True,
+            folds=True,
+        ),
         column(f"move A by{unit}", _mtv, folds=True),
         column(f"volume ({known}^3)" if known else "volume", _volume, right=True),
         column("contact", contacts, folds=True),
@@ -145,6 +151,10 @@ def _broken_names(columns: Sequence[Column], width: int) -> Layout:
 
 def _gap(finding: Finding) -> str:
     return "" if finding.distance is None or finding.distance <= 0 else number(finding.distance)
+
+
+def _unasked(finding: Finding) -> str:
+    return "not asked" if finding.relation in OVERLAPS else ""
 
 
 def _volume(finding: Finding) -> str:

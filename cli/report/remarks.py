@@ -19,7 +19,9 @@ _ISSUE_COLOURS = {"warning": "yellow", "note": ""}
 def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
     """One line a pair for the touch band and for what was not decided, one a body otherwise."""
     lines = [
-        Text(line) for finding in shown for line in (*_band(finding), *_undecided(finding, report))
+        Text(line)
+        for finding in shown
+        for line in (*_band(finding), *_undecided(finding, report), *_ruled(finding, report))
     ]
     lines += [Text(line) for body in report.bodies for line in _body(body, report)]
     for issue in report.issues:
@@ -45,9 +47,22 @@ def _band(finding: Finding) -> list[str]:
 def _undecided(finding: Finding, report: Report) -> list[str]:
     """The reason, unless a line on the body or the summary says it for many pairs at once."""
     capped = finding.quality == "estimate" and report.settings["accuracy"] != "exact"
-    if finding.reason is None or capped or finding.quality in ("exact", "bounded"):
+    said = finding.undecided == "limit" or finding.quality in ("exact", "bounded")
+    if finding.reason is None or capped or said:
         return []
     return [f"{finding.a} and {finding.b}: {finding.reason}"]
+
+
+def _ruled(finding: Finding, report: Report) -> list[str]:
+    """What a rule of the scene made of the pair."""
+    pair = f"{finding.a} and {finding.b}"
+    if finding.undecided == "limit":
+        return [f"{pair}: {finding.reason}"]
+    reasons = {rule.name: rule.reason for rule in report.rules}
+    if finding.rule not in reasons:
+        return []
+    why = f" ({reasons[finding.rule]})" if reasons[finding.rule] else ""
+    return [f"{pair}: {finding.severity} by {finding.rule}{why}"]
 
 
 def _body(body: BodyReport, report: Report) -> list[str]:

@@ -49,9 +49,10 @@ def _found(report: Report) -> list[str]:
 
 
 def _worst(report: Report) -> list[str]:
-    deep = [f for f in report.findings if f.depth is not None and f.relation in OVERLAPS]
+    overlaps = [f for f in report.findings if f.relation in OVERLAPS]
+    deep = [f for f in overlaps if f.depth is not None]
     if not deep:
-        return []
+        return ["Depth not asked: --depth."] if overlaps else []
     worst = max(deep, key=lambda f: f.depth_bounds or (0.0, f.depth or 0.0))
     known = unit_of(report.units)
     figure = depth(worst, bounded="at most ") + (f" {known}" if known else "")
@@ -70,13 +71,19 @@ def _left_open(report: Report) -> list[str]:
     if surfaces:
         verb = "was" if surfaces == 1 else "were"
         limits.append(f"{counted(surfaces, 'pair')} {verb} checked by surfaces only")
+    if unsure := report.summary.limits_undecided:
+        whose = "its" if unsure == 1 else "their"
+        limits.append(f"{counted(unsure, 'pair')} may exceed {whose} limits")
     if report.summary.verdict == "fail":
         return [f"{limit}." for limit in limits]
     if undecided := report.summary.pairs.indeterminate:
         limits.append(
             f"{counted(undecided, 'pair')} {'is' if undecided == 1 else 'are'} indeterminate"
         )
-    return [f"No collision found, but {' and '.join(limits)}." if limits else "No collision."]
+    if limits:
+        return [f"No collision found, but {' and '.join(limits)}."]
+    ruled = any(finding.rule is not None for finding in report.findings)
+    return ["No collision beyond what rules allow." if ruled else "No collision."]
 
 
 def _cross_check(report: Report) -> list[str]:

@@ -17,6 +17,7 @@ from satcheck.scene.robot.model import Collision, Link, MeshReference, Robot, Un
 from satcheck.scene.robot.packages import MeshPlaces
 from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf, State
+from satcheck.scene.rules import Rule, Selector
 
 SAME_LINK = "one rigid link"
 _SHOWN = 5
@@ -124,19 +125,25 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
     return found
 
 
-def permissions(robot: SceneRobot) -> tuple[dict[frozenset[str], str], list[Issue]]:
-    """(pairs of its bodies that may touch -> why, what there is to say about that)."""
-    allowed: dict[frozenset[str], str] = {}
+def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
+    """(rules for the pairs of its bodies that may touch, what there is to say about that)."""
+    allowed: list[Rule] = []
     for link in robot.robot.links:
         for pair in combinations(robot.bodies_of(link), 2):
-            allowed[frozenset(pair)] = SAME_LINK
+            allowed.append(_allowed(pair, SAME_LINK, robot.robot.file))
     solid = list(dict.fromkeys(body.link for body in robot.bodies))
-    for a, b in combinations(solid, 2):
-        reason = robot.srdf.permission(a, b) if robot.srdf else None
-        if reason is not None:
-            for pair in product(robot.bodies_of(a), robot.bodies_of(b)):
-                allowed[frozenset(pair)] = reason
+    if robot.srdf is not None:
+        for a, b in combinations(solid, 2):
+            reason = robot.srdf.permission(a, b)
+            if reason is not None:
+                for pair in product(robot.bodies_of(a), robot.bodies_of(b)):
+                    allowed.append(_allowed(pair, reason, robot.srdf.file))
     return allowed, [*_unknown_links(robot), *_checked_neighbours(robot)]
+
+
+def _allowed(pair: tuple[str, str], reason: str, file: str) -> Rule:
+    a, b = map(Selector.exactly, pair)
+    return Rule(a=a, b=b, allowed=True, reason=reason, where=file)
 
 
 def posed(scene: Scene, pose: Pose) -> Scene:

@@ -7,10 +7,11 @@ from itertools import combinations
 import pytest
 
 from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.planner import Planner
 from satcheck.audit.roster import place
 from satcheck.audit.settings import Settings
 from satcheck.core import box_gap
-from satcheck.scene import Body, Scene, Unreadable
+from satcheck.scene import Body, Rule, Scene, Selector, Unreadable
 from satcheck.scene.issue import issue
 from satcheck.scene.primitives import Box
 from satcheck.scene.shape_file import shape_file
@@ -37,23 +38,26 @@ def test_close_is_what_is_asked_about(settings):
     roster = place(Scene("", None, row(9)), settings)
     asked = max(settings.clearance or 0.0, settings.tolerance or 0.0)
     bounds = [body.bounds for body in roster.placed.values()]
-    assert close_pairs(roster, settings) == [
+    assert close_pairs(roster, Planner(settings, roster.book)) == [
         (i, j) for i, j in combinations(range(9), 2) if box_gap(bounds[i], bounds[j]) <= asked
     ]
 
 
 def test_exempt_pairs_are_not_close():
     bodies = row(6, 0.0, [("left",)] * 3 + [("right", "hall")] * 3)
-    allowed = {frozenset(("b0", "b5")): "", frozenset(("b4", "gone")): ""}
-    scene = Scene("", None, bodies, (), frozenset(("left", "hall")), allowed)
+    allowed = [
+        Rule(a=Selector(a), b=Selector(b), allowed=True)
+        for a, b in (("b0", "b5"), ("b4", "gone"), ("b[12]", "b3"))
+    ]
+    scene = Scene("", None, bodies, (), frozenset(("left", "hall")), tuple(allowed))
     roster = place(scene, Settings())
-    found = close_pairs(roster, Settings())
+    found = close_pairs(roster, Planner(Settings(), roster.book))
     assert found == sorted(roster.asked_pairs())
-    assert len(found) == 3 * 3 - 1
+    assert len(found) == 3 * 3 - 1 - 2
 
 
 def test_numbers_are_those_of_the_bodies_where_some_are_lost():
     lost = Unreadable("lost", "gone.obj", issue("file-not-found", "gone"))
     scene = Scene("", None, row(3, 0.0), (lost,), order=("lost", "b0", "b1", "b2"))
     roster = place(scene, Settings())
-    assert close_pairs(roster, Settings()) == [(1, 2), (1, 3), (2, 3)]
+    assert close_pairs(roster, Planner(Settings(), roster.book)) == [(1, 2), (1, 3), (2, 3)]

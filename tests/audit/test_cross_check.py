@@ -13,6 +13,7 @@ from satcheck.audit.cross_check.peers import MISSING, Peers
 from satcheck.audit.ladder import settle
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
+from satcheck.audit.planner import asked_by
 from satcheck.audit.roster import place
 from satcheck.cli.report.summary import summary_line
 from satcheck.core import Mesh
@@ -45,7 +46,7 @@ def pair_of(folder: Path, *meshes: Mesh) -> Pair:
     scene = load_scene(write(folder, **dict(zip("ab", faces, strict=True))))
     settings = Settings()
     a, b = place(scene, settings).placed.values()
-    return Pair(a, b, settings)
+    return Pair(a, b, settings, asked_by(settings))
 
 
 def standings(pair: Pair, peers: Peers) -> tuple[list[str], Plan]:

@@ -72,7 +72,7 @@ def test_inside_the_notch_triangles_decide_and_nothing_more(tmp_path):
 
 def test_the_touch_band_asks_whether_the_gap_is_within_it(tmp_path):
     finding = only(check(scene_of(tmp_path, a=bracket(), b=unit_box(3, 3, 1))))
-    assert stages(finding) == ["aabb", "hull", "triangles", "distance"]
+    assert stages(finding) == ["aabb", "hull", "triangles", "touch-band"]
     assert finding.plan[-1].result == "beyond"
     assert finding.distance is None
 

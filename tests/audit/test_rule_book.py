@@ -77,9 +77,13 @@ def test_as_if_every_pair_were_gone_through(seed: int) -> None:
             assert terms.clearance is deciding.get("clearance")
             assert terms.tolerance is deciding.get("tolerance")
         for one in deciding.values():
-            assert book.longest("clearance", i) >= (one.clearance or 0.0)
+            assert book.longest("clearance")[i] >= (one.clearance or 0.0)
         total += not skipped
-        allowed += not skipped and book.terms(i, j).allows
+        asked = not skipped and not book.terms(i, j).allows
+        assert book.is_asked(i, j) == asked
+        allowed += not skipped and not asked
+        kinds = tuple(sorted((book.kind_of[i], book.kind_of[j])))
+        assert not (asked and ((i, j) in book.exempt_named() or kinds in book.exempt_kinds()))
     assert book.count() == (total, allowed)
     unused = [
         one for one in rules if not any(is_about(one, p, q) for p, q in combinations(bodies, 2))

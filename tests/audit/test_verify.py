@@ -39,7 +39,7 @@ def test_turned_boxes_are_free_after_the_move(tmp_path, turn, x):
     write(tmp_path, box=unit_box())
     bodies = [("a", "box.obj", pose()), ("b", "box.obj", pose(x, 0.3, 0.2, turn))]
     scene = placed_scene(tmp_path, bodies)
-    finding = only(check(scene))
+    finding = only(check(scene, Settings(depth=True)))
     if finding.relation != "penetrating":
         pytest.skip("this pose does not overlap")
     assert finding.mtv_verified
@@ -50,8 +50,8 @@ def test_turned_boxes_are_free_after_the_move(tmp_path, turn, x):
 
 def test_a_capped_ladder_verifies_what_it_may(tmp_path):
     scene = scene_of(tmp_path, a=bracket(), b=unit_box(1.5, 3, 1, edge=2.0))
-    assert only(check(scene, Settings(accuracy="hull"))).mtv_verified
-    assert only(check(scene, Settings(accuracy="aabb"))).mtv_verified is False
+    assert only(check(scene, Settings(depth=True, accuracy="hull"))).mtv_verified
+    assert only(check(scene, Settings(depth=True, accuracy="aabb"))).mtv_verified is False
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_a_turned_neighbour_gets_a_few_ulps_more(tmp_path):
     # The move is along an axis, but the neighbour's corners depend on the order of its pose's sums.
     write(tmp_path, box=unit_box())
     bodies = [("a", "box.obj", pose()), ("b", "box.obj", pose(0.0, 0.0, 0.75, 30))]
-    finding = only(check(placed_scene(tmp_path, bodies)))
+    finding = only(check(placed_scene(tmp_path, bodies), Settings(depth=True)))
     assert finding.relation == "penetrating"
     assert 0.25 < math.hypot(*finding.mtv) < 0.25 * (1 + 1e-13)
     assert [stage.result for stage in finding.plan if stage.stage == "verify"] == ["separated"]

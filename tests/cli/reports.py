@@ -135,6 +135,7 @@ BLOCK = BodyReport(
     path=None,
     transform=None,
     groups=(),
+    static=False,
     triangles=12,
     health={"closed": True, "solid": True},
     resolution=2.5e-7,

@@ -31,7 +31,7 @@ def test_without_a_robot_there_is_no_pose() -> None:
 
 @pytest.mark.parametrize("given", [("--state", "folded"), ("--pose", '{"elbow": 3}')])
 def test_one_pose_is_a_check_like_any_other(given: tuple[str, str]) -> None:
-    ran = satcheck(*ARM, *given, *JSON)
+    ran = satcheck(*ARM, *given, "--depth", *JSON)
     assert ran.code == 1, ran.err
     VALIDATOR.validate(ran.document)
     assert ran.document["pose"]["elbow"] == 3

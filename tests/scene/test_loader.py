@@ -62,7 +62,7 @@ def test_ids_of_two_scenes_keep_their_allowed_pairs(tmp_path):
         (tmp_path / name).write_text(json.dumps(document))
     scene = load_scene([tmp_path / "one.json", tmp_path / "two.json"])
     assert [body.id for body in scene.bodies] == ["a", "b", "a-2", "b-2"]
-    assert set(scene.allowed_pairs) == {frozenset(("a", "b")), frozenset(("a-2", "b-2"))}
+    assert [(rule.a.text, rule.b.text) for rule in scene.rules] == [("a", "b"), ("a-2", "b-2")]
     assert scene.units == "mm"
     document["units"] = "m"
     (tmp_path / "two.json").write_text(json.dumps(document))

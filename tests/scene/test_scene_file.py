@@ -57,7 +57,13 @@ def test_bodies_groups_and_allowed_pairs(folder):
     assert b.world_mesh().bounds == ((5, 0, 0), (6, 1, 1))
     assert c.transform is None
     assert scene.ignore_within_groups == {"robot"}
-    assert scene.allowed_pairs == {frozenset("ab"): "bolted", frozenset("ac"): ""}
+    assert scene.composed
+    assert [(rule.a.text, rule.b.text, rule.reason) for rule in scene.rules] == [
+        ("b", "a", "bolted"),
+        ("a", "c", ""),
+    ]
+    assert all(rule.allowed for rule in scene.rules)
+    assert scene.rules[1].where.endswith(": allowed_pairs[1]")
     assert scene.issues == ()
 
 
@@ -83,7 +89,7 @@ def test_an_unknown_id_in_allowed_pairs_is_a_warning(folder):
     (issue,) = scene.issues
     assert (issue.code, issue.severity) == ("unknown-body", "warning")
     assert "'nobody'" in issue.message
-    assert scene.allowed_pairs == {}
+    assert scene.rules == ()
 
 
 def test_what_a_scene_says_of_its_origin_is_no_warning(folder):

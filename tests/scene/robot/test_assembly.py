@@ -40,7 +40,9 @@ def test_each_collision_is_a_body() -> None:
 
 
 def test_what_may_touch() -> None:
-    allowed = {tuple(sorted(pair)): why for pair, why in load_scene(ARM).allowed_pairs.items()}
+    rules = load_scene(ARM).rules
+    assert all(rule.allowed for rule in rules)
+    allowed = {tuple(sorted((rule.a.text, rule.b.text))): rule.reason for rule in rules}
     assert allowed == {
         ("fore/beam", "fore/palm"): "one rigid link",
         ("base", "turret"): "SRDF: Adjacent",
@@ -56,7 +58,7 @@ def test_what_may_touch() -> None:
 
 def test_without_an_srdf_neighbours_are_checked_and_a_note_says_so() -> None:
     scene = load_scene(ARM[:1])
-    assert set(scene.allowed_pairs.values()) == {"one rigid link"}
+    assert {rule.reason for rule in scene.rules} == {"one rigid link"}
     (note,) = [issue for issue in scene.issues if issue.code == "neighbours-checked"]
     assert note.severity == "note"
     assert note.message.startswith("5 pairs of links")

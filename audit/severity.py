@@ -1,0 +1,111 @@
+"""How grave a finding is, what decided that, and what it leaves undecided.
+
+An overlap is an error unless rules limit it, and then where it exceeds a limit; so is a gap below
+the clearance. Rules may call the errors of a pair something else. What could not be decided stays a
+warning at least, whatever they say.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from satcheck.audit.pair import Pair
+from satcheck.audit.planner import Asked
+from satcheck.audit.report import OVERLAPS, SEVERITIES, Finding, Severity, Undecided
+from satcheck.audit.tolerances import EXACT_WIDTH
+
+CLEARANCE_RULE = "clearance"
+
+
+@dataclass(frozen=True, slots=True)
+class _Judgement:
+    severity: Severity
+    rule: str | None = None
+    undecided: Undecided | None = None
+    reason: str | None = None
+
+
+def judged(finding: Finding, pair: Pair, gap: float, unseen: bool) -> Finding:
+    """The finding with its severity.
+
+    gap: of bodies without a common interior beyond the touch band, as far as it is proven. unseen:
+    one body may lie in the other, which has no inside to check.
+    """
+    asked, found = pair.asked, _found(finding, pair.asked, gap)
+    if found.severity == "error" and asked.severity is not None:
+        found = replace(found, severity=asked.severity, rule=asked.rule("severity"))
+    if unseen:
+        found = _left_open(found, pair.settings.allow_open)
+    return replace(
+        finding,
+        severity=found.severity,
+        rule=found.rule,
+        undecided=found.undecided,
+        reason=finding.reason or found.reason,
+    )
+
+
+def _found(finding: Finding, asked: Asked, gap: float) -> _Judgement:
+    if finding.relation in OVERLAPS:
+        return _limited(finding, asked) if asked.limited else _Judgement("error")
+    if gap < (asked.clearance or 0.0):
+        return _Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
+    return _Judgement("note" if finding.relation == "touching" else "none")
+
+
+def _left_open(found: _Judgement, allow_open: bool) -> _Judgement:
+    if allow_open:
+        return found if found.severity != "none" else replace(found, severity="note")
+    graver = SEVERITIES.index(found.severity) <= SEVERITIES.index("warning")
+    return replace(found, severity=found.severity if graver else "warning", undecided="inside")
+
+
+def _limited(finding: Finding, asked: Asked) -> _Judgement:
+    """Within all limits, beyond one, or undecided."""
+    limits = list(_limits(finding, asked))
+    for limit in limits:
+        if not limit.kept and limit.least is not None and limit.least > limit.most:
+            return _Judgement("error", limit.rule)
+    for limit in limits:
+        if not limit.kept:
+            return _Judgement("warning", limit.rule, "limit", f"undecided: {limit.question}")
+    return _Judgement("note", ", ".join(dict.fromkeys(limit.rule for limit in limits)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Limit:
+    """What the pair has is between least and greatest (None: not known), and may have at most
+    `most`."""
+
+    rule: str
+    key: str
+    most: float
+    least: float | None
+    greatest: float | None
+
+    @property
+    def kept(self) -> bool:
+        """Figures are rounded: one that equals its limit is within it."""
+        return self.greatest is not None and self.greatest <= self.most * (1 + EXACT_WIDTH)
+
+    @property
+    def question(self) -> str:
+        known = f"{self.key} is {self.most:.6g} ({self.rule})"
+        if self.least is None or self.greatest is None:
+            return f"{known}, and what the pair has is not known"
+        return f"{known}, and the pair has between {self.least:.6g} and {self.greatest:.6g}"
+
+
+def _limits(finding: Finding, asked: Asked) -> Iterator[_Limit]:
+    if asked.max_depth is not None:
+        least, greatest = finding.depth_bounds or (None, None)
+        yield _Limit(asked.rule("max_depth") or "", "max_depth", asked.max_depth, least, greatest)
+    if asked.max_volume is not None:
+        least = greatest = None
+        if finding.volume is not None and finding.volume_error is not None:
+            least = finding.volume - finding.volume_error
+            greatest = finding.volume + finding.volume_error
+        yield _Limit(
+            asked.rule("max_volume") or "", "max_volume", asked.max_volume, least, greatest
+        )
