@@ -54,8 +54,8 @@ def read_scene(source: Source, allowed: ReadLimits, *, flat: bool) -> RawScene:
         return _read(source, allowed, flat)
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=source.path) from error.__cause__
-    except MemoryError:
-        raise MeshFileError("reader-out-of-memory", "out of memory", file=source.path) from None
+    except (MemoryError, OverflowError, ValueError) as error:
+        raise _refusal(source, error) from error
 
 
 def _read(source: Source, allowed: ReadLimits, flat: bool) -> RawScene:

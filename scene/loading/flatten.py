@@ -68,3 +68,5 @@ def _placed(vertices: bytes, triangles: bytes, matrix: Matrix) -> tuple[bytes, b
         return Mesh.from_bytes(vertices, triangles).transformed(matrix).to_bytes()
     except ValueError as error:
         raise MeshFileError("singular-transform", f"a part cannot be placed: {error}") from None
+    except OverflowError as error:
+        raise MeshFileError("out-of-range", f"a part cannot be placed: {error}") from None

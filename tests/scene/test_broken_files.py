@@ -161,6 +161,11 @@ REFUSED = {
         "singular-transform",
         "placed",
     ),
+    "far.glb": (
+        with_document(nodes=[{"mesh": 0, "scale": [1e30, 1, 1], "translation": [1e46, 0, 0]}]),
+        "out-of-range",
+        "placed",
+    ),
     "nan.gltf": (b'{"asset": {"version": NaN}}', "bad-record", "NaN"),
     "cut.gltf": (b'{"asset": ', "bad-record", "line 1"),
     "other.gltf": (b"[]", "not-this-format", "asset"),
