@@ -12,6 +12,7 @@ from satcheck.audit.report import Vector, Witness
 from satcheck.audit.verify import Escape, verified_escape
 
 if TYPE_CHECKING:
+    from satcheck.audit.curved.signed import Signed
     from satcheck.audit.ladder import Contact
 
 
@@ -38,6 +39,10 @@ def measure_depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan)
     """
     if contact.convex is not None:
         return _convex_depth(pair, contact.convex, plan)
+    if pair.curved:
+        from satcheck.audit.curved.depth import sandwiched_depth
+
+        return sandwiched_depth(pair, plan)
     from satcheck.audit.concave_depth import concave_depth, depth_by_move
 
     if move is not None:
@@ -45,7 +50,7 @@ def measure_depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan)
     return concave_depth(pair, contact, plan)
 
 
-def _convex_depth(pair: Pair, result: core.PairResult, plan: Plan) -> Depth:
+def _convex_depth(pair: Pair, result: core.PairResult | Signed, plan: Plan) -> Depth:
     if result.distance is None or result.normal is None:
         raise AssertionError("a penetrating pair has a signed distance and a normal")
     value = max(-result.distance, 0.0)

@@ -50,6 +50,10 @@ def examine(pair: Pair, plan: Plan) -> Finding:
 
 def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> Finding:
     """The finding with what only some ask for."""
+    if pair.curved:
+        from satcheck.audit.curved.contact import without_meshes
+
+        return without_meshes(finding, pair, plan)
     if pair.asked.wants("volume"):
         from satcheck.audit.volume import common_volume
 
@@ -98,6 +102,8 @@ def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:
 def _weakness(pair: Pair, contact: Contact) -> str | None:
     """What the answer leaves out; the relation of hulls that are apart leaves out nothing."""
     hollow = [body.id for body in (pair.a, pair.b) if not body.solid]
+    if contact.reason is not None:
+        return contact.reason
     if not contact.proven:
         return _unproven(pair) if not pair.may("exact") else "a degenerate contact was sampled"
     if not hollow or contact.gap_lower > 0:
@@ -112,7 +118,7 @@ def _unproven(pair: Pair) -> str:
 
 def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
     shallow, move = _is_shallow(pair, contact, plan), None
-    if contact.convex is None and pair.may("exact"):
+    if contact.convex is None and pair.may("exact") and not pair.curved:
         move = move_within(pair, contact, plan)
     guess = shallow and not contact.proven
     depth = None if guess else _depth(pair, contact, move, plan)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.ladder import Contact
@@ -11,6 +12,9 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector, Witness
 from satcheck.audit.tolerances import rounding_pad
+
+if TYPE_CHECKING:
+    from satcheck.audit.curved.signed import Signed
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +71,7 @@ def _is_void(pair: Pair, found: core.MeshDistance) -> bool:
     return any(body.surface().has_void(triangle) for body, triangle in ends)
 
 
-def _convex_gap(result: core.PairResult) -> Gap:
+def _convex_gap(result: core.PairResult | Signed) -> Gap:
     distance = max(result.distance or 0.0, 0.0)
     witness = None
     if result.witness_a is not None and result.witness_b is not None:

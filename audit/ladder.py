@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.boxes import holds
@@ -17,6 +18,9 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Relation, Vector
 from satcheck.audit.tolerances import rounding_pad
+
+if TYPE_CHECKING:
+    from satcheck.audit.curved.signed import Signed
 
 RELATION_OF_OUTCOME: dict[str, Relation] = {
     "separated": "separated",
@@ -33,14 +37,16 @@ class Contact:
     gap_lower: a proven lower bound of their distance, 0.0 where none is known.
     convex: the signed distance, where both bodies are convex and it therefore says everything.
     crossing: indices of one triangle of each body that meet; point: a common point, rounded.
+    reason: why it is not proven, where that is no matter of --accuracy.
     """
 
     relation: Relation
     proven: bool
     gap_lower: float = 0.0
-    convex: core.PairResult | None = None
+    convex: core.PairResult | Signed | None = None
     crossing: tuple[int, int] | None = None
     point: Vector | None = None
+    reason: str | None = None
 
 
 def settle(pair: Pair, plan: Plan) -> Contact:
@@ -58,6 +64,10 @@ def _settled(pair: Pair, plan: Plan) -> Contact:
     gap = boxes_apart(pair, plan)
     if gap > pair.asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
+    if pair.curved:
+        from satcheck.audit.curved.contact import settle_curved
+
+        return settle_curved(pair, plan) if pair.may("hull") else _apart_or_guess(gap)
     if _oriented_boxes_apart(pair, plan):
         return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
     if not pair.may("hull"):

@@ -51,6 +51,11 @@ class Pair:
         return largest_coordinate(self.a.bounds, self.b.bounds)
 
     @property
+    def curved(self) -> bool:
+        """One body at least is a curved shape, of which the mesh is only within it."""
+        return self.a.curved is not None or self.b.curved is not None
+
+    @property
     def both_solid(self) -> bool:
         return self.a.solid and self.b.solid
 

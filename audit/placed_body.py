@@ -14,6 +14,7 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 
 if TYPE_CHECKING:
+    from satcheck.audit.curved.shape import CurvedShape
     from satcheck.decompose import Decomposition, DecompositionError
     from satcheck.scene import Body, MeshFile
     from satcheck.verify.bodies import Placed, Shape
@@ -90,13 +91,30 @@ class SharedMesh:
             return error
 
 
+def _curved(body: Body) -> CurvedShape | None:
+    """ValueError when the transform makes no such shape of it."""
+    if body.shape is None:
+        return None
+    from satcheck.scene.primitives import is_curved
+
+    if not is_curved(body.shape):
+        return None
+    from satcheck.audit.curved.shape import curved_shape
+
+    return curved_shape(body.shape, body.transform)
+
+
 class PlacedBody:
-    """World frame. bounds: ((x, y, z), (x, y, z)); resolution: the input precision, world units."""
+    """World frame. bounds: ((x, y, z), (x, y, z)); resolution: the input precision, world units.
+
+    curved: the shape, where the body is one; its mesh is then only within it, its bounds around it.
+    """
 
     __slots__ = (
         "body",
         "bounds",
         "checked",
+        "curved",
         "hull",
         "hull_shape",
         "id",
@@ -113,6 +131,9 @@ class PlacedBody:
         self.id = body.id
         self.mesh: core.Mesh = body.world_mesh()
         self.bounds: Box = self.mesh.bounds
+        self.curved = _curved(body)
+        if self.curved is not None:
+            self.bounds = self.curved.bounds()
         self.resolution = body.resolution_world
         self.solid = body.file.health.solid
         self.surface = Once(lambda: core.Surface(self.mesh, self.solid))

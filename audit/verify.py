@@ -53,6 +53,10 @@ def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Es
 
 def relation_after(pair: Pair, translation: Vector) -> str:
     """The relation once A's world mesh is moved: of the triangles, or of the hulls under a cap."""
+    if pair.curved:
+        from satcheck.audit.curved.contact import frees
+
+        return "separated" if frees(pair, translation) else "penetrating"
     moved = pair.a.mesh.translated(translation)
     if pair.may("exact"):
         found = core.mesh_relation(core.Surface(moved, pair.a.solid), pair.b.surface())

@@ -11,7 +11,6 @@ from satcheck.scene.health import examine
 from satcheck.scene.primitives import (
     DEFAULT_SEGMENTS,
     Primitive,
-    is_curved,
     mesh_of,
     values_of,
 )
@@ -25,12 +24,8 @@ def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) ->
 
     sha256 is that of the shape's values and of how many segments it has. The sizes are taken as the
     float64 that they were read as, so the resolution is float64 rounding. Raises MeshFileError for
-    a size beyond what is decided exactly, and for a curved shape, which no mesh is exactly.
+    a size beyond what is decided exactly. The mesh of a curved shape is only within it.
     """
-    if is_curved(shape):
-        kind = type(shape).__name__.lower()
-        message = f"a {kind} is curved, and only boxes are checked as shapes: refused"
-        raise MeshFileError("unsupported-feature", message, file=path)
     try:
         examined = examine(mesh_of(shape, segments))
     except OverflowError as error:

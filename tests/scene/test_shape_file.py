@@ -32,7 +32,6 @@ def test_sizes_beyond_what_is_decided_exactly_are_refused(size):
     assert (caught.value.code, caught.value.file) == ("out-of-range", "cell.toml")
 
 
-def test_a_curved_shape_is_refused():
-    with pytest.raises(MeshFileError, match="a sphere is curved") as caught:
-        shape_file(Sphere(1.0), "cell.toml")
-    assert caught.value.code == "unsupported-feature"
+def test_the_mesh_of_a_curved_shape_is_within_it():
+    low, high = shape_file(Sphere(2.0), "cell.toml").mesh.bounds
+    assert (low, high) == ((-2.0, -2.0, -2.0), (2.0, 2.0, 2.0))

@@ -1,0 +1,96 @@
+"""The ladder's answer and the figures for pairs of which one body at least is a curved shape."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from satcheck.audit.boxes import holds as box_holds
+from satcheck.audit.curved.signed import convex_pair
+from satcheck.audit.ladder import Contact
+
+if TYPE_CHECKING:
+    from satcheck.audit.pair import Pair
+    from satcheck.audit.placed_body import PlacedBody
+    from satcheck.audit.plan import Plan
+    from satcheck.audit.planner import Effect
+    from satcheck.audit.report import Finding, Relation, Vector
+
+STAGE = "curved"
+TOO_CLOSE = "one may lie within the other: too close to its surface to tell"
+ON_MESHES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
+CLOSE_CONTACT = "a curved shape in contact as far as its bounds tell"
+
+
+def settle_curved(pair: Pair, plan: Plan) -> Contact:
+    """The relation, once the boxes of the bodies were found too close to settle it."""
+    if _is_convex(pair.a) and _is_convex(pair.b):
+        return _settle_convex(pair, plan)
+    from satcheck.audit.curved.in_mesh import settle_mesh
+
+    return settle_mesh(pair, plan)
+
+
+def frees(pair: Pair, move: Vector) -> bool:
+    """Whether A, moved, provably has no common interior with B."""
+    if _is_convex(pair.a) and _is_convex(pair.b):
+        found = convex_pair(pair.a, pair.b, move)
+        return found is not None and found.lower >= 0
+    from satcheck.audit.curved.in_mesh import frees_mesh
+
+    return frees_mesh(pair, move)
+
+
+def without_meshes(finding: Finding, pair: Pair, plan: Plan) -> Finding:
+    """What is found on meshes alone is not known of a curved shape, and that is said."""
+    missing = [effect for effect in ON_MESHES if pair.asked.wants(effect)]
+    for effect in missing:
+        plan.record(effect, "not available", "a curved shape has no triangles")
+    reason = finding.reason
+    if missing:
+        reason = reason or f"{' and '.join(missing)}: not available for curved shapes"
+    return replace(finding, reason=reason, plan=tuple(plan.stages))
+
+
+def _is_convex(body: PlacedBody) -> bool:
+    return body.curved is not None or body.convex
+
+
+def _settle_convex(pair: Pair, plan: Plan) -> Contact:
+    found = convex_pair(pair.a, pair.b)
+    if found is None:
+        plan.record(STAGE, "undecided", "the bounds of the shapes did not close")
+        return Contact("penetrating", False, reason="the bounds of a curved shape did not close")
+    plan.record(STAGE, found.outcome, "convex shapes")
+    if found.outcome != "penetrating":
+        reason = None if found.exact else CLOSE_CONTACT
+        return Contact(found.outcome, found.exact, max(found.lower, 0.0), found, reason=reason)  # type: ignore[arg-type]
+    relation, is_known = _nesting(pair)
+    if relation != "penetrating":
+        plan.record("containment", relation, "one shape holds the other")
+    reason = None if is_known else TOO_CLOSE
+    return Contact(relation, is_known, 0.0, found, reason=reason)
+
+
+def _nesting(pair: Pair) -> tuple[Relation, bool]:
+    """contains, inside or penetrating, and whether that is known."""
+    outer, inner = _holds(pair.a, pair.b), _holds(pair.b, pair.a)
+    if outer:
+        return "contains", True
+    if inner:
+        return "inside", True
+    return "penetrating", outer is False and inner is False
+
+
+def _holds(outer: PlacedBody, inner: PlacedBody) -> bool | None:
+    """Whether one body lies within the other and does not reach its surface; None: unknown."""
+    if not box_holds(outer.bounds, inner.mesh.bounds):
+        return False
+    from satcheck.audit.curved.nesting import holds, is_within_hull
+
+    shape = outer.curved
+    if shape is not None:
+        return holds(shape, inner)
+    curved = inner.curved
+    assert curved is not None
+    return is_within_hull(curved, outer.hull())

@@ -1,0 +1,59 @@
+"""Depth of a curved shape in a mesh that is not convex: between a mesh inside the shape and one
+around it. What frees the outer mesh frees the shape, and no less than frees the inner one does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from satcheck.audit.curved.around import mesh_around
+from satcheck.audit.depth import Depth, measure_depth
+from satcheck.audit.ladder import settle
+from satcheck.audit.pair import Pair
+from satcheck.audit.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import OVERLAPS
+from satcheck.core import Mesh
+from satcheck.scene.remeshed import remeshed
+
+
+def sandwiched_depth(pair: Pair, plan: Plan) -> Depth:
+    inner, outer = _depth_with(pair, around=False), _depth_with(pair, around=True)
+    if outer is None:
+        raise AssertionError("what overlaps a shape overlaps the mesh around it")
+    lower = 0.0 if inner is None else min(inner.lower, outer.upper)
+    plan.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
+    verified = "separated" if outer.escape.verified else "failed"
+    plan.record("verify", verified, "the mesh around the shape, moved by the MTV")
+    return Depth(lower, outer.upper, outer.normal, outer.escape)
+
+
+def _depth_with(pair: Pair, *, around: bool) -> Depth | None:
+    """None where the meshes do not overlap."""
+    meshes = replace(pair, a=_as_mesh(pair, pair.a, around), b=_as_mesh(pair, pair.b, around))
+    plan = Plan()
+    contact = settle(meshes, plan)
+    return measure_depth(meshes, contact, None, plan) if contact.relation in OVERLAPS else None
+
+
+def _as_mesh(pair: Pair, body: PlacedBody, around: bool) -> PlacedBody:
+    curved = body.curved
+    if curved is None:
+        return body
+    file, primitive = body.body.file, body.body.shape
+    if around and primitive is not None:
+        # Grown once more by what placing the shape may have rounded, relative to its size.
+        grown = mesh_around(primitive)
+        size = 1.0 + 4.0 * curved.slack / min(_extents(grown))
+        file = remeshed(file, _scaled(grown, size))
+    return PlacedBody(replace(body.body, file=file, shape=None), SharedMesh(file, pair.settings))
+
+
+def _extents(mesh: Mesh) -> tuple[float, ...]:
+    low, high = mesh.bounds
+    return tuple(b - a for a, b in zip(low, high, strict=True))
+
+
+def _scaled(mesh: Mesh, by: float) -> Mesh:
+    return mesh.transformed(
+        [by if i == j < 3 else float(i == j) for i in range(4) for j in range(4)]
+    )

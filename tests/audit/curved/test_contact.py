@@ -1,0 +1,153 @@
+"""Curved shapes against each other, against convex meshes, against concave ones."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from satcheck.scene.primitives import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Primitive,
+    Sphere,
+)
+from tests.audit.curved.bodies import ask, bracket, hollow_box, moved, shape, tilted
+
+# Figures below are sums and differences of coordinates below 8, turned once at most.
+ROUNDING = 64 * 2.0**-50
+# Bounds of curved shapes close to this fraction of the coordinates (kCurvedGap of the core).
+CLOSED = 8 * 1e-11
+
+
+@pytest.mark.parametrize(
+    ("x", "relation", "depth"),
+    [
+        (2.5, "separated", None),
+        (2.0, "touching", None),
+        (1.5, "penetrating", 0.5),
+        (math.nextafter(2.0, 3.0), "separated", None),
+        (math.nextafter(2.0, 0.0), "penetrating", 2.0 - math.nextafter(2.0, 0.0)),
+    ],
+)
+def test_spheres_are_decided_to_the_last_digit(
+    x: float, relation: str, depth: float | None
+) -> None:
+    found = ask(shape("a", Sphere(1.0)), shape("b", Sphere(1.0), moved(x, 0, 0)), tolerance=0.0)
+    assert found.exact_relation == relation
+    if depth is not None:
+        assert found.depth == pytest.approx(depth, rel=1e-9)
+        assert found.mtv_verified
+
+
+@pytest.mark.parametrize(
+    ("primitive", "transform", "gap"),
+    [
+        (Sphere(0.5), moved(2.5, 0.0, 2.5), 1.0),
+        (Sphere(0.5), moved(-1.0, 0.0, 2.0), 0.5),
+        (Capsule(0.25, 1.0), moved(2.5, 0.0, 3.0), 1.25),
+        (Cylinder(0.5, 1.0), moved(2.0, 0.0, 3.0), 0.5),
+        (Cylinder(0.5, 1.0), tilted(90.0, 2.5, 0.0, 3.0), 1.0),
+        (Cone(0.5, 1.0), moved(3.0, 0.0, 2.0), 0.5),
+        (Ellipsoid((0.5, 1.0, 0.25)), moved(2.0, 0.0, 2.0), 0.5),
+    ],
+)
+def test_gaps_to_a_concave_mesh(
+    primitive: Primitive, transform: tuple[float, ...], gap: float
+) -> None:
+    """In the notch of the bracket, whose walls are x = 1 and z = 1, and beside it."""
+    for found in (
+        ask(shape("a", primitive, transform), bracket(), clearance=2.0),
+        ask(bracket(), shape("a", primitive, transform), clearance=2.0),
+    ):
+        assert found.exact_relation == "separated"
+        assert found.distance == pytest.approx(gap, abs=CLOSED)
+        assert found.witness is not None
+        assert found.normal is not None
+        for w, v, n in zip(found.witness.b, found.witness.a, found.normal, strict=True):
+            assert w - v == pytest.approx(gap * n, abs=CLOSED)
+
+
+@pytest.mark.parametrize(
+    ("primitive", "transform", "depth"),
+    [
+        (Sphere(0.5), moved(2.5, 0.0, 1.25), 0.25),
+        (Capsule(0.25, 1.0), moved(2.5, 0.0, 1.5), 0.25),
+        (Cylinder(0.5, 1.0), moved(2.5, 0.0, 1.25), 0.25),
+        (Cylinder(0.5, 1.0), tilted(90.0, 2.5, 0.0, 1.25), 0.25),
+    ],
+)
+def test_depth_in_a_concave_mesh(
+    primitive: Primitive, transform: tuple[float, ...], depth: float
+) -> None:
+    for found in (
+        ask(shape("a", primitive, transform), bracket()),
+        ask(bracket(), shape("a", primitive, transform)),
+    ):
+        assert found.exact_relation == "penetrating"
+        assert found.depth_bounds is not None
+        lower, upper = found.depth_bounds
+        assert lower - CLOSED <= depth <= upper + CLOSED
+        assert upper - lower < 0.02
+        assert found.mtv_verified
+
+
+def test_a_sphere_that_rests_in_the_notch_touches() -> None:
+    found = ask(shape("a", Sphere(0.5), moved(1.5, 0.0, 1.5)), bracket(), tolerance=0.0)
+    assert found.relation == "touching"
+
+
+def test_nesting() -> None:
+    small, large = shape("s", Sphere(0.25), moved(0.5, 0.0, 0.5)), shape("l", Sphere(9.0))
+    assert ask(small, bracket()).exact_relation == "inside"
+    assert ask(bracket(), small).exact_relation == "contains"
+    assert ask(large, bracket()).exact_relation == "contains"
+    assert ask(small, large).exact_relation == "inside"
+    assert ask(shape("b", Box((1.0, 1.0, 1.0))), large).exact_relation == "inside"
+    box = shape("b", Box((1.0, 1.0, 1.0)))
+    assert ask(shape("c", Cylinder(0.25, 0.5)), box).exact_relation == "inside"
+
+
+def test_a_cavity_is_no_material() -> None:
+    assert ask(shape("s", Sphere(0.5)), hollow_box()).exact_relation == "separated"
+    assert ask(shape("s", Sphere(1.25)), hollow_box()).exact_relation == "penetrating"
+    wall = shape("s", Sphere(0.25), moved(1.5, 0.0, 0.0))
+    assert ask(wall, hollow_box()).exact_relation == "inside"
+
+
+@pytest.mark.parametrize(
+    "primitive",
+    [
+        Sphere(1.0),
+        Capsule(0.5, 1.0),
+        Cylinder(0.75, 1.5),
+        Cone(1.0, 2.0),
+        Ellipsoid((1.0, 0.5, 0.75)),
+    ],
+)
+def test_random_poses_against_the_meshes_inside_and_around(primitive: Primitive) -> None:
+    """What overlaps the mesh inside overlaps the shape; what misses the one around misses it."""
+    from satcheck.audit.curved.around import mesh_around
+    from satcheck.core import Surface, mesh_relation
+    from satcheck.scene.primitives import mesh_of
+    from tests.audit.curved.bodies import l_bracket
+
+    rng = np.random.default_rng(17)
+    target, seen = Surface(l_bracket(), True), set()
+    for _ in range(60):
+        transform = tilted(rng.uniform(0, 360), *rng.uniform(-2, 5, 3))
+        found = ask(shape("a", primitive, transform), bracket(), depth_width=0.3).exact_relation
+        inner, outer = (
+            mesh_relation(Surface(mesh.transformed(transform), True), target).relation
+            for mesh in (mesh_of(primitive), mesh_around(primitive))
+        )
+        if outer == "separated":
+            assert found == "separated"
+        if inner in ("penetrating", "inside"):
+            assert found in ("penetrating", "inside")
+        seen.add(found)
+    assert {"separated", "penetrating"} <= seen
