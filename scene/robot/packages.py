@@ -47,7 +47,7 @@ class MeshPlaces:
         match = _SCHEME.fullmatch(uri)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", uri)
         if scheme in _PACKAGE_SCHEMES:
-            return self._in_package(uri, rest)
+            return self._in_package(uri, rest.lstrip("/"))  # some write package:///name
         if scheme not in ("", "file"):
             raise MeshFileError("unsupported-feature", f"{uri}: {scheme}:// is not fetched")
         place = _tidy(self._folder / (unquote(rest) if scheme else rest))

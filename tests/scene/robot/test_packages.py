@@ -71,6 +71,7 @@ def test_the_package_around_a_urdf_belongs_to_it(tmp_path: Path) -> None:
     assert places(urdf).locate("../meshes/a.stl") == mesh
     assert places(urdf).locate("package://arm/meshes/a.stl") == mesh
     assert places(urdf).locate("model://arm/meshes/a.stl") == mesh
+    assert places(urdf).locate("package:///arm/meshes/a.stl") == mesh
 
 
 def test_a_package_beside_is_found_but_has_to_be_allowed(tmp_path: Path) -> None:
