@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 FEW_POSES = 20
 # Of the pairs at most so many, the worst first.
 ROWS = 60
+# Of one pose at most so many pairs that were found.
+FOUND = 8
 # At most so many lines about single poses.
 REMARKS = 10
 # Colour only repeats what the word says.
@@ -85,23 +87,29 @@ def _poses(samples: Sequence[Sample], *, unicode: bool) -> Table:
     table.add_column("verdict")
     table.add_column("found", overflow="fold")
     for sample in samples:
-        named = [text for finding in sample.findings if (text := _found(finding))]
         table.add_row(
             str(sample.number),
             _pose(sample),
             Text(sample.verdict, style=_COLOURS[sample.verdict]),
-            "\n".join(named),
+            "\n".join(_found(sample.findings)),
         )
     return table
 
 
-def _found(finding: Finding) -> str:
-    """`base and left penetrating 0.25`; empty for a pair that does not matter."""
-    if finding.severity not in ("error", "warning"):
-        return ""
-    figure = f" {depth(finding)}" if finding.relation in OVERLAPS and finding.depth else ""
-    word = "by surfaces only" if finding.relation == "separated" else finding.relation
-    return f"{finding.a} and {finding.b} {word}{figure}"
+def _found(findings: Sequence[Finding]) -> list[str]:
+    """`base and left penetrating 0.25`, one a line, and how many more are left open."""
+    wrong = [finding for finding in findings if finding.severity == "error"]
+    lines = [f"{each.a} and {each.b} {each.relation}{_depth(each)}" for each in wrong[:FOUND]]
+    if len(wrong) > FOUND:
+        lines.append(f"{counted(len(wrong) - FOUND, 'more pair')}")
+    if undecided := sum(finding.severity == "warning" for finding in findings):
+        lines.append(f"{counted(undecided, 'pair')} undecided")
+    return lines
+
+
+def _depth(finding: Finding) -> str:
+    known = finding.relation in OVERLAPS and finding.depth is not None
+    return f" {depth(finding)}" if known else ""
 
 
 def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bool) -> Table:

@@ -142,6 +142,8 @@ def test_a_missing_mesh_is_one_body_of_many(tmp_path: Path) -> None:
         assert ran.code == 2
         assert "left: line 58: mesh file 'gone.obj' is missing" in ran.err
         assert len(ran.document["bodies"]) == 7
+    table = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf", "--sample", "1").out
+    assert "7 pairs undecided" in table
 
 
 @pytest.mark.parametrize(
