@@ -11,7 +11,7 @@ region.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -49,35 +49,34 @@ class Sides:
 
 
 def sides_of(
-    a: Exact, b: Exact, contacts: list[tuple[int, int]], quiet: bool = True
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
 ) -> Iterator[Sides]:
-    """Both sides of every cell of every triangle of A.
+    """Both sides of every cell of every triangle of A, but for regions that B does not meet and
+    that are not wanted.
 
-    contacts: all pairs of triangles that meet. quiet: leave out regions that B does not meet and
-    that lie outside of it; there nothing is inside B.
+    contacts: all pairs of triangles that meet. wanted: of a region, by whether it lies inside B.
     """
     partners: dict[int, list[int]] = {}
     for s, t in contacts:
         partners.setdefault(s, []).append(t)
-    wanted = set(partners)
-    for region, vertex in _regions(a, wanted):
-        inside = b.world.solid and _winding(b, _point(a.points[vertex])) != 0
-        if inside or not quiet:
-            wanted.update(region)
+    chosen = set(partners)
+    for region, vertex in _regions(a, chosen):
+        if wanted(b.world.solid and _winding(b, _point(a.points[vertex])) != 0):
+            chosen.update(region)
     total = 0
-    own = _own_partners(a, wanted)
-    for t in sorted(wanted):
+    own = own_partners(a, sorted(chosen))
+    for t in sorted(chosen):
         corners = a.corners(t)
         normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
         if not any(normal):
             continue
-        cuts = _cuts(corners, normal, [b.corners(u) for u in partners.get(t, [])])
-        cuts += _cuts(corners, normal, [a.corners(u) for u in own.get(t, [])])
-        for cell in _cells(cuts):
+        others = [b.corners(u) for u in partners.get(t, [])], [a.corners(u) for u in own.get(t, [])]
+        for cell in cells_of(corners, normal, *others):
             total += 1
             if total > MOST_CELLS:
                 raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
-            yield _look(a, b, t, corners, normal, cell)
+            point, (in_a, in_b) = look(corners, normal, cell, (a, b))
+            yield Sides(t, point, normal, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
 
 
 def _point(p: Vector) -> Point:
@@ -106,14 +105,12 @@ def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
         yield region.tolist(), int(a.world.triangles[region[0], 0])
 
 
-def _own_partners(a: Exact, wanted: set[int]) -> dict[int, list[int]]:
-    """Triangles of A itself that meet the wanted ones."""
+def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
+    """Triangles of A itself that meet those of the index. None where A has no inside."""
     found: dict[int, list[int]] = {}
-    if not a.world.solid or not wanted:
+    if not a.world.solid or not index:
         return found
-    index = sorted(wanted)
-    part = a.part(index)
-    for s, t in meeting(part, a):
+    for s, t in meeting(a.part(index), a):
         if index[s] != t:
             found.setdefault(index[s], []).append(t)
     return found
@@ -161,10 +158,10 @@ def _inside(edge: Segment) -> bool:
     return s > 0 and r > 0 and s + r < 2
 
 
-def _cells(cuts: list[Segment]) -> list[list[Plane]]:
-    """Convex pieces of the triangle that no cut enters."""
+def cells_of(corners: Corners, normal: Vector, *surfaces: list[Corners]) -> list[list[Plane]]:
+    """Convex pieces of a triangle, cut along all that it shares with triangles of each surface."""
     cells = [UNIT_CELL]
-    for edge in cuts:
+    for edge in (cut for others in surfaces for cut in _cuts(corners, normal, others)):
         after: list[list[Plane]] = []
         for cell in cells:
             after += _split(cell, edge) if _enters(cell, edge) else [cell]
@@ -212,25 +209,32 @@ def _split(cell: list[Plane], edge: Segment) -> list[list[Plane]]:
     return halves
 
 
-def _look(
-    a: Exact, b: Exact, triangle: int, corners: Corners, normal: Vector, cell: list[Plane]
-) -> Sides:
-    """At points of the open cell, the first of which is its middle."""
+def in_space(corners: Corners, p: Plane) -> Point:
+    x, y, z = (
+        corners[0][k]
+        + p[0] * (corners[1][k] - corners[0][k])
+        + p[1] * (corners[2][k] - corners[0][k])
+        for k in range(3)
+    )
+    return x, y, z
+
+
+def look(
+    corners: Corners, normal: Vector, cell: list[Plane], bodies: Sequence[Exact]
+) -> tuple[Point, list[tuple[bool, bool]]]:
+    """A point of the open cell and whether in front of it and behind it each body is.
+
+    Its middle, or else a point next to it: none that lies on a triangle of another plane.
+    """
     for attempt in range(ATTEMPTS):
         weights = [1 + (k * attempt) % 7 for k in range(1, len(cell) + 1)]
-        s = sum((w * p[0] for w, p in zip(weights, cell, strict=True)), Fraction()) / sum(weights)
-        r = sum((w * p[1] for w, p in zip(weights, cell, strict=True)), Fraction()) / sum(weights)
-        point: Point = tuple(  # type: ignore[assignment]
-            corners[0][k]
-            + s * (corners[1][k] - corners[0][k])
-            + r * (corners[2][k] - corners[0][k])
-            for k in range(3)
+        s, r = (
+            sum((w * p[k] for w, p in zip(weights, cell, strict=True)), Fraction()) / sum(weights)
+            for k in range(2)
         )
-        seen = [e.beside(point, normal) if e.world.solid else (0, 0) for e in (a, b)]
-        if None in seen:
-            continue
-        (front_a, back_a), (front_b, back_b) = (s or (0, 0) for s in seen)
-        return Sides(
-            triangle, point, normal, (front_a != 0, front_b != 0), (back_a != 0, back_b != 0)
-        )
+        point = in_space(corners, (s, r))
+        seen = [e.beside(point, normal) if e.world.solid else (0, 0) for e in bodies]
+        found = [(both[0] != 0, both[1] != 0) for both in seen if both is not None]
+        if len(found) == len(seen):
+            return point, found
     raise Rejected("every point tried of a piece of the contact lies on another triangle")

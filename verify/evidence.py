@@ -62,16 +62,21 @@ def on_body(value: Any, body: Exact, *, of_hull: bool) -> Point:
     shares = [rational(w) for w in weights]
     if min(shares) < 0 or sum(shares) != 1:
         raise Rejected("weights are not negative and sum to 1")
-    if (
-        not of_hull
-        and not (body.world.triangles[:, :, None] == chosen).any(axis=1).all(axis=1).any()
-    ):
-        raise Rejected("the vertices of a point on a surface are corners of one triangle")
+    if not of_hull:
+        triangle_of(chosen, body)
     points = [body.points[v] for v in chosen]
     x, y, z = (
         sum((w * p[k] for w, p in zip(shares, points, strict=True)), Fraction()) for k in range(3)
     )
     return x, y, z
+
+
+def triangle_of(vertices: list[int], body: Exact) -> int:
+    """A triangle that has all these corners."""
+    found = (body.world.triangles[:, :, None] == vertices).any(axis=1).all(axis=1)
+    if not found.any():
+        raise Rejected("the vertices of a point on a surface are corners of one triangle")
+    return int(found.argmax())
 
 
 def gap_along(a: Exact, b: Exact, n: Point) -> Fraction:

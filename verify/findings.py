@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from satcheck.verify.bodies import Placed
-from satcheck.verify.evidence import axis, gap_along, member, on_body, rational, vector
+from satcheck.verify.boundary import boundary_point
+from satcheck.verify.evidence import axis, gap_along, member, rational, vector
 from satcheck.verify.exact import Point, Rejected, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import OVERLAPS, Pair, prove, prove_free
@@ -171,7 +172,7 @@ def _check_band(
     if exact == "separated" and relation in ("touching", "near"):
         gap = member(certificate, "gap")
         ends = [
-            on_body(member(gap, key), body, of_hull=pair.convex)
+            boundary_point(member(gap, key), body, of_hull=pair.convex)
             for key, body in (("a", pair.a), ("b", pair.b))
         ]
         step = sub(ends[1], ends[0])  # type: ignore[arg-type]

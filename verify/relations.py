@@ -7,15 +7,28 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from satcheck.verify.boundary import boundary_point, contacts_if_apart
 from satcheck.verify.cells import Sides, sides_of
-from satcheck.verify.evidence import axis, exceeds, gap_along, index, member, on_body, vector
-from satcheck.verify.exact import Point, Rejected, cross, dot, sub
+from satcheck.verify.evidence import (
+    axis,
+    exceeds,
+    gap_along,
+    index,
+    member,
+    on_body,
+    triangle_of,
+    vector,
+)
+from satcheck.verify.exact import Rejected, cross, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.sheets import no_crossing
-from satcheck.verify.surfaces import close_pairs, common, meeting
+from satcheck.verify.surfaces import common, meeting
 from satcheck.verify.world import Exact, count_by_triangle
 
 OVERLAPS = ("penetrating", "contains", "inside", "coincident")
+# How a point lies: (in A, in B).
+BOTH, A_ALONE, B_ALONE = (True, True), (True, False), (False, True)
+Way = tuple[bool, bool]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,9 +54,8 @@ def prove(relation: str, certificate: Any, pair: Pair, beyond: Fraction, least: 
         ("penetrating", "overlap"): _overlap,
         ("penetrating", "crossing"): _crossing,
         ("penetrating", "polytope"): _hulls_overlap,
-        ("penetrating", "surfaces"): _nested("penetrating"),
-        ("contains", "surfaces"): _nested("contains"),
-        ("inside", "surfaces"): _nested("inside"),
+        ("contains", "surfaces"): _contains,
+        ("inside", "surfaces"): _inside,
         ("coincident", "same"): _same,
     }
     if (relation, kind) == ("separated", "axis"):
@@ -53,8 +65,7 @@ def prove(relation: str, certificate: Any, pair: Pair, beyond: Fraction, least: 
             raise Rejected("the axis does not separate the bodies by as much as claimed")
         return True
     if (relation, kind) == ("separated", "surfaces"):
-        _apart(pair, beyond, least)
-        _nested("separated")(certificate, pair)
+        _nowhere({BOTH}, pair, contacts_if_apart(pair.a, pair.b, beyond, least))
         return False
     if not isinstance(kind, str) or (relation, kind) not in proofs:
         raise Rejected(f"a certificate of this kind proves no relation {relation!r}")
@@ -73,12 +84,11 @@ def prove_free(certificate: Any, pair: Pair) -> None:
         raise Rejected("a certificate of this kind proves no way out")
 
 
-def common_point(certificate: Any, pair: Pair, *, of_hulls: bool) -> Point:
-    """{"a": point, "b": point}, which must be the same."""
-    p = on_body(member(certificate, "a"), pair.a, of_hull=of_hulls)
-    if p != on_body(member(certificate, "b"), pair.b, of_hull=of_hulls):
+def common_point(certificate: Any, pair: Pair, *, of_hulls: bool) -> None:
+    """{"a": point, "b": point}, which must be the same, of both boundaries or both hulls."""
+    p = boundary_point(member(certificate, "a"), pair.a, of_hull=of_hulls)
+    if p != boundary_point(member(certificate, "b"), pair.b, of_hull=of_hulls):
         raise Rejected("the common point is not the same point on both bodies")
-    return p
 
 
 def _weakly_separated(certificate: Any, pair: Pair) -> None:
@@ -96,115 +106,99 @@ def _touching_by_surfaces(certificate: Any, pair: Pair) -> None:
     _no_overlap(pair)
 
 
-def _apart(pair: Pair, beyond: Fraction, least: Fraction) -> None:
-    scale = 1 << pair.a.k
-    low, high = (beyond * scale) ** 2, (least * scale) ** 2
-    for _, _, squared in close_pairs(pair.a, pair.b, max(beyond, least)):
-        if squared <= low or squared < high:
-            raise Rejected("the surfaces are closer than claimed, or meet")
-
-
 def _no_overlap(pair: Pair) -> None:
+    contacts = meeting(pair.a, pair.b)
+    if pair.a.world.solid or pair.b.world.solid:
+        _nowhere({BOTH}, pair, contacts)
+    else:
+        no_crossing(pair.a, pair.b, contacts)
+
+
+def _nowhere(ways: set[Way], pair: Pair, contacts: list[tuple[int, int]]) -> None:
+    """Rejects bodies with a point that lies in one of these ways. contacts: all pairs that meet.
+
+    A region of one surface that the other does not meet lies inside of that or outside; it is
+    looked at where that is part of one of the ways. A sheet is its points, and has no inside.
+    """
     a, b = pair.a, pair.b
-    contacts = meeting(a, b)
-    if not contacts:
-        inside = [_components_inside(a, b), _components_inside(b, a)]
-        if any(any(found) for found in inside):
-            raise Rejected("a part of one body lies inside the other")
-        return
-    if not (a.world.solid or b.world.solid):
-        no_crossing(a, b, contacts)
-        return
-    swapped = [(t, s) for s, t in contacts]
-    for x, y, pairs in ((a, b, contacts), (b, a, swapped)):
+    views = [(a, b, contacts, ways)]
+    views += [(b, a, [(t, s) for s, t in contacts], {(in_b, in_a) for in_a, in_b in ways})]
+    for x, y, pairs, seen_from_x in views:
         if not y.world.solid:
             continue
-        for sides in sides_of(x, y, pairs):
-            if _overlap_beside(sides, x.world.solid):
-                raise Rejected("the interiors overlap beside a point of the contact")
+        theirs = {in_y for _, in_y in seen_from_x}
+        for sides in sides_of(x, y, pairs, theirs.__contains__):
+            if seen_from_x & _ways_beside(sides, x.world.solid):
+                raise Rejected("beside a point of the surfaces the bodies lie otherwise")
 
 
-def _overlap_beside(sides: Sides, solid: bool) -> bool:
+def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
     if solid:
-        return all(sides.front) or all(sides.back)
-    return sides.front[1] and sides.back[1]  # a sheet is its points
+        return {sides.front, sides.back}
+    # A sheet within the boundary of a solid is neither inside nor outside of it.
+    return {(True, inside) for inside in (sides.front[1],) if inside == sides.back[1]}
 
 
-def _components_inside(body: Exact, solid: Exact) -> list[bool]:
-    """Of each part of one surface, whether it lies inside a solid that it does not meet."""
-    if not solid.world.solid:
-        return [False]
-    found = []
-    for vertex in body.world.components:
-        x, y, z = body.points[vertex]
-        winding = solid.winding((Fraction(x), Fraction(y), Fraction(z)))
-        if winding is None:
-            raise Rejected("the surfaces meet")
-        found.append(winding != 0)
-    return found
+def _contains(certificate: Any, pair: Pair) -> None:
+    if not pair.a.world.solid:
+        raise Rejected("what is not solid contains nothing")
+    _has_point(BOTH, certificate, "both", pair)
+    _nowhere({B_ALONE}, pair, contacts_if_apart(pair.a, pair.b, Fraction(0), Fraction(0)))
 
 
-def _nested(relation: str) -> Callable[[Any, Pair], None]:
-    def prove_nested(_: Any, pair: Pair) -> None:
-        """Surfaces that do not meet: then each part of one lies inside the other, or outside."""
-        if relation != "separated":  # there the gap has been proven
-            _apart(pair, Fraction(0), Fraction(0))
-        b_in_a = _components_inside(pair.b, pair.a)
-        a_in_b = _components_inside(pair.a, pair.b)
-        if all(b_in_a) and not any(a_in_b):
-            found = "contains"
-        elif all(a_in_b) and not any(b_in_a):
-            found = "inside"
-        else:
-            found = "penetrating" if any(a_in_b) or any(b_in_a) else "separated"
-        if found != relation:
-            raise Rejected(f"the surfaces do not meet, and are {found}")
-        for body, inside in ((pair.a, a_in_b), (pair.b, b_in_a)):
-            if any(inside) and body.world.solid and not _has_material(body, inside):
-                raise Rejected("what lies inside has no volume")
-
-    return prove_nested
-
-
-def _has_material(body: Exact, inside: list[bool]) -> bool:
-    """Whether one of the parts that lie inside bounds material."""
-    labels = body.world.labels(body.world.triangles)
-    chosen = [v for v, yes in zip(body.world.components, inside, strict=True) if yes]
-    for t, triangle in enumerate(body.world.triangles.tolist()):
-        if int(labels[triangle[0]]) not in chosen:
-            continue
-        p, q, r = body.corners(t)
-        normal = cross(sub(q, p), sub(r, p))
-        middle = tuple(Fraction(2 * p[k] + 3 * q[k] + 4 * r[k], 9) for k in range(3))
-        beside = body.beside(middle, normal) if any(normal) else None  # type: ignore[arg-type]
-        if beside is not None and any(beside):
-            return True
-    return False
+def _inside(certificate: Any, pair: Pair) -> None:
+    if not pair.b.world.solid:
+        raise Rejected("what is not solid contains nothing")
+    _has_point(BOTH, certificate, "both", pair)
+    _nowhere({A_ALONE}, pair, contacts_if_apart(pair.a, pair.b, Fraction(0), Fraction(0)))
 
 
 def _overlap(certificate: Any, pair: Pair) -> None:
-    """A point inside both, one inside exactly one of them, and one on both surfaces."""
-    common_point(member(certificate, "meet"), pair, of_hulls=False)
-    if pair.a.world.solid and pair.b.world.solid:
-        if _inside(member(certificate, "both"), pair) != [True, True]:
-            raise Rejected("the point said to be inside both bodies is not")
-        if sum(_inside(member(certificate, "one"), pair)) != 1:
-            raise Rejected("the point said to be inside one body alone is not")
-        return
+    """A point inside both, and one inside either alone; or inside one of them alone, and a common
+    point of the boundaries. Something of a solid is always outside of a sheet."""
     if not (pair.a.world.solid or pair.b.world.solid):
         raise Rejected("two bodies without an inside have no common interior")
-    solid, sheet = (pair.a, pair.b) if pair.a.world.solid else (pair.b, pair.a)
-    p = on_body(member(certificate, "both"), sheet, of_hull=False)
-    if not solid.winding(p):
-        raise Rejected("the point of the open surface is not inside the solid")
+    _has_point(BOTH, certificate, "both", pair)
+    alone = 0
+    for key, way, other in (("a_alone", A_ALONE, pair.b), ("b_alone", B_ALONE, pair.a)):
+        if other.world.solid and key in certificate:
+            _has_point(way, certificate, key, pair)
+        alone += not other.world.solid or key in certificate
+    if alone == 0:
+        raise Rejected("no point shows that one is not the other")
+    if alone == 1:
+        common_point(member(certificate, "meet"), pair, of_hulls=False)
 
 
-def _inside(point: Any, pair: Pair) -> list[bool]:
-    x, y, z = (c * (1 << pair.a.k) for c in vector(point))
+def _has_point(way: Way, certificate: Any, key: str, pair: Pair) -> None:
+    """Of two solids: three numbers. Of a solid and a sheet: a point of the sheet."""
+    value, bodies = member(certificate, key), (pair.a, pair.b)
+    sheet = next((body for body in bodies if not body.world.solid), None)
+    inside = _solids_at(value, pair) if sheet is None else _solid_at(value, sheet, pair)
+    if inside != way:
+        raise Rejected(f"the point given as {key!r} lies otherwise")
+
+
+def _solids_at(value: Any, pair: Pair) -> Way:
+    x, y, z = (c * (1 << pair.a.k) for c in vector(value))
     windings = [body.winding((x, y, z)) for body in (pair.a, pair.b)]
     if None in windings:
         raise Rejected("a point lies on a surface")
-    return [winding != 0 for winding in windings]
+    return windings[0] != 0, windings[1] != 0
+
+
+def _solid_at(value: Any, sheet: Exact, pair: Pair) -> Way:
+    solid = pair.b if sheet is pair.a else pair.a
+    p = on_body(value, sheet, of_hull=False)
+    winding = solid.winding(p)
+    if winding is None:  # within the material or outside, if both sides of the sheet are there
+        corners = sheet.corners(triangle_of(value["vertices"], sheet))
+        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+        front, back = (any(normal) and solid.beside(p, normal)) or (0, 1)
+        if (front != 0) != (back != 0):
+            raise Rejected("a point lies on a surface")
+        winding = front
+    return (True, winding != 0) if sheet is pair.a else (winding != 0, True)
 
 
 def _crossing(certificate: Any, pair: Pair) -> None:
@@ -244,8 +238,8 @@ def _hulls_overlap(certificate: Any, pair: Pair) -> None:
         raise Rejected("the axes do not show that neither body lies inside the other")
 
 
-def _same(_: Any, pair: Pair) -> None:
-    """The same triangles; or solids whose insides differ beside no point of either surface."""
+def _same(certificate: Any, pair: Pair) -> None:
+    """The same triangles; or solids with a common point, and no point in one of them alone."""
     a, b = pair.a.world, pair.b.world
     if a.solid != b.solid:
         raise Rejected("one is a solid, the other is none")
@@ -255,9 +249,5 @@ def _same(_: Any, pair: Pair) -> None:
         return
     if not a.solid:
         raise Rejected("the surfaces do not have the same triangles")
-    contacts = meeting(pair.a, pair.b)
-    swapped = [(t, s) for s, t in contacts]
-    for x, y, pairs in ((pair.a, pair.b, contacts), (pair.b, pair.a, swapped)):
-        for sides in sides_of(x, y, pairs, quiet=False):
-            if sides.front[0] != sides.front[1] or sides.back[0] != sides.back[1]:
-                raise Rejected("the solids differ beside a point of their surfaces")
+    _has_point(BOTH, certificate, "both", pair)
+    _nowhere({A_ALONE, B_ALONE}, pair, meeting(pair.a, pair.b))

@@ -76,15 +76,14 @@ class _Maker:
             return self._apart()
         if exact == "touching":
             return self._touching()
-        if exact == "coincident":
-            return {"kind": "same"}
-        hint = self._hint() or next(overlaps.contacts(placed, None), None)
-        if hint is None:  # one lies in the other, or some of its parts do
-            return SURFACES
         solids = placed.a.world.solid + placed.b.world.solid
+        if exact in ("contains", "inside", "coincident"):
+            proof = {"kind": "same"} if exact == "coincident" else SURFACES
+            both = overlaps.inside_both(placed) if solids else None
+            return proof if both is None else {**proof, "both": both}
         if solids == 2:
-            return self._hulls_overlap() or overlaps.overlap(placed, hint)
-        return (overlaps.sheet_overlap if solids else overlaps.crossing)(placed, hint)
+            return self._hulls_overlap() or overlaps.overlap(placed, self._hint())
+        return (overlaps.sheet_overlap if solids else overlaps.crossing)(placed, self._hint())
 
     def _hint(self) -> tuple[int, int] | None:
         found = core.mesh_relation(self.pair.a.surface(), self.pair.b.surface())
@@ -141,10 +140,8 @@ class _Maker:
                     "axis": _text(shortened(outside.axis)),
                     "contact": _on_hulls(nearest.weights),
                 }
-        for s, t in overlaps.contacts(placed, self._hint()):
-            contact = overlaps.nearest_points(placed, s, t)
-            return {**SURFACES, "contact": contact}
-        return None
+        contact = overlaps.boundary_contact(placed, self._hint())
+        return None if contact is None else {**SURFACES, "contact": contact}
 
     def _hulls_overlap(self) -> Json | None:
         """For convex bodies that stick out of each other."""

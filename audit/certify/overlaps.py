@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
-from itertools import islice
+from itertools import islice, product
 from math import isqrt
 from typing import Any
 
+import numpy as np
+
+from satcheck.verify.boundary import Boundary
 from satcheck.verify.cells import sides_of
 from satcheck.verify.exact import Point, Vector, cross, dot, nearest_to_origin, sub
-from satcheck.verify.relations import Pair
+from satcheck.verify.relations import A_ALONE, B_ALONE, BOTH, Pair
 from satcheck.verify.surfaces import close_pairs, common
 from satcheck.verify.world import Exact
 
@@ -19,7 +22,12 @@ HALVINGS = 100
 MOST_CANDIDATES = 200
 SETTLED = 12  # after so many halvings two equal answers are believed, where none is known
 
+MOST_OF_A_PART = 4
+# How a point lies, (in A, in B), by the name that certificates have for it.
+WAYS = {BOTH: "both", A_ALONE: "a_alone", B_ALONE: "b_alone"}
+
 Json = dict[str, Any]
+Points = dict[str, Point]
 
 
 def as_json(value: Fraction) -> float | str:
@@ -36,12 +44,8 @@ def on_surface(body: Exact, triangle: int, weights: list[Fraction]) -> Json:
 
 
 def nearest_points(pair: Pair, s: int, t: int) -> Json:
-    """The points of two triangles next to each other; the same one where they meet."""
+    """The points of two triangles next to each other."""
     corners = pair.a.corners(s), pair.b.corners(t)
-    shared = common(*corners)
-    if shared and all(any(_normal(c)) for c in corners):
-        a, b = (_weights(c, _normal(c), shared[0]) for c in corners)
-        return {"a": on_surface(pair.a, s, a), "b": on_surface(pair.b, t, b)}
     ends = [(i, j) for i in range(3) for j in range(3)]
     _, weights = nearest_to_origin([sub(corners[0][i], corners[1][j]) for i, j in ends])
     shares = [[Fraction(0)] * 3, [Fraction(0)] * 3]
@@ -60,32 +64,73 @@ def contacts(pair: Pair, hint: tuple[int, int] | None) -> Iterator[tuple[int, in
             yield s, t
 
 
+def boundary_contact(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
+    """A common point of the boundaries."""
+    of_a, of_b = Boundary(pair.a), Boundary(pair.b)
+    for s, t in contacts(pair, hint):
+        for p, q in product(of_a.pieces(s), of_b.pieces(t)):
+            for point in common(p, q)[:1]:
+                return {"a": point_of(pair.a, s, point), "b": point_of(pair.b, t, point)}
+    return None
+
+
+def point_of(body: Exact, triangle: int, p: Point) -> Json:
+    """A point of the triangle by its weights."""
+    _, weights = nearest_to_origin([_minus(corner, p) for corner in body.corners(triangle)])
+    return on_surface(body, triangle, [weights.get(k, Fraction(0)) for k in range(3)])
+
+
+def _minus(p: Any, q: Point) -> Any:
+    return tuple(c - d for c, d in zip(p, q, strict=True))
+
+
 def overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
-    """For solids: a point inside both, one inside exactly one, and one on both surfaces.
+    """For solids: a point inside both, and one inside each alone; or one inside one of them alone,
+    and one where both end.
 
     Beside triangles that cross lie all four combinations of the sides of two surfaces. Where no
-    pair shows both (walls without thickness, faces that lie in each other) the cells of the contact
+    pair shows them (walls without thickness, faces that lie in each other) the cells of the contact
     are searched.
     """
-    found: dict[str, Point] = {}
-    meet = None
+    found: Points = {}
     for s, t in islice(contacts(pair, hint), MOST_CANDIDATES):
-        meet = meet or nearest_points(pair, s, t)
         corners = pair.a.corners(s), pair.b.corners(t)
         size = min(_height(c) for c in corners)
         for start, way in _quadrants(*corners):
-            if len(found) < 2:
-                _look(pair, start, way, size, found)
-        if len(found) == 2:
+            _look(pair, start, way, size, found)
+        if _shows_overlap(found):
             break
-    if meet is None:
-        return None
-    if len(found) < 2:
-        _search_cells(pair, found)
-    if len(found) < 2:
+    else:
+        _search_regions(pair, found, _is_complete)
+    if not _shows_overlap(found):
+        _search_cells(pair, found, _shows_overlap)
+    meet = None if _is_complete(found) else boundary_contact(pair, hint)
+    if meet is None and not _is_complete(found):
+        _search_cells(pair, found, _is_complete)
+    if not (_is_complete(found) or (meet and _shows_overlap(found))):
         return None
     points = {key: _world(point, pair.a.k) for key, point in found.items()}
-    return {"kind": "overlap", "both": points["both"], "one": points["one"], "meet": meet}
+    return {"kind": "overlap", **points, **({"meet": meet} if meet else {})}
+
+
+def _is_complete(found: Points) -> bool:
+    return len(found) == len(WAYS)
+
+
+def _shows_overlap(found: Points) -> bool:
+    return "both" in found and len(found) > 1
+
+
+def inside_both(pair: Pair) -> Json | list[float | str] | None:
+    """A point inside two solids, or one of a sheet inside a solid."""
+    found: Points = {}
+    if not (pair.a.world.solid and pair.b.world.solid):
+        return _of_sheet(pair, True)
+    for search in (_search_regions, _search_cells):
+        search(pair, found, lambda found: "both" in found)
+        if "both" in found:
+            return _world(found["both"], pair.a.k)
+    return None
 
 
 def _world(p: Point, k: int) -> list[float | str]:
@@ -127,7 +172,7 @@ def _height(t: Any) -> int:
 
 
 def _look(
-    pair: Pair, start: Point, way: Any, size: int, found: dict[str, Point], key: str | None = None
+    pair: Pair, start: Point, way: Any, size: int, found: Points, key: str | None = None
 ) -> None:
     """Shorter and shorter steps from the surface, until what is inside stays the same.
 
@@ -141,59 +186,78 @@ def _look(
         windings = [body.winding(p) for body in (pair.a, pair.b)]
         if None in windings:
             continue
-        inside = [w != 0 for w in windings]
-        found.setdefault("both" if all(inside) else "one" if any(inside) else "none", p)
+        inside = windings[0] != 0, windings[1] != 0
+        if inside in WAYS:
+            found.setdefault(WAYS[inside], p)
         settled = key in found if key else inside == before and k > SETTLED
-        if settled or len(found.keys() - {"none"}) == 2:
+        if settled or _is_complete(found):
             break
         before = inside
-    found.pop("none", None)
 
 
-def _search_cells(pair: Pair, found: dict[str, Point]) -> None:
+def _search_regions(pair: Pair, found: Points, enough: Callable[[Points], bool]) -> None:
+    """Beside a few triangles of each part of either surface."""
+    for body in (pair.a, pair.b):
+        label = body.world.labels(body.world.triangles)[body.world.triangles[:, 0]]
+        for part in np.unique(label):
+            for t in np.flatnonzero(label == part)[:MOST_OF_A_PART].tolist():
+                corners = body.corners(t)
+                normal = _normal(corners)
+                if not any(normal):
+                    continue
+                # Not the very middle: symmetric meshes have edges there.
+                p, q, r = corners
+                start: Any = tuple(Fraction(2 * p[k] + 3 * q[k] + 4 * r[k], 9) for k in range(3))
+                for way in (normal, tuple(-c for c in normal)):
+                    _look(pair, start, way, _height(corners), found)
+                if enough(found):
+                    return
+
+
+def _search_cells(pair: Pair, found: Points, enough: Callable[[Points], bool]) -> None:
+    """Beside every piece of either surface that lies where the other one meets it, or inside."""
     meeting = list(contacts(pair, None))
     swapped = [(t, s) for s, t in meeting]
     for x, y, pairs in ((pair.a, pair.b, meeting), (pair.b, pair.a, swapped)):
-        for sides in sides_of(x, y, pairs):
+        for sides in sides_of(x, y, pairs, lambda inside: inside):
             for inside, way in ((sides.front, 1), (sides.back, -1)):
-                key = "both" if all(inside) else "one" if any(inside) else "none"
-                if key != "none" and key not in found:
+                key = WAYS.get(inside if x is pair.a else (inside[1], inside[0]))
+                if key is not None and key not in found:
                     normal = tuple(way * c for c in sides.normal)
                     size = _height(x.corners(sides.triangle))
                     _look(pair, sides.point, normal, size, found, key)
-            if len(found) == 2:
+            if enough(found):
                 return
 
 
 def sheet_overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
-    """For a solid and an open surface: a point of that inside the solid, and a common one."""
+    """For a solid and an open surface: a point of that inside the solid, and one outside or where
+    the solid ends."""
+    both, key = _of_sheet(pair, True), "b_alone" if pair.a.world.solid else "a_alone"
+    if both is None:
+        return None
+    meet = boundary_contact(pair, hint)
+    if meet is not None:
+        return {"kind": "overlap", "both": both, "meet": meet}
+    alone = _of_sheet(pair, False)
+    return None if alone is None else {"kind": "overlap", "both": both, key: alone}
+
+
+def _of_sheet(pair: Pair, inside: bool) -> Json | None:
+    """A point of the open surface inside the solid, or outside of it."""
     a_is_sheet = pair.b.world.solid
     sheet, solid = (pair.a, pair.b) if a_is_sheet else (pair.b, pair.a)
-    for named in islice(contacts(pair, hint), MOST_CANDIDATES):
-        triangle = named[0 if a_is_sheet else 1]
+    meeting = [(s, t) if a_is_sheet else (t, s) for s, t in contacts(pair, None)]
+    near = [s for s, _ in meeting[:MOST_CANDIDATES]]
+    for triangle in [*near, *range(len(sheet.world.triangles))][: 2 * MOST_CANDIDATES]:
         for corner, p in enumerate(sheet.corners(triangle)):
-            if solid.winding((Fraction(p[0]), Fraction(p[1]), Fraction(p[2]))):
-                both = on_surface(sheet, triangle, [Fraction(k == corner) for k in range(3)])
-                return {"kind": "overlap", "both": both, "meet": nearest_points(pair, *named)}
-    meeting = list(contacts(pair, hint))
-    pairs = meeting if a_is_sheet else [(t, s) for s, t in meeting]
-    for sides in sides_of(sheet, solid, pairs):
-        if sides.front[1] and sides.back[1]:
-            weights = _weights(sheet.corners(sides.triangle), sides.normal, sides.point)
-            both = on_surface(sheet, sides.triangle, weights)
-            return {"kind": "overlap", "both": both, "meet": nearest_points(pair, *meeting[0])}
+            winding = solid.winding((Fraction(p[0]), Fraction(p[1]), Fraction(p[2])))
+            if winding is not None and (winding != 0) is inside:
+                return on_surface(sheet, triangle, [Fraction(k == corner) for k in range(3)])
+    for sides in sides_of(sheet, solid, meeting, inside.__eq__):
+        if sides.front[1] is sides.back[1] is inside:
+            return point_of(sheet, sides.triangle, sides.point)
     return None
-
-
-def _weights(corners: Any, normal: Vector, p: Point) -> list[Fraction]:
-    """Of a point of the triangle, on its corners."""
-    size = dot(normal, normal)
-    steps = [tuple(c - d for c, d in zip(p, corner, strict=True)) for corner in corners]
-    weights = []
-    for k in range(3):
-        u, v = steps[(k + 1) % 3], steps[(k + 2) % 3]
-        weights.append(Fraction(dot(normal, cross(u, v))) / size)
-    return weights
 
 
 def crossing(pair: Pair, hint: tuple[int, int] | None) -> Json | None:

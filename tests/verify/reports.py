@@ -55,6 +55,17 @@ def pieces(*meshes: Mesh) -> Mesh:
     return points, faces
 
 
+def turned(mesh: Mesh) -> Mesh:
+    """The same faces, seen from the other side."""
+    points, faces = mesh
+    return points, [face[::-1] for face in faces]
+
+
+def wall(x: float, y: float, z: float) -> Mesh:
+    """A closed surface around nothing: a box and the same box turned."""
+    return pieces(unit_box(x, y, z), turned(unit_box(x, y, z)))
+
+
 # name: (relation, kind, A, B)
 PAIRS: dict[str, tuple[str, str, Mesh, Mesh]] = {
     "boxes-apart": ("separated", "axis", unit_box(), unit_box(3.0)),
@@ -69,9 +80,59 @@ PAIRS: dict[str, tuple[str, str, Mesh, Mesh]] = {
     "box-in-bracket": ("contains", "surfaces", bracket(), unit_box(0.5, 0.5, 1.0)),
     "one-of-two": (
         "penetrating",
-        "surfaces",
+        "overlap",
         unit_box(edge=4.0),
         pieces(unit_box(1.0, 1.0, 1.0), unit_box(8.0)),
+    ),
+    # Walls of no thickness and faces within the material: no boundary of a body.
+    "wall-at-box": ("separated", "surfaces", pieces(wall(0, 0, 0), unit_box(5.0)), unit_box()),
+    "wall-in-box": (
+        "separated",
+        "surfaces",
+        pieces(wall(1, 1, 1), unit_box(9.0)),
+        unit_box(edge=4.0),
+    ),
+    "wall-and-touch": (
+        "touching",
+        "surfaces",
+        pieces(wall(0, 0, 0), unit_box(5.0)),
+        pieces(unit_box(), unit_box(6.0)),
+    ),
+    "wall-sticks-out": (
+        "contains",
+        "surfaces",
+        unit_box(edge=4.0),
+        pieces(unit_box(1.0, 1.0, 1.0), wall(3.5, 1.0, 1.0)),
+    ),
+    "face-within": (
+        "contains",
+        "surfaces",
+        pieces(unit_box(edge=4.0), unit_box(2.0, 2.0, 2.0, edge=4.0)),
+        unit_box(1.5, 1.5, 1.5),
+    ),
+    "within-face": (
+        "inside",
+        "surfaces",
+        unit_box(1.5, 1.5, 1.5),
+        pieces(unit_box(edge=4.0), turned(unit_box(2.0, 2.0, 2.0, edge=4.0))),
+    ),
+    "face-within-flush": (
+        "penetrating",
+        "overlap",
+        pieces(unit_box(edge=4.0), unit_box(2.0, 2.0, 2.0, edge=4.0)),
+        unit_box(1.5, 1.5, 0.0),
+    ),
+    "sheet-at-face-within": (
+        "contains",
+        "surfaces",
+        pieces(unit_box(edge=4.0), unit_box(2.0, 2.0, 2.0, edge=4.0)),
+        moved(sheet(edge=1.0), 2.5, 2.5, 2.0),
+    ),
+    "same-with-face-within": (
+        "coincident",
+        "same",
+        unit_box(edge=4.0),
+        pieces(unit_box(edge=4.0), unit_box(1.0, 1.0, 1.0)),
     ),
     "same-box": ("coincident", "same", unit_box(), unit_box()),
     "sheets-cross": ("penetrating", "crossing", sheet(), upright()),

@@ -1,0 +1,207 @@
+"""Walls of no thickness and faces within the material: on piles of boxes, beside voxels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import islice, product
+from typing import Any
+
+import numpy as np
+import pytest
+
+from satcheck.audit.certify import overlaps
+from satcheck.verify.boundary import Boundary
+from satcheck.verify.exact import Rejected, cross, dot, sub
+from satcheck.verify.relations import Pair, prove
+from satcheck.verify.surfaces import common, meeting
+from satcheck.verify.world import Exact, World
+from tests.audit.shapes import BOX_FACES, box
+from tests.verify.reports import Json, forged
+
+RELATIONS = ("separated", "touching", "penetrating", "contains", "inside", "coincident")
+EDGE = 5  # of the grid
+MEETS = 3  # common points that are offered for one falsehood
+# Boxes by their corners, and how often their surfaces run around them.
+Pile = list[tuple[tuple[int, ...], tuple[int, ...], int]]
+
+
+def solid(pile: Pile, split: int = 0) -> Exact:
+    """split: which diagonals, by bits."""
+    points: list[Any] = []
+    triangles: list[tuple[int, int, int]] = []
+    for number, (low, high, times) in enumerate(pile):
+        corners, _ = box(low, high)  # type: ignore[arg-type]
+        for face in BOX_FACES:
+            p, q, r, s = (len(points) + k for k in (face if times > 0 else face[::-1]))
+            either = [(p, q, r), (p, r, s)], [(q, r, s), (q, s, p)]
+            triangles += either[(split >> number) & 1] * abs(times)
+        points += corners
+    return Exact(World(np.array(points, dtype=float), np.array(triangles), True), 0)
+
+
+def voxels(pile: Pile) -> Any:
+    """Which cells of the grid, with a margin around it, the pile fills."""
+    winding = np.zeros((EDGE + 2,) * 3, dtype=int)
+    for low, high, times in pile:
+        x, y, z = (slice(p + 1, q + 1) for p, q in zip(low, high, strict=True))
+        winding[x, y, z] += times
+    return winding != 0
+
+
+def corners_of_boundary(filled: Any) -> set[tuple[int, ...]]:
+    """The corners of all unit squares between a cell of the pile and one outside."""
+    found = set()
+    for axis in range(3):
+        before = np.moveaxis(filled, axis, 0)
+        for square in np.argwhere(before[1:] != before[:-1]):
+            for step in product((0, 1), repeat=2):
+                corner = [square[1] + step[0], square[2] + step[1]]
+                corner.insert(axis, square[0] + 1)
+                found.add(tuple(int(c) for c in corner))
+    return found
+
+
+def relation_of(a: Pile, b: Pile) -> str:
+    p, q = voxels(a), voxels(b)
+    both, a_alone, b_alone = ((p & q).any(), (p & ~q).any(), (q & ~p).any())
+    contact = bool(corners_of_boundary(p) & corners_of_boundary(q))
+    if not both:
+        return "touching" if contact else "separated"
+    if not a_alone and not b_alone:
+        return "coincident"
+    if contact or (a_alone and b_alone):
+        return "penetrating"
+    return "contains" if a_alone else "inside"
+
+
+def random_pile(rng: np.random.Generator, low: int, high: int, boxes: int) -> Pile:
+    """Boxes between two planes of x, every third with a wall, or the same box again, beside it."""
+    pile: Pile = []
+    for _ in range(rng.integers(1, boxes + 1)):
+        pile += [(*random_box(rng, low, high), 1)]
+        if rng.random() < 0.3:
+            pile += [(*pile[-1][:2], 1)]
+        if rng.random() < 0.3:
+            ends = random_box(rng, 0, EDGE)
+            pile += [(*ends, 1), (*ends, -1)]
+    return pile
+
+
+def random_box(
+    rng: np.random.Generator, low: int, high: int
+) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    ranges = (low, high), (1, EDGE - 1), (1, EDGE - 1)
+    ends = [sorted(rng.choice(np.arange(p, q + 1), 2, replace=False).tolist()) for p, q in ranges]
+    return tuple(e[0] for e in ends), tuple(e[1] for e in ends)
+
+
+def pile_pairs() -> Iterator[tuple[Pile, Pile, Pair, int]]:
+    """Piles anywhere, side by side, within each other, and that fill the same box."""
+    rng = np.random.default_rng(8)
+    whole: Pile = [((0, 0, 0), (EDGE, EDGE, EDGE), 1)]
+    for number in range(24):
+        a, b = (random_pile(rng, 1, EDGE - 1, 2) for _ in range(2))
+        kind = number % 6
+        if kind in (1, 2):
+            a, b = random_pile(rng, 0, 2, 2), random_pile(rng, 1 + kind, EDGE, 2)
+        if kind in (3, 5):
+            a = [*a, *whole]
+        if kind in (4, 5):
+            b = [*b, *whole]
+        splits = rng.integers(0, 256, 2).tolist()
+        yield a, b, Pair(solid(a, splits[0]), solid(b, splits[1]), False), number
+
+
+def true_evidence(relation: str, pair: Pair) -> Json | None:
+    if relation == "touching":
+        return {"kind": "surfaces", "contact": overlaps.boundary_contact(pair, None)}
+    if relation == "penetrating":
+        return overlaps.overlap(pair, None)
+    kind = "same" if relation == "coincident" else "surfaces"
+    return {"kind": kind, "both": overlaps.inside_both(pair)}
+
+
+def proves(relation: str, certificate: Json | None, pair: Pair) -> bool:
+    try:
+        prove(relation, certificate, pair, Fraction(0), Fraction(0))
+    except Rejected:
+        return False
+    return True
+
+
+def all_evidence(relation: str, a: Pile, b: Pile, pair: Pair) -> Iterator[Json]:
+    """What a forger has who knows the bodies: a point of each way that there is, and corners of
+    what triangles of the two surfaces share, boundary or not."""
+    p, q = voxels(a), voxels(b)
+    ways = {"both": p & q, "a_alone": p & ~q, "b_alone": q & ~p}
+    points = {
+        key: (np.argwhere(cells)[0] - 0.5).tolist() for key, cells in ways.items() if cells.any()
+    }
+    if relation not in ("touching", "penetrating"):
+        yield {"kind": "same" if relation == "coincident" else "surfaces", **points}
+        return
+    if relation == "penetrating":
+        yield {"kind": "overlap", **points}
+    meets = {
+        point: (s, t)
+        for s, t in meeting(pair.a, pair.b)
+        for point in common(pair.a.corners(s), pair.b.corners(t))
+    }
+    step = 1 + len(meets) // MEETS
+    for point, (s, t) in islice(meets.items(), 0, None, step):
+        meet = {"a": overlaps.point_of(pair.a, s, point), "b": overlaps.point_of(pair.b, t, point)}
+        touching = {"kind": "surfaces", "contact": meet}
+        yield touching if relation == "touching" else {"kind": "overlap", **points, "meet": meet}
+
+
+def test_piles_of_boxes_are_what_their_voxels_are() -> None:
+    seen = dict.fromkeys(RELATIONS, 0)
+    for a, b, pair, number in pile_pairs():
+        truth = relation_of(a, b)
+        seen[truth] += 1
+        assert proves(truth, true_evidence(truth, pair), pair), (number, truth)
+        for relation in set(RELATIONS) - {truth}:
+            for certificate in all_evidence(relation, a, b, pair):
+                assert not proves(relation, certificate, pair), (number, truth, certificate)
+    assert min(seen.values()) > 1, seen
+
+
+def area(body: Exact) -> float:
+    """Of the boundary."""
+    boundary, total = Boundary(body), 0.0
+    for t in range(len(body.world.triangles)):
+        for p, q, r in boundary.pieces(t):
+            normal = cross(sub(q, p), sub(r, p))
+            total += float(dot(normal, normal)) ** 0.5 / 2
+    return total
+
+
+@pytest.mark.parametrize(
+    ("pile", "expected"),
+    [
+        ([((0, 0, 0), (4, 4, 4), 1)], 96.0),
+        ([((0, 0, 0), (4, 4, 4), 1), ((1, 1, 1), (3, 3, 3), -1)], 120.0),  # hollow
+        ([((0, 0, 0), (4, 4, 4), 1), ((1, 1, 1), (3, 3, 3), 1)], 96.0),
+        ([((0, 0, 0), (4, 4, 4), 1), ((2, 2, 2), (6, 6, 6), 1)], 168.0),
+        ([((0, 0, 0), (4, 4, 4), 1), ((2, 2, 2), (6, 6, 6), -1)], 192.0),
+        ([((0, 0, 0), (4, 4, 4), 1), ((0, 0, 0), (4, 4, 4), -1)], 0.0),
+        ([((0, 0, 0), (2, 2, 2), 1), ((2, 0, 0), (4, 2, 2), 1)], 40.0),
+    ],
+)
+@pytest.mark.parametrize("split", [0, 1, 3])
+def test_the_boundary_of_a_pile(pile: Pile, expected: float, split: int) -> None:
+    assert area(solid(pile, split)) == expected
+
+
+def test_a_gap_to_a_wall_makes_nothing_near() -> None:
+    """The box is next to a wall of A, and far from its material."""
+
+    def forge(finding: Json) -> None:
+        finding.update(relation="touching", severity="note")
+        corner = {"vertices": [0], "weights": [1]}
+        finding["certificate"]["gap"] = {"a": corner, "b": corner}
+
+    found = forged("wall-at-box", forge).findings[0]
+    assert found.outcome == "rejected"
+    assert "no thickness" in (found.reason or "")

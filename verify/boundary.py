@@ -1,0 +1,99 @@
+"""Where a solid ends: what of its surface has material on one side and none on the other.
+
+A solid is the points that its surface runs around, with a winding number other than 0. So a wall
+of no thickness (outside on both sides) and a face within the material (inside on both) are no
+boundary. Cut along all that it shares with others of its surface, a triangle falls into cells that
+are boundary all over or nowhere. Of a surface that is not solid all points count.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise, product
+from typing import Any
+
+import numpy as np
+
+from satcheck.verify.cells import cells_of, in_space, look, own_partners
+from satcheck.verify.evidence import on_body
+from satcheck.verify.exact import Point, Rejected, cross, dot, nearest_to_origin, sub
+from satcheck.verify.surfaces import close_pairs, common
+from satcheck.verify.world import Exact
+
+Piece = tuple[Any, Any, Any]  # the corners of a triangle, rational
+
+
+class Boundary:
+    """By triangles, each looked at once."""
+
+    def __init__(self, body: Exact) -> None:
+        self.body = body
+        self._pieces: dict[int, list[Piece]] = {}
+
+    def pieces(self, t: int) -> list[Piece]:
+        """Closed triangles, that together are what of triangle t is boundary."""
+        if t not in self._pieces:
+            self._pieces[t] = self._cut(t)
+        return self._pieces[t]
+
+    def _cut(self, t: int) -> list[Piece]:
+        body = self.body
+        corners = body.corners(t)
+        if not body.world.solid:
+            return [corners]
+        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+        if not any(normal):
+            return []
+        others = [body.corners(u) for u in own_partners(body, [t]).get(t, [])]
+        found: list[Piece] = []
+        for cell in cells_of(corners, normal, others):
+            _, [(front, back)] = look(corners, normal, cell, [body])
+            if front != back:
+                polygon = [in_space(corners, p) for p in cell]
+                found += [(polygon[0], p, q) for p, q in pairwise(polygon[1:])]
+        return found
+
+    def holds(self, p: Point) -> bool:
+        """p: on the lattice of the body."""
+        world = self.body.world
+        at = [float(c / (1 << self.body.k)) for c in p]
+        low, high = np.nextafter(at, -np.inf), np.nextafter(at, np.inf)
+        near = np.flatnonzero((world.low <= high).all(axis=1) & (world.high >= low).all(axis=1))
+        point: Piece = (p, p, p)
+        return any(common(piece, point) for t in near.tolist() for piece in self.pieces(t))
+
+
+def boundary_point(value: Any, body: Exact, *, of_hull: bool) -> Point:
+    """The point of the evidence, which must be one where the body ends; or of a convex body any."""
+    p = on_body(value, body, of_hull=of_hull)
+    if not of_hull and not Boundary(body).holds(p):
+        raise Rejected("a point lies on a wall of no thickness, or within the material")
+    return p
+
+
+def contacts_if_apart(
+    a: Exact, b: Exact, beyond: Fraction, least: Fraction
+) -> list[tuple[int, int]]:
+    """The pairs of triangles that meet. Rejects bodies whose boundaries meet, or are not over
+    `beyond` and at least `least` apart."""
+    scale = 1 << a.k
+    low, high = (beyond * scale) ** 2, (least * scale) ** 2
+    of_a, of_b = Boundary(a), Boundary(b)
+    contacts = []
+    for s, t, squared in close_pairs(a, b, max(beyond, least)):
+        if squared == 0:
+            contacts.append((s, t))
+        if squared > low and squared >= high:
+            continue
+        for p, q in product(of_a.pieces(s), of_b.pieces(t)):
+            step = _distance_squared(p, q)
+            if step <= low or step < high:
+                raise Rejected("the boundaries are closer than claimed, or meet")
+    return contacts
+
+
+def _distance_squared(p: Piece, q: Piece) -> Fraction:
+    if common(p, q):
+        return Fraction(0)
+    x, _ = nearest_to_origin([sub(v, u) for u in p for v in q])
+    return Fraction(dot(x, x))
