@@ -12,10 +12,12 @@ import numpy as np
 
 from satcheck.scene import Body, MeshFile, MeshFileError
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.primitives import primitive_of
+from satcheck.scene.primitives import is_curved, primitive_of
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
+
+CURVED = "a curved shape, of which no mesh tells the whole: nothing about it is certified"
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +101,11 @@ class Bodies:
         key = (file, None, json.dumps(values))
         if key not in self._shapes:
             try:
-                self._shapes[key] = _checked_shape(shape_file(primitive_of(values), file))
+                primitive = primitive_of(values)
+                if is_curved(primitive):
+                    self._shapes[key] = CURVED
+                    return CURVED
+                self._shapes[key] = _checked_shape(shape_file(primitive, file))
             except (MeshFileError, ValueError) as error:
                 self._shapes[key] = f"{file}: not a shape: {error}"
         return self._shapes[key]

@@ -25,6 +25,8 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
     """A certificate that the checker accepts, or why there is none."""
     if finding.exact_relation is None:
         return "the relation is not proven"
+    if pair.curved:
+        return "a curved shape: the checker knows meshes only"
     a, b = pair.a.checked(), pair.b.checked()
     asked = Asked(
         pair.asked.tolerance,

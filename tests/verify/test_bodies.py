@@ -10,7 +10,7 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.scene import Body, Scene
-from satcheck.scene.primitives import Box
+from satcheck.scene.primitives import Box, Sphere
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
 from tests.cli.process import VALIDATOR
@@ -74,3 +74,13 @@ def test_groups_that_are_no_list_of_texts_make_it_no_report(groups: Any) -> None
     document["bodies"][0]["groups"] = groups
     with pytest.raises(Rejected, match="groups of a body"):
         verified(document)
+
+
+def test_the_mesh_within_a_curved_shape_proves_nothing() -> None:
+    sphere, apart = Sphere(1.0), (*SHIFT[:3], 3.0, *SHIFT[4:])
+    first = Body("a", "a", shape_file(sphere, "cell.toml"), shape=sphere)
+    scene = Scene("", None, (first, replace(first, id="b", transform=apart)))
+    for settings in (Settings(certificate=True), Settings(certificate=True, list_pruned=False)):
+        document = json.loads(json.dumps(check(scene, settings).to_dict()))
+        assert all(finding["certificate"] is None for finding in document["findings"])
+        assert not verified(document).accepted
