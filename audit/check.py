@@ -60,6 +60,8 @@ def check(
     scene = _loaded(scene, settings)
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
+    if scene.motions:  # a check of the placements alone would read as one of the motion
+        raise SatcheckError("unsupported-feature", "the scene has motions, which are not checked")
     roster = place(scene, settings, meshes)
     planner = Planner(settings, roster.book, scene.composed)
     close = close_pairs(roster, planner)

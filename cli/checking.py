@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from satcheck.cli import exit_codes
-from satcheck.cli.lengths import Length
+from satcheck.cli.lengths import in_units_of
 from satcheck.cli.output import PLAIN_PAGE, CannotWrite, Document, talk, write_file
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from satcheck.cli.posing import Posing
     from satcheck.scene import Scene
     from satcheck.scene.loader import Split
+    from satcheck.scene.units import Length
 
 # With -o at most this many warnings are repeated on stderr.
 WARNINGS = 5
@@ -58,6 +59,7 @@ class Choices:
     exit_zero: bool
     debug: bool
     packages: Mapping[str, Path]
+    allow_outside: bool
     posing: Posing
 
 
@@ -65,7 +67,7 @@ def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
     refuse_early(choices.paths, choices.output)
     document = Document()
-    scene = load(choices.paths, choices.packages, choices.split)
+    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside)
     if len(scene.bodies) > SMALL_BODIES or any(
         body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
@@ -114,6 +116,7 @@ def load(
     paths: tuple[str, ...],
     packages: Mapping[str, Path] | None = None,
     split: Split | None = None,
+    allow_outside: bool = False,
 ) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone, and
     for a split of what says itself what its bodies are."""
@@ -123,7 +126,7 @@ def load(
 
     if split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
-    scene = load_scene(paths, split=split, packages=packages)
+    scene = load_scene(paths, split=split, packages=packages, allow_outside=allow_outside)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])
@@ -161,7 +164,7 @@ def settings_of(choices: Choices, scene: Scene) -> Any:
     from satcheck.audit import Settings
 
     def length(given: Length | None, option: str) -> float | None:
-        return None if given is None else given.in_units_of(scene.units, option)
+        return None if given is None else in_units_of(given, scene.units, option)
 
     return Settings(
         depth=choices.depth,

@@ -1,4 +1,4 @@
-"""The process: whatever happens inside becomes one exit code and at most one line of error."""
+"""The process: whatever happens inside becomes one exit code and a line or so of error."""
 
 from __future__ import annotations
 
@@ -59,10 +59,13 @@ def _stopped(stop: SystemExit, *, reader_left: bool) -> int:
 
 
 def _told(error: Exception) -> str:
-    """One line. What nobody imported nobody raised: the core stays out of `--help`."""
+    """A line for each thing that is wrong.
+
+    What nobody imported nobody raised: the core stays out of `--help`.
+    """
     errors = sys.modules.get("satcheck.core.errors")
     if errors is not None and isinstance(error, errors.SatcheckError):
-        return f"error: {error} [{error.code}]"
+        return "\nsatcheck: ".join(f"error: {e} [{e.code}]" for e in (error, *error.others))
     first, *_ = [*str(error).strip().splitlines(), "no message"]
     name = type(error).__name__
     return f"internal error: {name}: {first} [internal-error] (--debug shows where)"

@@ -8,7 +8,7 @@ class SatcheckError(Exception):
 
     `code` is kebab-case and stable: scripts may rely on it. `message` says what happened, where,
     and what to do about it. `file` and `body` name the culprit where there is one; `str(error)`
-    starts with them.
+    starts with them. `others`: what else is wrong, where one error stands for several.
     """
 
     def __init__(
@@ -19,6 +19,7 @@ class SatcheckError(Exception):
         self.message = message
         self.file = file
         self.body = body
+        self.others: tuple[SatcheckError, ...] = ()
 
     def __str__(self) -> str:
         where = [self.file] if self.file else []

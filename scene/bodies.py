@@ -55,7 +55,8 @@ class Body:
     transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1), affine and not
     singular; None: as in the file. groups: bodies of one group may be exempt from each other.
     shape: what `file` is the mesh of; None: a file on disk. path: of the node within the file;
-    None: all of the file.
+    None: all of the file. static: one of the surroundings, see `Scene.check_static`. pinned: stays
+    where it is when a scene is pulled apart.
     """
 
     id: str
@@ -66,6 +67,7 @@ class Body:
     static: bool = False
     shape: Primitive | None = None
     path: str | None = None
+    pinned: bool = False
 
     def world_mesh(self) -> Mesh:
         """The mesh in world coordinates, each rounded once; ValueError when one overflows."""

@@ -78,8 +78,9 @@ _ALL = (
     Code("planar-only", "error", "A drawing is flat: it is checked in a plane only."),
     Code("planar-motion", "error", "A scene with motions is not checked in a plane."),
     # The scene file.
-    Code("bad-scene", "error", "The scene file is not of the form satcheck-scene-1."),
+    Code("bad-scene", "error", "The scene file is not what its form prescribes."),
     Code("duplicate-id", "error", "Two bodies of a scene have the same id."),
+    Code("bad-rule", "error", "A rule of a scene is not one, or asks nothing."),
     Code("bad-motion", "error", "A motion of a scene is not one, or moves a body twice."),
     Code("unknown-key", "warning", "A key at the top of the scene file is not known: ignored."),
     Code("unknown-units", "warning", "The declared units are no known unit of length."),

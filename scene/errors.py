@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from satcheck.core.errors import SatcheckError
 
 
@@ -10,4 +12,31 @@ class MeshFileError(SatcheckError):
 
 
 class SceneFileError(SatcheckError):
-    """A scene file cannot be used, and nothing of it is."""
+    """A scene file cannot be used, and nothing of it is.
+
+    line: of the file, where one is to blame.
+    """
+
+    def __init__(
+        self,
+        code: str,
+        message: str,
+        *,
+        file: str | None = None,
+        body: str | None = None,
+        line: int | None = None,
+    ) -> None:
+        super().__init__(code, message, file=file, body=body)
+        self.line = line
+
+    @classmethod
+    def of_several(cls, errors: Sequence[SceneFileError]) -> SceneFileError:
+        """The first of them, which knows the others."""
+        first, *others = errors
+        first.others = tuple(others)
+        return first
+
+    def __str__(self) -> str:
+        if self.line is None:
+            return super().__str__()
+        return f"{self.file}:{self.line}: {self.message}"

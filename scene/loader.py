@@ -16,16 +16,17 @@ from satcheck.scene.mesh_files import (
     MeshFiles,
 )
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames, plain_ids
-from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.units import is_unit
 
 if TYPE_CHECKING:
+    from satcheck.scene.format.entries import BodyEntry, MeshPath
+    from satcheck.scene.format.joined import JoinedScenes
     from satcheck.scene.primitives import Primitive
     from satcheck.scene.robot import SceneRobot, Srdf
 
 Split = Literal["nodes", "components", "none"]
 
-SCENE_SUFFIX = ".json"
+SCENE_SUFFIXES = frozenset((".json", ".toml"))
 ROBOT_SUFFIXES = frozenset((".urdf", ".xacro"))
 SRDF_SUFFIX = ".srdf"
 ROBOT_UNITS = "m"  # of every URDF
@@ -47,12 +48,15 @@ def load_scene(
     for each node of a GLB or glTF file with a mesh, and for each way from the build of a 3MF file
     to an object with a mesh; other formats have no nodes. "components": these taken apart into
     pieces that share no edge. None: "nodes" for one file alone, otherwise "none".
-    A `.json` file is a scene of the form satcheck-scene-1.
+    A `.toml` file is a scene of the form satcheck.scene/1, a `.json` file one of this form or of
+    satcheck-scene-1; its rules are about its own bodies alone, and so are its groups, which get -2,
+    -3, ... where several scenes have them.
     A `.urdf` file is a robot at rest, a body for each <collision>; a `.srdf` file says which of its
     links may touch. packages: where the packages lie that a URDF names, see `robot.MeshPlaces`.
     Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
     the id of their file where there are several), with -2, -3, ... where they occur again.
-    allow_outside: a robot's meshes, and the buffers of a glTF file, may lie outside of its folder.
+    allow_outside: the files that a scene, a robot or a glTF file names may lie outside of its
+    folder.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file, or a node of one, that cannot be used becomes an Unreadable with an error issue and
@@ -67,8 +71,8 @@ def load_scene(
         split = "nodes" if alone else "none"
     for path in given:
         suffix = _suffix(path)
-        if suffix == SCENE_SUFFIX:
-            loader.add_scene(path, Path(path))
+        if suffix in SCENE_SUFFIXES:
+            loader.add_scene(path, Path(path), allow_outside)
         elif suffix in ROBOT_SUFFIXES:
             loader.add_robot(path, Path(path), packages, allow_outside)
         elif suffix == SRDF_SUFFIX:
@@ -86,7 +90,7 @@ def _suffix(path: str) -> str:
 
 def is_mesh(path: str) -> bool:
     """Whether it is to be read as a mesh file, and not as a scene or a robot."""
-    return _suffix(path) not in (SCENE_SUFFIX, SRDF_SUFFIX, *ROBOT_SUFFIXES)
+    return _suffix(path) not in {SRDF_SUFFIX, *SCENE_SUFFIXES, *ROBOT_SUFFIXES}
 
 
 class _Loader:
@@ -99,8 +103,8 @@ class _Loader:
         self._only_meshes = True
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
-        self._ignored_groups: set[str] = set()
-        self._rules: list[Rule] = []
+        self._shapes: dict[tuple[Primitive, str], MeshFile | MeshFileError] = {}
+        self._scenes: JoinedScenes | None = None
         self._taken_apart = False
         self._robots: list[SceneRobot] = []
         self._srdfs: list[Srdf] = []
@@ -126,38 +130,56 @@ class _Loader:
             title = wanted if node.path else name
             self._add(wanted, title, path, node.file, node.transform, node=node.path)
 
-    def add_scene(self, path: str, location: Path) -> None:
-        from satcheck.scene.scene_file import read_scene_file
+    def add_scene(self, path: str, location: Path, allow_outside: bool) -> None:
+        from satcheck.scene.format.joined import JoinedScenes
+        from satcheck.scene.format.reading import read_scene_file
 
-        scene = read_scene_file(path, location)
+        scene = read_scene_file(path, location, allow_outside=allow_outside)
         self._names.append(scene.name)
         self._only_meshes = False
         if scene.units:
             self._units.append(scene.units)
-        ids = {
-            entry.id: self._add_body(
-                entry.id,
-                entry.id,
-                entry.mesh,
-                entry.location,
-                entry.transform,
-                entry.groups,
-                entry.static,
-            )
-            for entry in scene.bodies
-        }
-        self._ignored_groups |= scene.ignore_within_groups
-        self._rules += [
-            Rule(
-                a=Selector.exactly(ids[pair.a]),
-                b=Selector.exactly(ids[pair.b]),
-                allowed=True,
-                reason=pair.reason,
-                where=pair.where,
-            )
-            for pair in scene.allowed_pairs
-        ]
+        self._scenes = self._scenes or JoinedScenes()
+        groups = self._scenes.groups_of(scene)
+        ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
+        self._scenes.add(scene, ids, groups)
         self._issues.extend(scene.issues)
+
+    def _add_entry(self, entry: BodyEntry, names: Mapping[str, str], path: str) -> str:
+        """names: of its groups here. path: of the scene file."""
+        file: MeshFile | MeshFileError
+        transform = entry.transform
+        if entry.shape is not None:
+            file = self._shape(entry.shape, path)
+        else:
+            path = entry.mesh.path
+            if entry.part is None:
+                file = self._files.whole(path, entry.mesh.location)
+            else:
+                file, transform = self._part(entry.mesh, entry.part, transform)
+        return self._add(
+            entry.id,
+            entry.id,
+            path,
+            file,
+            transform,
+            tuple(names[group] for group in entry.groups),
+            entry.static,
+            entry.shape,
+            entry.part,
+            entry.pinned,
+        )
+
+    def _part(
+        self, mesh: MeshPath, part: str, transform: Transform | None
+    ) -> tuple[MeshFile | MeshFileError, Transform | None]:
+        """The part, and where it is when the file is placed by the transform."""
+        from satcheck.scene.loading.placing import multiply
+
+        found = self._files.part(mesh.path, mesh.location, part)
+        if isinstance(found, MeshFileError):
+            return found, None
+        return found.file, multiply(transform, found.transform)
 
     def _add_body(
         self,
@@ -222,23 +244,29 @@ class _Loader:
         static: bool = False,
         shape: Primitive | None = None,
         node: str | None = None,
+        pinned: bool = False,
     ) -> str:
         id_ = self._ids.unique(wanted)
         self._order.append(id_)
         if isinstance(file, MeshFile):
-            self._bodies.append(Body(id_, name, file, transform, groups, static, shape, node))
+            self._bodies.append(
+                Body(id_, name, file, transform, groups, static, shape, node, pinned)
+            )
         else:
             reason = issue(file.code, str(file), body=id_, file=path)
             self._unreadable.append(Unreadable(id_, path, reason, groups, node, static))
         return id_
 
     def _shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
+        """Made once however many bodies have it."""
         from satcheck.scene.shape_file import shape_file
 
-        try:
-            return shape_file(shape, path)
-        except MeshFileError as error:
-            return error
+        if (shape, path) not in self._shapes:
+            try:
+                self._shapes[shape, path] = shape_file(shape, path)
+            except MeshFileError as error:
+                self._shapes[shape, path] = error
+        return self._shapes[shape, path]
 
     def scene(self) -> Scene:
         scene = self._bodies_and_files()
@@ -262,14 +290,17 @@ class _Loader:
 
     def _bodies_and_files(self) -> Scene:
         units = self._units_of_files() if self._only_meshes else set(self._units)
+        scenes = self._scenes
         return Scene(
             name=" ".join(self._names),
             units=units.pop() if len(units) == 1 else None,
             bodies=tuple(self._bodies),
             unreadable=tuple(self._unreadable),
             order=tuple(self._order),
-            ignore_within_groups=frozenset(self._ignored_groups),
-            rules=tuple(self._rules),
+            ignore_within_groups=frozenset(scenes.ignored if scenes else ()),
+            rules=scenes.rules([*self._bodies, *self._unreadable]) if scenes else (),
+            check_static=scenes is None or scenes.check_static,
+            motions=tuple(scenes.motions if scenes else ()),
             composed=self._taken_apart or not self._only_meshes,
             issues=(
                 *self._issues,

@@ -12,6 +12,7 @@ from satcheck.cli.commands.options import (
     form_of,
     form_option,
     output_option,
+    outside_option,
     paths_argument,
 )
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
@@ -196,6 +197,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Leave out times: same input, same bytes.",
 )
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 even when something was found.")
+@outside_option
 @package_option
 @pose_options
 @debug_option

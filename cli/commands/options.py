@@ -53,4 +53,10 @@ output_option = click.option(
     callback=_file_or_nothing,
     help="Write the report to FILE; - is standard output.",
 )
+outside_option = click.option(
+    "--allow-outside",
+    is_flag=True,
+    help="Read files that lie outside of the folder of the scene, robot or glTF file that names "
+    "them.",
+)
 debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")

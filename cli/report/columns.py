@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 from rich.cells import cell_len, chop_cells
 
 from satcheck.audit.report import OVERLAPS
-from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.numbers import duration, number, vector
 from satcheck.cli.report.words import contacts, depth
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.audit.report import Finding

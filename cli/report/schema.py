@@ -10,10 +10,14 @@ import json
 from pathlib import Path
 
 HERE = Path(__file__).parent
+# Read where it lies, without the import of the room that it belongs to.
+SCENE = HERE.parents[1] / "scene" / "format"
 
 
 def text(name: str = "report") -> str:
-    """The schema of one kind of document: `report` of a check, `samples` or `stability`."""
+    """The schema of one kind of document: `report` of a check, `samples`, `stability`; `scene`."""
+    if name == "scene":
+        return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     found = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")
     report = json.loads((HERE / "report.schema.json").read_text(encoding="utf-8"))
     if name == "report" or f'"{report["$id"]}#' not in found:

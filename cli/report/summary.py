@@ -6,8 +6,8 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from satcheck.audit.report import CROSS_CHECK, OVERLAPS, RELATIONS
-from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.words import by_surfaces, counted, depth
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.audit.report import Report

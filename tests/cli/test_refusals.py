@@ -30,7 +30,7 @@ from tests.cli.process import (
         (["gone.obj"], "gone.obj: no such file"),
         (["--format", "yaml", *PUSHED], "yaml"),
         (["--no-such-option", *PUSHED], "no-such-option"),
-        (["--clearance", "5mm", *PUSHED], "declare no units"),
+        (["--clearance", "5mm", *PUSHED], "no units are declared"),
         (["--clearance=-1", *PUSHED], "not a length"),
         (["--jobs", "-1", *PUSHED], "jobs"),
         (["box.obj", "gone.obj"], "gone.obj"),

@@ -10,7 +10,9 @@ import sys
 import pytest
 
 from satcheck.scene import CODES, load_scene
+from satcheck.scene.primitives import Box
 from tests.scene import files
+from tests.scene.format.scenes import scene_of, write
 
 # What costs more to import than reading an OBJ and an STL file takes.
 EXPENSIVE = {
@@ -117,3 +119,44 @@ def test_reading_obj_stl_and_glb_imports_nothing_expensive(tmp_path):
         [sys.executable, "-c", script, *paths], capture_output=True, text=True, check=True
     )
     assert EXPENSIVE.isdisjoint(run.stdout.split())
+
+
+def test_a_scene_of_shapes_and_meshes(tmp_path):
+    box = {"type": "box", "size": [1, 2, 3]}
+    document = scene_of(
+        {"id": "a", "shape": box, "static": True},
+        {"id": "b", "shape": box | {"size": [1.0, 2.0, 3.0]}, "pinned": True},
+        {"id": "c", "mesh": "cube.obj", "position": [5, 0, 0], "groups": ["g"]},
+        {"id": "d", "shape": {"type": "box", "size": [1e50, 1, 1]}, "groups": ["g"]},
+        motion=[{"bodies": ["b", "group:g"], "translation": [1, 0, 0]}],
+    )
+    scene = load_scene([write(tmp_path, document, "toml")])
+    a, b, c = scene.bodies
+    assert a.file is b.file
+    assert (a.file.format, a.shape, c.shape) == ("shape", Box((1, 2, 3)), None)
+    assert a.file.path.endswith("cell.toml")
+    assert (a.static, b.pinned, c.pinned) == (True, True, False)
+    assert c.world_mesh().bounds == ((5, 0, 0), (6, 1, 1))
+    (lost,) = scene.unreadable
+    assert (lost.id, lost.issue.code, lost.groups) == ("d", "out-of-range", ("g",))
+    assert (scene.check_static, scene.composed) == (False, True)
+    assert scene.motions[0].bodies == ("b", "c", "d")
+
+
+def test_static_pairs_are_checked_where_one_of_the_scenes_asks_for_them(tmp_path):
+    box = {"type": "box", "size": [1, 2, 3]}
+    document = scene_of({"id": "a", "shape": box, "static": True})
+    quiet = write(tmp_path, document, name="quiet")
+    asks = write(tmp_path, document | {"check_static": True}, name="asks")
+    assert not load_scene([quiet, quiet]).check_static
+    assert load_scene([quiet, asks]).check_static
+    assert load_scene([tmp_path / "cube.obj"]).check_static
+
+
+def test_motions_follow_their_bodies_to_new_ids(tmp_path):
+    document = scene_of(
+        {"id": "a", "mesh": "cube.obj"}, motion=[{"bodies": "a", "translation": [1, 0, 0]}]
+    )
+    path = write(tmp_path, document)
+    scene = load_scene([path, path])
+    assert [motion.bodies for motion in scene.motions] == [("a",), ("a-2",)]

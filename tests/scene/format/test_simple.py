@@ -7,7 +7,9 @@ import json
 import pytest
 
 from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene.rules import Selector
 from tests.scene import files
+from tests.scene.format.scenes import read
 
 IDENTITY = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
 SHIFT = [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
@@ -173,3 +175,21 @@ def test_a_missing_scene_file_and_a_wrong_encoding(folder):
     with pytest.raises(SceneFileError) as caught:
         load_scene([folder / "latin.json"])
     assert caught.value.code == "bad-encoding"
+
+
+def test_allowed_pairs_are_rules(tmp_path):
+    bodies = [{"id": id_, "mesh": "cube.obj", "static": True} for id_ in ("a", "group:b")]
+    document = {
+        "schema": "satcheck-scene-1",
+        "bodies": bodies,
+        "allowed_pairs": [["group:b", "a", "bolted"]],
+    }
+    scene = read(tmp_path, document)
+    (rule,) = scene.rules
+    assert (rule.a.only, rule.a.of_groups, rule.b) == ("group:b", False, Selector("a"))
+    assert (rule.allowed, rule.reason, rule.where) == (
+        True,
+        "bolted",
+        "cell.json: allowed_pairs[0]",
+    )
+    assert scene.check_static

@@ -1,0 +1,55 @@
+"""A scene file as data, checked, its meshes not yet read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from satcheck.scene.bodies import Transform
+from satcheck.scene.issue import Issue
+from satcheck.scene.motion import Motion
+from satcheck.scene.primitives import Primitive
+from satcheck.scene.rules import Rule
+
+
+@dataclass(frozen=True, slots=True)
+class MeshPath:
+    """path: for messages and reports. location: on disk."""
+
+    path: str
+    location: Path
+
+
+NO_MESH = MeshPath("", Path())
+
+
+@dataclass(frozen=True, slots=True)
+class BodyEntry:
+    """One body as the scene file describes it.
+
+    mesh: NO_MESH where there is a shape instead. part: what to take of the mesh file; None: all.
+    """
+
+    id: str
+    mesh: MeshPath
+    part: str | None = None
+    shape: Primitive | None = None
+    transform: Transform | None = None
+    groups: tuple[str, ...] = ()
+    static: bool = False
+    pinned: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SceneFile:
+    """ids are as written; rules and motions speak of the bodies of this file alone."""
+
+    path: str
+    name: str
+    units: str | None
+    bodies: tuple[BodyEntry, ...]
+    ignore_within_groups: frozenset[str]
+    check_static: bool
+    rules: tuple[Rule, ...]
+    motions: tuple[Motion, ...]
+    issues: tuple[Issue, ...]

@@ -1,0 +1,94 @@
+"""Scene files as one scene, beside each other and other inputs: rules, motions and groups of a file
+are about its own bodies alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from satcheck.scene.bodies import Body, Unreadable
+from satcheck.scene.errors import SceneFileError
+from satcheck.scene.format.entries import SceneFile
+from satcheck.scene.motion import Motion
+from satcheck.scene.plain_ids import UniqueNames
+from satcheck.scene.rules import Rule, Selector
+
+MOST_PAIRS = 100_000  # of a rule that has to be written out
+
+
+class JoinedScenes:
+    """What the scene files of a check say besides their bodies, in the names of the check.
+
+    check_static: as one of them asks. ignored: groups whose pairs are not checked.
+    """
+
+    def __init__(self) -> None:
+        self._group_names = UniqueNames()
+        self._scenes: list[tuple[SceneFile, Mapping[str, str]]] = []
+        self.ignored: set[str] = set()
+        self.check_static = False
+        self.motions: list[Motion] = []
+
+    def groups_of(self, scene: SceneFile) -> dict[str, str]:
+        """Its groups -> their names here: one that another scene has too is another group."""
+        groups = dict.fromkeys(group for entry in scene.bodies for group in entry.groups)
+        groups |= dict.fromkeys(sorted(scene.ignore_within_groups))
+        return {group: self._group_names.unique(group) for group in groups}
+
+    def add(self, scene: SceneFile, ids: Mapping[str, str], groups: Mapping[str, str]) -> None:
+        """ids: those in the file -> those here; groups: likewise, from `groups_of`."""
+        self._scenes.append((scene, ids))
+        self.ignored.update(groups[group] for group in scene.ignore_within_groups)
+        self.check_static |= scene.check_static
+        self.motions += [
+            replace(motion, bodies=tuple(ids[id_] for id_ in motion.bodies))
+            for motion in scene.motions
+        ]
+
+    def rules(self, everybody: Sequence[Body | Unreadable]) -> tuple[Rule, ...]:
+        """everybody: all bodies of the check. Raises SceneFileError where a rule has to be written
+        out for too many pairs."""
+        if len(self._scenes) == 1 and len(everybody) == len(self._scenes[0][0].bodies):
+            return self._scenes[0][0].rules
+        return tuple(
+            rule for scene, ids in self._scenes for rule in _own_rules(scene, ids, everybody)
+        )
+
+
+def _own_rules(
+    scene: SceneFile, ids: Mapping[str, str], everybody: Sequence[Body | Unreadable]
+) -> Iterator[Rule]:
+    """A rule whose selectors match the same bodies among all as in its file stays; another one is
+    written out, pair by pair."""
+    known: dict[Selector, tuple[bool, list[str]]] = {}
+
+    def chosen(selector: Selector) -> tuple[bool, list[str]]:
+        """(whether it matches among all what it matches in the file, these)."""
+        if selector not in known:
+            own = [ids[b.id] for b in scene.bodies if selector.matches(b.id, b.groups)]
+            among_all = {b.id for b in everybody if selector.matches(b.id, b.groups)}
+            known[selector] = among_all == set(own), own
+        return known[selector]
+
+    for rule in scene.rules:
+        (a_stays, a), (b_stays, b) = chosen(rule.a), chosen(rule.b)
+        if a_stays and b_stays:
+            yield rule
+        elif len(a) * len(b) > MOST_PAIRS:
+            message = (
+                f"{rule.name}: beside the other inputs this rule has to be written out for "
+                f"{len(a) * len(b)} pairs; check this scene alone, or select fewer bodies"
+            )
+            raise SceneFileError("too-large", message, file=scene.path)
+        else:
+            yield from _written_out(rule, a, b)
+
+
+def _written_out(rule: Rule, a: Sequence[str], b: Sequence[str]) -> Iterator[Rule]:
+    seen = set()
+    for one in a:
+        for other in b:
+            pair = frozenset((one, other))
+            if len(pair) == 2 and pair not in seen:
+                seen.add(pair)
+                yield replace(rule, a=Selector.exactly(one), b=Selector.exactly(other))

@@ -1,0 +1,57 @@
+"""Which mesh files a scene may name."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from satcheck.scene.format.entries import MeshPath
+from satcheck.scene.format.problems import Wrong
+from satcheck.scene.format.values import shown, text
+from satcheck.scene.loading.source import FORMATS
+
+
+class MeshPlaces:
+    """Finds the mesh files of one scene file, each judged once however many bodies use it.
+
+    path: of the scene file, for messages; location: where it lies. anywhere: meshes may lie
+    outside of its folder. Links are followed before that is judged.
+    """
+
+    def __init__(self, path: str, location: Path, *, anywhere: bool) -> None:
+        self._above = Path(path).parent
+        self._folder = location.parent
+        self._root = None if anywhere else self._folder.resolve()
+        self._known: dict[str, MeshPath | Wrong] = {}
+
+    def find(self, value: object) -> MeshPath:
+        """The mesh file that a body names; Wrong for one that is not to be opened, or not there."""
+        mesh = text(value)
+        if mesh not in self._known:
+            try:
+                self._known[mesh] = self._judged(mesh)
+            except Wrong as wrong:
+                self._known[mesh] = wrong
+        found = self._known[mesh]
+        if isinstance(found, Wrong):
+            raise found
+        return found
+
+    def _judged(self, mesh: str) -> MeshPath:
+        if "\0" in mesh:
+            raise Wrong(f"mesh path {shown(mesh)} holds a NUL character")
+        location = self._folder / mesh
+        if location.suffix.lower() not in FORMATS:
+            known = ", ".join(sorted(FORMATS))
+            message = f"mesh path {shown(mesh)} names no mesh format ({known}): refused"
+            raise Wrong(message, code="unsupported-format")
+        if self._root is not None and not location.resolve().is_relative_to(self._root):
+            message = (
+                f"mesh file {shown(mesh)} lies outside of the scene's folder: refused "
+                "(--allow-outside lets it)"
+            )
+            raise Wrong(message, code="outside-path")
+        if not location.is_file():
+            raise Wrong(f"mesh file {shown(mesh)} is missing", code="missing-resource")
+        path = os.path.normpath(self._above / mesh).replace(os.sep, "/")
+        return MeshPath(path, location)

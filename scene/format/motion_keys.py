@@ -1,0 +1,121 @@
+"""A table of `motion` -> Motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.format.entries import BodyEntry
+from satcheck.scene.format.placement import quaternion
+from satcheck.scene.format.problems import Wrong, dotted
+from satcheck.scene.format.rotation import Quaternion, quaternion_of_euler
+from satcheck.scene.format.rule_keys import selector
+from satcheck.scene.format.table import Table
+from satcheck.scene.format.values import items, number, shown, triple
+from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation, Waypoint
+from satcheck.scene.rules import Selector
+
+PATHS = ("translation", "rotation", "path")
+_KNOWN = frozenset(("bodies", *PATHS))
+_ROTATION_KEYS = frozenset(("axis", "point", "degrees"))
+_WAYPOINT_KEYS = frozenset(("time", "position", "quaternion", "euler"))
+_ORIGIN = (0.0, 0.0, 0.0)
+_Z = (0.0, 0.0, 1.0)
+_NO_TURN: Quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+def read_motion(
+    table: Table, bodies: Sequence[BodyEntry] | None, moved: dict[str, str]
+) -> Motion | None:
+    """None where it is wrong, which the table then knows.
+
+    bodies: of the scene; None where they are not known for certain. moved: the bodies that move
+    already, each with the motion that moves it; is added to.
+    """
+    found_before = table.problem_count
+    table.only(_KNOWN)
+    selectors: list[Selector] = table.required("bodies", _selectors, [])
+    ids = () if bodies is None else _ids(table, selectors, bodies, moved)
+    if sum(key in table for key in PATHS) != 1:
+        table.wrong(f"one of {', '.join(PATHS)} is needed, and no more")
+        return None
+    try:
+        path = _path(table)
+        return None if not ids or table.problem_count > found_before else Motion(ids, path)
+    except SatcheckError as error:
+        if table.problem_count == found_before:
+            table.wrong(error.message, code=error.code)
+        return None
+
+
+def _ids(
+    table: Table,
+    selectors: Sequence[Selector],
+    bodies: Sequence[BodyEntry],
+    moved: dict[str, str],
+) -> tuple[str, ...]:
+    ids: dict[str, None] = {}
+    for one in selectors:
+        chosen = [body for body in bodies if one.matches(body.id, body.groups)]
+        if not chosen:
+            table.wrong(f"no body matches {shown(one.text)}", "bodies", code="bad-motion")
+        fixed = next((body for body in chosen if body.static), None)
+        if fixed is not None:
+            table.wrong(f"body {shown(fixed.id)} is static", "bodies", code="bad-motion")
+        ids |= dict.fromkeys(body.id for body in chosen)
+    here = dotted(table.keys)
+    for id_ in ids:
+        if (other := moved.setdefault(id_, here)) != here:
+            message = f"body {shown(id_)} is moved by {other} already"
+            table.wrong(message, "bodies", code="bad-motion")
+    return tuple(ids)
+
+
+def _selectors(value: Any) -> list[Selector]:
+    if value == []:
+        raise Wrong("a selector expected, not an empty list")
+    return items(value, selector) if isinstance(value, list) else [selector(value)]
+
+
+def _path(table: Table) -> Path:
+    if "path" in table:
+        table.read("path", _two_at_least, None)
+        return PosePath(tuple(_waypoint(inner) for inner in table.tables("path")))
+    rotation = table.table("rotation")
+    if rotation is None:
+        return Translation(table.read("translation", triple, _ORIGIN))
+    rotation.only(_ROTATION_KEYS)
+    return Rotation(
+        point=rotation.read("point", triple, _ORIGIN),
+        axis=rotation.required("axis", triple, _Z),
+        degrees=rotation.required("degrees", number, 0.0),
+    )
+
+
+def _waypoint(table: Table) -> Waypoint:
+    table.only(_WAYPOINT_KEYS)
+    if "quaternion" in table and "euler" in table:
+        table.wrong("the quaternion says how the body is turned: leave this out", "euler")
+    w, x, y, z = table.read("quaternion", quaternion, None) or table.read("euler", _euler, _NO_TURN)
+    return Waypoint(
+        time=table.required("time", _time, 0.0),
+        position=table.required("position", triple, _ORIGIN),
+        orientation=(x, y, z, w),
+    )
+
+
+def _two_at_least(value: Any) -> None:
+    if isinstance(value, list) and len(value) < 2:
+        raise Wrong(f"two waypoints at least expected, not {len(value)}")
+
+
+def _time(value: Any) -> float:
+    found = number(value)
+    if not 0 <= found <= 1:
+        raise Wrong(f"a time from 0 to 1 expected, not {shown(value)}")
+    return found
+
+
+def _euler(value: Any) -> Quaternion:
+    return quaternion_of_euler(triple(value))

@@ -1,0 +1,136 @@
+"""Where a body is: position, rotation and scale, or a matrix -> one transform."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from satcheck.scene.bodies import Transform
+from satcheck.scene.format.problems import Wrong
+from satcheck.scene.format.rotation import Quaternion, Rotation, of_euler, of_quaternion
+from satcheck.scene.format.table import Table
+from satcheck.scene.format.values import Triple, items, number, quadruple, shown, triple
+
+# A matrix whose determinant is this small against the product of its row lengths is singular up
+# to the rounding of its own entries.
+_SINGULAR = 2.0**-40
+
+_TURNS = ("quaternion", "euler")
+PARTS = ("position", *_TURNS, "scale")
+KEYS = frozenset((*PARTS, "matrix"))
+
+IDENTITY: Transform = (
+    1.0,
+    0.0,
+    0.0,
+    0.0,
+    0.0,
+    1.0,
+    0.0,
+    0.0,
+    0.0,
+    0.0,
+    1.0,
+    0.0,
+    0.0,
+    0.0,
+    0.0,
+    1.0,
+)
+_NO_TURN: Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+_NO_SCALE = (1.0, 1.0, 1.0)
+_ORIGIN = (0.0, 0.0, 0.0)
+
+
+def placement(table: Table) -> Transform | None:
+    """Scaled first, then turned, then moved; None where the table says nothing of it."""
+    if table.values.keys().isdisjoint(KEYS):
+        return None
+    if "matrix" in table:
+        for key in PARTS:
+            if key in table:
+                table.wrong("the matrix says where the body is: leave this out", key)
+        return table.read("matrix", matrix, None)
+    if all(key in table for key in _TURNS):
+        table.wrong("the quaternion says how the body is turned: leave this out", "euler")
+    x, y, z = table.read("position", triple, _ORIGIN)
+    turn = table.read("quaternion", _quaternion, None) or table.read("euler", _euler, _NO_TURN)
+    scale = table.read("scale", _scale, _NO_SCALE)
+    made = moved(turn, scale, (x, y, z))
+    if scale is not _NO_SCALE and (fault := singular(made)) is not None:
+        table.wrong(fault, "scale", code="singular-transform")
+    return made
+
+
+def moved(turn: Rotation, scale: Sequence[float], position: Sequence[float]) -> Transform:
+    """world = turn * (scale * (x, y, z)) + position."""
+    a, b, c = scale
+    x, y, z = position
+    return (
+        *(turn[0] * a, turn[1] * b, turn[2] * c, x),
+        *(turn[3] * a, turn[4] * b, turn[5] * c, y),
+        *(turn[6] * a, turn[7] * b, turn[8] * c, z),
+        *(0.0, 0.0, 0.0, 1.0),
+    )
+
+
+def is_4x4(rows: Any) -> bool:
+    """Lists of the right lengths; the numbers are another question."""
+    return (
+        isinstance(rows, list)
+        and len(rows) == 4
+        and all(isinstance(row, list) and len(row) == 4 for row in rows)
+    )
+
+
+def matrix(rows: Any) -> Transform:
+    """Four rows of four numbers, affine and not singular."""
+    if not is_4x4(rows):
+        raise Wrong(f"4 rows of 4 numbers expected, not {shown(rows)}")
+    found = tuple(value for row in items(rows, lambda row: items(row, number)) for value in row)
+    if (fault := singular(found)) is not None:
+        raise Wrong(fault, code="singular-transform")
+    return found
+
+
+def singular(transform: Transform) -> str | None:
+    """Why a body cannot be placed by these finite numbers, None if it can."""
+    if transform[12:] != (0.0, 0.0, 0.0, 1.0):
+        return "the last row should be 0 0 0 1"
+    rows = [transform[0:3], transform[4:7], transform[8:11]]
+    lengths = [math.hypot(*row) for row in rows]
+    if 0.0 in lengths:
+        return "singular transform: it scales by 0"
+    a, b, c = (
+        tuple(value / length for value in row) for row, length in zip(rows, lengths, strict=True)
+    )
+    determinant = (
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        - a[1] * (b[0] * c[2] - b[2] * c[0])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )
+    return "singular transform: it flattens space" if abs(determinant) < _SINGULAR else None
+
+
+def quaternion(value: Any) -> Quaternion:
+    """[w, x, y, z] of any length but zero."""
+    found = quadruple(value)
+    if not any(found):
+        raise Wrong("a quaternion is not zero")
+    return found
+
+
+def _quaternion(value: Any) -> Rotation:
+    return of_quaternion(*quaternion(value))
+
+
+def _euler(value: Any) -> Rotation:
+    return of_euler(triple(value))
+
+
+def _scale(value: Any) -> Triple:
+    factors = triple(value) if isinstance(value, list) else (number(value),) * 3
+    if 0.0 in factors:
+        raise Wrong("a scale of 0 leaves nothing", code="singular-transform")
+    return factors

@@ -1,0 +1,31 @@
+"""Where the values of a document are written in its text, asked for when there is an error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+Key = str | int
+Keys = tuple[Key, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Offsets in the text: where the key or, in a list, the item starts; the value's extent.
+
+    A TOML table under a header of its own has its header as key, and nothing as value.
+    """
+
+    key: int
+    start: int
+    end: int
+
+
+class Positions(Protocol):
+    def line(self, keys: Keys) -> int:
+        """Of what `keys` lead to, or of the innermost of them that is there; the first is 1."""
+        ...
+
+    def place(self, keys: Keys) -> Place:
+        """KeyError where there is no such value."""
+        ...

@@ -1,0 +1,68 @@
+"""What is wrong with a scene file: all of it at once, each with its line and its key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from satcheck.scene.errors import SceneFileError
+from satcheck.scene.format.positions import Key, Keys, Positions
+
+MOST = 20  # problems that are told of one file
+
+
+class Wrong(Exception):
+    """A value is not what its key asks for. keys: the way to the culprit within the value."""
+
+    def __init__(self, message: str, *keys: Key, code: str = "bad-scene") -> None:
+        super().__init__(message)
+        self.message = message
+        self.keys = keys
+        self.code = code
+
+
+class Problems:
+    """Collects the problems of one scene file. found: each with the keys that lead to it."""
+
+    def __init__(self) -> None:
+        self.found: list[tuple[Keys, Wrong]] = []
+
+    def __bool__(self) -> bool:
+        return bool(self.found)
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def add(self, keys: Keys, wrong: Wrong) -> None:
+        """keys: the way from the top of the document to the value that was read."""
+        self.found.append(((*keys, *wrong.keys), wrong))
+
+    def raise_any(self, path: str, positions: Callable[[], Positions]) -> None:
+        """Raises SceneFileError where there are any, the first in the file with its `others`."""
+        if not self.found:
+            return
+        where = positions()
+        errors = [
+            SceneFileError(
+                wrong.code,
+                f"{dotted(keys)}: {wrong.message}" if keys else wrong.message,
+                file=path,
+                line=where.line(keys),
+            )
+            for keys, wrong in self.found
+        ]
+        errors.sort(key=lambda error: error.line or 0)
+        if left := len(errors[MOST:]):
+            errors[MOST:] = [SceneFileError("bad-scene", f"{left} more errors", file=path)]
+        raise SceneFileError.of_several(errors)
+
+
+def dotted(keys: Keys) -> str:
+    """`bodies[2].position`, counted from 0."""
+    text = ""
+    for key in keys:
+        if isinstance(key, int):
+            text += f"[{key}]"
+        else:
+            plain = key.replace("_", "").replace("-", "").isalnum()
+            text += f".{key if plain else repr(key)}"
+    return text.removeprefix(".")

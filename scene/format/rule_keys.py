@@ -1,0 +1,74 @@
+"""A table of `rules` -> Rule."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.format.problems import Wrong
+from satcheck.scene.format.table import Table
+from satcheck.scene.format.values import Reader, boolean, number, one_of, shown, text
+from satcheck.scene.rules import KEYS, LENGTHS, SEVERITIES, Rule, Selector
+from satcheck.scene.units import parse_length
+
+_KNOWN = frozenset(("a", "b", "reason", *KEYS))
+_severity = one_of(SEVERITIES)
+
+
+def read_rule(table: Table, units: str | None, where: str) -> Rule | None:
+    """None where it is wrong, which the table then knows. where: to name it in a report."""
+    found_before = table.problem_count
+    table.only(_KNOWN)
+    length = length_in(units)
+    values: dict[str, Any] = {key: table.read(key, length, None) for key in LENGTHS}
+    values |= {
+        "a": table.required("a", selector, None),
+        "b": table.required("b", selector, None),
+        "allowed": table.read("allowed", boolean, None),
+        "max_volume": table.read("max_volume", _volume, None),
+        "severity": table.read("severity", _severity, None),
+        "reason": table.read("reason", text, ""),
+    }
+    if values["allowed"] and "reason" not in table:
+        table.wrong('"reason" is missing: why may these pairs overlap?')
+    if table.problem_count > found_before:
+        return None
+    try:
+        return Rule(**values, where=where)
+    except SatcheckError as error:
+        table.wrong(error.message, code=error.code)
+        return None
+
+
+def selector(value: Any) -> Selector:
+    if not isinstance(value, str):
+        raise Wrong(f"a selector expected, not {shown(value)}")
+    try:
+        return Selector(value)
+    except SatcheckError as error:
+        raise Wrong(error.message, code=error.code) from None
+
+
+def length_in(units: str | None) -> Reader[float]:
+    """Reads 0.5, and "2mm" where the scene declares units."""
+
+    def read(value: Any) -> float:
+        try:
+            if isinstance(value, str):
+                return parse_length(value).in_units_of(units)
+        except ValueError as error:
+            raise Wrong(str(error)) from None
+        return _not_negative(value, "length")
+
+    return read
+
+
+def _volume(value: Any) -> float:
+    return _not_negative(value, "volume")
+
+
+def _not_negative(value: Any, what: str) -> float:
+    found = number(value)
+    if found < 0:
+        raise Wrong(f"a {what} >= 0 expected, not {shown(value)}")
+    return found

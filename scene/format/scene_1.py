@@ -1,0 +1,135 @@
+"""The scene form `satcheck.scene/1`, in TOML or JSON; docs/scenes.md describes its keys.
+
+A scene that is wrong is refused as a whole: half a scene has no meaning, and a key that nobody
+knows would have said something that nobody heard.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from satcheck.scene.format.entries import NO_MESH, BodyEntry, SceneFile
+from satcheck.scene.format.json_positions import JsonPositions
+from satcheck.scene.format.mesh_places import MeshPlaces
+from satcheck.scene.format.motion_keys import read_motion
+from satcheck.scene.format.placement import KEYS as PLACEMENT_KEYS
+from satcheck.scene.format.placement import placement
+from satcheck.scene.format.problems import Problems, Wrong
+from satcheck.scene.format.remarks import unknown_groups, unknown_units
+from satcheck.scene.format.rule_keys import read_rule
+from satcheck.scene.format.table import Table
+from satcheck.scene.format.text import Parsed
+from satcheck.scene.format.values import boolean, list_of, shown, text
+from satcheck.scene.motion import Motion
+from satcheck.scene.primitives import PRIMITIVES, Primitive, primitive_of
+from satcheck.scene.rules import Rule
+
+SCHEMA = "satcheck.scene/1"
+
+_KEYS = frozenset(
+    (
+        *("schema", "$schema", "name", "description", "units", "check_static"),
+        *("ignore_within_groups", "bodies", "rules", "motion"),
+    )
+)
+_BODY_KEYS = PLACEMENT_KEYS | {"id", "mesh", "part", "shape", "groups", "static", "pinned"}
+
+_texts = list_of("texts", text)
+
+
+def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
+    """Raises SceneFileError with all that is wrong in the file."""
+    problems = Problems()
+    if parsed.repeated_keys:
+        for keys in JsonPositions(parsed.text).duplicates():
+            problems.add(keys, Wrong("a second value for this key"))
+    scene = _Reader(parsed, problems, allow_outside).read()
+    problems.raise_any(parsed.path, lambda: parsed.positions)
+    return scene
+
+
+class _Reader:
+    def __init__(self, parsed: Parsed, problems: Problems, allow_outside: bool) -> None:
+        self._parsed = parsed
+        self._problems = problems
+        self._places = MeshPlaces(parsed.path, parsed.location, anywhere=allow_outside)
+
+    def read(self) -> SceneFile:
+        top = Table(self._parsed.document, (), self._problems)
+        top.only(_KEYS)
+        if "bodies" not in top:
+            top.wrong('"bodies" is missing')
+        units = top.read("units", text, None)
+        bodies = self._bodies(top)
+        are_sound = not self._problems
+        ignored = frozenset(top.read("ignore_within_groups", _texts, []))
+        top.read("description", text, None)
+        return SceneFile(
+            path=self._parsed.path,
+            name=top.read("name", text, self._parsed.location.stem),
+            units=units,
+            bodies=bodies,
+            ignore_within_groups=ignored,
+            check_static=top.read("check_static", boolean, False),
+            rules=self._rules(top, units),
+            motions=self._motions(top, bodies if are_sound else None),
+            issues=(
+                *unknown_units(units, self._parsed.path),
+                *unknown_groups(ignored, bodies, self._parsed.path),
+            ),
+        )
+
+    def _bodies(self, top: Table) -> tuple[BodyEntry, ...]:
+        bodies = []
+        ids: set[str] = set()
+        for table in top.tables("bodies"):
+            body = self._body(table)
+            if body.id and body.id in ids:
+                table.wrong(f"a second body {shown(body.id)}", "id", code="duplicate-id")
+            ids.add(body.id)
+            bodies.append(body)
+        return tuple(bodies)
+
+    def _body(self, table: Table) -> BodyEntry:
+        table.only(_BODY_KEYS)
+        if ("mesh" in table) == ("shape" in table):
+            table.wrong('one of "mesh" and "shape" is needed, and not both')
+        if "part" in table and "shape" in table:
+            table.wrong("a shape has no parts: leave this out", "part")
+        return BodyEntry(
+            id=table.required("id", text, ""),
+            mesh=table.read("mesh", self._places.find, NO_MESH),
+            part=table.read("part", text, None),
+            shape=table.read("shape", _shape, None),
+            transform=placement(table),
+            groups=tuple(table.read("groups", _texts, [])),
+            static=table.read("static", boolean, False),
+            pinned=table.read("pinned", boolean, False),
+        )
+
+    def _rules(self, top: Table, units: str | None) -> tuple[Rule, ...]:
+        found = (
+            read_rule(table, units, where=f"{self._parsed.path}:{self._line(table)}")
+            for table in top.tables("rules")
+        )
+        return tuple(rule for rule in found if rule is not None)
+
+    def _motions(self, top: Table, bodies: tuple[BodyEntry, ...] | None) -> tuple[Motion, ...]:
+        moved: dict[str, str] = {}  # a body, and by which motion
+        found = (read_motion(table, bodies, moved) for table in top.tables("motion"))
+        return tuple(motion for motion in found if motion is not None)
+
+    def _line(self, table: Table) -> int:
+        return self._parsed.positions.line(table.keys)
+
+
+def _shape(value: Any) -> Primitive:
+    if not isinstance(value, dict):
+        raise Wrong(f"a type and its sizes expected, not {shown(value)}")
+    kind = value.get("type")
+    if not isinstance(kind, str) or kind not in PRIMITIVES:
+        raise Wrong(f"one of {', '.join(PRIMITIVES)} expected, not {shown(kind)}", "type")
+    try:
+        return primitive_of(value)
+    except ValueError as error:
+        raise Wrong(str(error)) from None

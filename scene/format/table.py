@@ -1,0 +1,80 @@
+"""One table of a document, read key by key; what is wrong is collected, and reading goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, TypeVar
+
+from satcheck.scene.format.positions import Keys
+from satcheck.scene.format.problems import Problems, Wrong
+from satcheck.scene.format.values import Reader, meant, shown
+
+T = TypeVar("T")
+D = TypeVar("D")
+
+
+class Table:
+    """keys: the way to it from the top of the document."""
+
+    __slots__ = ("_problems", "keys", "values")
+
+    def __init__(self, values: dict[str, Any], keys: Keys, problems: Problems) -> None:
+        self.values = values
+        self.keys = keys
+        self._problems = problems
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.values
+
+    def read(self, key: str, reader: Reader[T], default: D) -> T | D:
+        """The value of a key; the default where it is left out or wrong."""
+        if key not in self.values:
+            return default
+        try:
+            return reader(self.values[key])
+        except Wrong as wrong:
+            self._problems.add((*self.keys, key), wrong)
+            return default
+
+    def required(self, key: str, reader: Reader[T], default: T) -> T:
+        """The same for a key that may not be left out."""
+        if key not in self.values:
+            self.wrong(f'"{key}" is missing')
+        return self.read(key, reader, default)
+
+    def only(self, known: frozenset[str]) -> None:
+        """Every other key is wrong: misspelt, it would say something that nobody hears."""
+        if not self.values.keys() <= known:
+            for key in self.values.keys() - known:
+                hint = meant(key, known - self.values.keys())
+                self._problems.add((*self.keys, key), Wrong(f"unknown key{hint}", code="bad-scene"))
+
+    def wrong(self, message: str, *keys: str, code: str = "bad-scene") -> None:
+        self._problems.add((*self.keys, *keys), Wrong(message, code=code))
+
+    @property
+    def problem_count(self) -> int:
+        """Of the whole document so far."""
+        return len(self._problems)
+
+    def table(self, key: str) -> Table | None:
+        """The table that a key holds, None where it is left out or something else."""
+        values = self.values.get(key)
+        if isinstance(values, dict):
+            return Table(values, (*self.keys, key), self._problems)
+        if key in self.values:
+            self.wrong(f"a table expected, not {shown(values)}", key)
+        return None
+
+    def tables(self, key: str) -> Iterator[Table]:
+        """The tables of a list."""
+        values = self.values.get(key, [])
+        if not isinstance(values, list):
+            self.wrong(f"a list of tables expected, not {shown(values)}", key)
+            return
+        for index, value in enumerate(values):
+            keys = (*self.keys, key, index)
+            if isinstance(value, dict):
+                yield Table(value, keys, self._problems)
+            else:
+                self._problems.add(keys, Wrong(f"a table expected, not {shown(value)}"))

@@ -1,0 +1,117 @@
+"""The text of a scene file, and the document in it: TOML by its suffix, JSON otherwise."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.errors import SceneFileError
+from satcheck.scene.format.positions import Positions
+from satcheck.scene.loading.regular_file import size_of
+
+TOML_SUFFIX = ".toml"
+
+_MAX_BYTES = 256 << 20  # a million bodies
+_TOML_PLACE = re.compile(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Parsed:
+    """path: for messages. repeated_keys: JSON objects had a key twice, of which the last counts."""
+
+    path: str
+    location: Path
+    text: str
+    document: Any
+    repeated_keys: bool
+
+    @cached_property
+    def positions(self) -> Positions:
+        return positions_of(self.text, toml=is_toml(self.location))
+
+
+def is_toml(location: Path) -> bool:
+    return location.suffix.lower() == TOML_SUFFIX
+
+
+def positions_of(text: str, *, toml: bool) -> Positions:
+    if toml:
+        from satcheck.scene.format.toml_positions import TomlPositions
+
+        return TomlPositions(text)
+    from satcheck.scene.format.json_positions import JsonPositions
+
+    return JsonPositions(text)
+
+
+def read_text(path: str, location: Path) -> str:
+    """Raises SceneFileError. path: for messages."""
+    try:
+        if size_of(location) > _MAX_BYTES:
+            raise SceneFileError("too-large", f"larger than {_MAX_BYTES} bytes", file=path)
+        return location.read_bytes().decode("utf-8-sig")  # line ends as they are
+    except SceneFileError:
+        raise
+    except SatcheckError as error:
+        raise SceneFileError(error.code, error.message, file=path) from None
+    except UnicodeDecodeError:
+        raise SceneFileError("bad-encoding", "the scene file is not UTF-8", file=path) from None
+    except OSError as error:
+        reason = f"cannot be read: {error.strerror}"
+        raise SceneFileError("unreadable-file", reason, file=path) from None
+
+
+def parse(path: str, location: Path) -> Parsed:
+    """Raises SceneFileError for what is neither TOML nor JSON."""
+    return parsed(path, location, read_text(path, location))
+
+
+def parsed(path: str, location: Path, text: str) -> Parsed:
+    """The same for a text that was read already."""
+    if is_toml(location):
+        return Parsed(path, location, text, _toml(path, text), False)
+    return Parsed(path, location, text, *_json(path, text))
+
+
+def _toml(path: str, text: str) -> Any:
+    import tomllib
+
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        found = _TOML_PLACE.fullmatch(str(error))
+        reason, line = found.groups() if found else (str(error), None)
+        line = int(line or len(text.splitlines()))
+        message = f"not well-formed TOML: {reason}"
+        raise SceneFileError("bad-scene", message, file=path, line=line) from None
+    except (RecursionError, ValueError) as error:  # too deep, or an integer of 10^5 digits
+        raise SceneFileError("bad-scene", f"not readable TOML: {error}", file=path) from None
+
+
+def _json(path: str, text: str) -> tuple[Any, bool]:
+    """(the document, whether an object of it has a key twice)."""
+    repeated = False
+
+    def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        nonlocal repeated
+        found = dict(pairs)
+        repeated = repeated or len(found) < len(pairs)
+        return found
+
+    def refuse(_: str) -> float:
+        return math.nan  # found again, with the body's name, where a number is expected
+
+    try:
+        document = json.loads(text, parse_constant=refuse, object_pairs_hook=unique)
+    except json.JSONDecodeError as error:
+        reason = f"line {error.lineno}: not well-formed JSON: {error.msg}"
+        raise SceneFileError("bad-scene", reason, file=path) from None
+    except (RecursionError, ValueError) as error:  # too deep, or an integer of 10^5 digits
+        raise SceneFileError("bad-scene", f"not readable JSON: {error}", file=path) from None
+    return document, repeated

@@ -1,0 +1,63 @@
+"""Scene files on the command line."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import tomllib
+from pathlib import Path
+
+from jsonschema import Draft202012Validator
+
+from tests.cli.process import SAMPLES, VALIDATOR, satcheck
+from tests.scene.format.scenes import BOX, scene_of, toml_document, write
+
+JSON = ("--format", "json", "--no-timings")
+
+
+def test_the_schema_describes_the_sample() -> None:
+    schema = satcheck("schema", "scene").document
+    Draft202012Validator.check_schema(schema)
+    sample = tomllib.loads((SAMPLES / "cell.toml").read_text(encoding="utf-8"))
+    Draft202012Validator(schema).validate(sample)
+
+
+def test_toml_and_json_say_the_same(tmp_path: Path) -> None:
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    sample = tomllib.loads((SAMPLES / "cell.toml").read_text(encoding="utf-8"))
+    (tmp_path / "cell.json").write_text(json.dumps(sample), encoding="utf-8")
+    (tmp_path / "cell.toml").write_text(toml_document(sample), encoding="utf-8")
+    found = []
+    for name in ("cell.json", "cell.toml"):
+        ran = satcheck(*JSON, name, cwd=tmp_path)
+        assert ran.code == 0, ran.err
+        VALIDATOR.validate(ran.document)
+        found.append(ran.document["findings"])
+    assert [(f["a"], f["b"], f["relation"], f["depth"]) for f in found[0]] == [
+        (f["a"], f["b"], f["relation"], f["depth"]) for f in found[1]
+    ]
+
+
+def test_all_errors_are_told_a_line_each(tmp_path: Path) -> None:
+    document = scene_of({"id": "a", "shape": BOX, "position": [1, 2]}, {"mesh": "gone.stl"})
+    write(tmp_path, document, "toml")
+    ran = satcheck("cell.toml", cwd=tmp_path)
+    assert (ran.code, ran.out) == (2, "")
+    assert [line.removeprefix("satcheck: error: ") for line in ran.err.splitlines()] == [
+        "cell.toml:6: bodies[0].position: three numbers expected, not 2 [bad-scene]",
+        'cell.toml:8: bodies[1]: "id" is missing [bad-scene]',
+        "cell.toml:9: bodies[1].mesh: mesh file 'gone.stl' is missing [missing-resource]",
+    ]
+
+
+def test_files_outside_of_the_folder_are_read_where_that_is_allowed(tmp_path: Path) -> None:
+    (tmp_path / "scenes").mkdir()
+    shutil.copy(SAMPLES / "box.obj", tmp_path)
+    bodies = ({"id": id_, "mesh": "../box.obj"} for id_ in "ab")
+    write(tmp_path / "scenes", scene_of(*bodies))
+    refused = satcheck(*JSON, "scenes/cell.json", cwd=tmp_path)
+    assert refused.code == 2
+    assert "--allow-outside lets it" in refused.err
+    read = satcheck(*JSON, "--allow-outside", "scenes/cell.json", cwd=tmp_path)
+    assert read.code == 1
+    assert read.document["bodies"][0]["file"] == "box.obj"

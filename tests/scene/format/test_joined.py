@@ -1,0 +1,66 @@
+"""Scene files beside each other: rules and groups are about the bodies of their own file alone."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.scene import SceneFileError, load_scene
+from satcheck.scene.format import joined
+from satcheck.scene.rules import Rule
+from tests.scene.format.scenes import BOX, scene_of, write
+
+
+def scenes(folder, *rules, groups=("g",), **more):
+    """Two scenes of the same two bodies, of which the second has rules, and a mesh file."""
+    bodies = [{"id": id_, "shape": BOX, "groups": list(groups)} for id_ in ("a", "b*")]
+    return [
+        write(folder, scene_of(*bodies, **more), name="one"),
+        write(folder, scene_of(*bodies, rules=list(rules), **more), name="two"),
+        folder / "cube.obj",
+    ]
+
+
+def pairs_of(scene, rule: Rule) -> set[frozenset[str]]:
+    """The pairs that a rule is about, by its definition."""
+    return {
+        frozenset((x.id, y.id))
+        for x in scene.bodies
+        for y in scene.bodies
+        if x is not y and rule.a.matches(x.id, x.groups) and rule.b.matches(y.id, y.groups)
+    }
+
+
+@pytest.mark.parametrize("a", ["a", "*", "group:g", "[a]"])
+def test_a_rule_is_about_the_bodies_of_its_own_file(tmp_path, a):
+    rule = {"a": a, "b": "b*", "allowed": True, "reason": "glued"}
+    scene = load_scene(scenes(tmp_path, rule))
+    assert [body.id for body in scene.bodies] == ["a", "b*", "a-2", "b*-2", "cube"]
+    about = set().union(*(pairs_of(scene, rule) for rule in scene.rules))
+    assert about == {frozenset(("a-2", "b*-2"))}
+    assert {(rule.reason, rule.where.split(":")[0]) for rule in scene.rules} == {
+        ("glued", (tmp_path / "two.json").as_posix())
+    }
+
+
+def test_a_rule_that_means_the_same_beside_other_inputs_stays_as_it_is(tmp_path):
+    bodies = [{"id": f"arm/{k}", "shape": BOX} for k in range(3)]
+    rule = {"a": "arm/*", "b": "arm/*", "clearance": 1}
+    path = write(tmp_path, scene_of(*bodies, rules=[rule]))
+    (alone,) = load_scene([path]).rules
+    (beside,) = load_scene([path, tmp_path / "cube.obj"]).rules
+    assert alone == beside
+    assert alone.a.text == "arm/*"
+
+
+def test_groups_of_two_files_are_two_groups(tmp_path):
+    paths = scenes(tmp_path, {"a": "group:g", "b": "*", "clearance": 1}, ignore_within_groups=["g"])
+    scene = load_scene(paths[:2])
+    groups = [body.groups for body in scene.bodies]
+    assert groups == [("g",), ("g",), ("g-2",), ("g-2",)]
+    assert scene.ignore_within_groups == {"g", "g-2"}
+
+
+def test_too_many_pairs_are_refused_with_the_rule(tmp_path, monkeypatch):
+    monkeypatch.setattr(joined, "MOST_PAIRS", 3)
+    with pytest.raises(SceneFileError, match=r"two.json:\d+: beside the other inputs"):
+        load_scene(scenes(tmp_path, {"a": "*", "b": "*", "clearance": 1}))

@@ -1,0 +1,145 @@
+"""Where values are written, in TOML and JSON: held against marks in the text."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from satcheck.scene.format.json_positions import JsonPositions
+from satcheck.scene.format.text import positions_of
+from satcheck.scene.format.toml_positions import TomlPositions
+
+TOML = '''# comment [[not.a.header]]
+schema = "one"   # = "two"
+"quoted key" = 'lit # eral'
+a.b . "c.d" = 1_000
+time = 1979-05-27 07:32:00
+
+text = """
+[[no.header]]
+x = "1" \\""" still text
+""""
+raw = \'\'\'
+x = 1 ''\'\'\'
+flag=true
+many = [ 1, # one ]
+  [2.5, "]"],
+  {x = 3, y.z = [4]},
+]
+
+[[bodies]]
+id = "a"
+shape = { type = "box", size = [1, 2,
+  3] }
+
+  [bodies.about]
+  deep = "inner"
+
+[[bodies]]
+id = "b"
+[[bodies.parts]]
+n = 0
+[[bodies.parts]]
+n = 1
+
+[x.y]
+z = [[1, 2], [3, -inf]]
+["bodies 2"]
+end = 0'''
+
+
+def leaves(value: Any, keys: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    inner: Any = ()
+    if isinstance(value, dict):
+        inner = value.items()
+    elif isinstance(value, list):
+        inner = enumerate(value)
+    else:
+        yield keys, value
+    for key, one in inner:
+        yield from leaves(one, (*keys, key))
+
+
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_every_value_of_a_toml_document_is_where_it_is_said_to_be(newline: str) -> None:
+    text = TOML.replace("\n", newline)
+    positions = TomlPositions(text)
+    found = dict(leaves(tomllib.loads(text)))
+    assert len(found) == 26
+    for keys, value in found.items():
+        place = positions.place(keys)
+        written = tomllib.loads(f"it = {text[place.start : place.end]}")["it"]
+        assert written == value, keys
+        assert positions.line(keys) == text.count("\n", 0, place.key) + 1
+
+
+LINES = {
+    ("schema",): 2,
+    ("text",): 7,
+    ("many", 1): 15,
+    ("many", 2, "x"): 16,
+    ("bodies",): 19,
+    ("bodies", 0): 19,
+    ("bodies", 0, "shape", "size"): 21,
+    ("bodies", 0, "shape", "size", 2): 22,
+    ("bodies", 0, "about"): 24,
+    ("bodies", 1): 27,
+    ("bodies", 1, "parts", 1): 31,
+    ("bodies", 1, "nothing", "there"): 27,
+    ("x",): 34,
+    ("nothing",): 1,
+    (): 1,
+}
+
+
+@pytest.mark.parametrize("keys", LINES, ids=str)
+def test_line_of_toml(keys: tuple[Any, ...]) -> None:
+    assert TomlPositions(TOML).line(keys) == LINES[keys]
+
+
+JSON = """{
+  "schema": "one",
+  "a": {"b\\u0041": [1, -2.5e3,
+     null, {"c": "]}"}], "empty": [], "none": {}},
+  "bodies": [
+    {"id": "a", "position": [0, 1,
+      2]},
+    {"id": "b"}
+  ]
+}"""
+
+
+@pytest.mark.parametrize("text", [JSON, re.sub(r"\s", "", JSON), "  " + JSON + "\n"])
+def test_every_value_of_a_json_document_is_where_it_is_said_to_be(text: str) -> None:
+    positions = JsonPositions(text)
+    found = dict(leaves(json.loads(text)))
+    assert len(found) == 10
+    for keys, value in found.items():
+        place = positions.place(keys)
+        assert json.loads(text[place.start : place.end]) == value, keys
+        assert positions.line(keys) == text.count("\n", 0, place.key) + 1
+
+
+def test_line_of_json() -> None:
+    positions = positions_of(JSON, toml=False)
+    assert positions.line(("bodies", 0, "position")) == 6
+    assert positions.line(("bodies", 0, "position", 2)) == 7
+    assert positions.line(("bodies", 1, "nothing", 5)) == 8
+    assert positions.line(("nothing",)) == 1
+
+
+def test_duplicate_keys_of_json() -> None:
+    text = '{"a": 1, "b": [{"c": 1, "c": 2}], "a": {"d": 3}}'
+    assert sorted(JsonPositions(text).duplicates()) == [("a",), ("b", 0, "c")]
+    assert list(JsonPositions(JSON).duplicates()) == []
+
+
+def test_what_is_not_there_has_no_place() -> None:
+    for positions in (TomlPositions(TOML), JsonPositions(JSON)):
+        with pytest.raises(KeyError):
+            positions.place(("bodies", 9))
