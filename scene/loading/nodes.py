@@ -60,11 +60,7 @@ def load_nodes(path: str, location: Path, allowed: ReadLimits, *, components: bo
     scene = read_scene(source, allowed, flat=False)
     splitter = _Splitter(source, components)
     meshes = [splitter.split(part) for part in scene.parts]
-    total = sum(len(meshes[node.part]) for node in scene.nodes)
-    if total > limits.MAX_PLACEMENTS:
-        raise MeshFileError(
-            "too-large", f"{total} bodies exceed {limits.MAX_PLACEMENTS}", file=path
-        )
+    _refuse_too_many(sum(len(meshes[node.part]) for node in scene.nodes), path)
     nodes = tuple(
         _placed(f"{node.path or ''}{mark}" or None, file, node.matrix)
         for node in scene.nodes
@@ -74,6 +70,12 @@ def load_nodes(path: str, location: Path, allowed: ReadLimits, *, components: bo
         raise next(node.file for node in nodes if isinstance(node.file, MeshFileError))
     issues = (issue(code, message, file=path) for code, message in scene.warnings)
     return Nodes(nodes, (*issues, *splitter.issues))
+
+
+def _refuse_too_many(bodies: int, path: str) -> None:
+    if bodies > limits.MAX_PLACEMENTS:
+        message = f"{bodies} bodies exceed {limits.MAX_PLACEMENTS}"
+        raise MeshFileError("too-large", message, file=path)
 
 
 def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Matrix | None) -> Node:
@@ -110,6 +112,7 @@ class _Splitter:
         self, part: RawPart, raw: RawMesh, pieces: list[Mesh]
     ) -> list[tuple[str, MeshFile | MeshFileError]]:
         """Those that have an area; what was read with a warning is warned about once."""
+        _refuse_too_many(len(pieces), self._source.path)
         found: list[tuple[str, MeshFile | MeshFileError]] = []
         flat = 0
         for piece in pieces:
