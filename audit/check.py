@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.effects import effects_of
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
-from satcheck.audit.planner import Planner
+from satcheck.audit.planner import Asked, Planner
 from satcheck.audit.report import Finding, Issue, Report
 from satcheck.audit.roster import Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
@@ -77,6 +78,7 @@ def check(
         bodies=body_reports(roster),
         exempt=exempt_of(scene),
         rules=scene.rules,
+        effects=effects_of(planner, _with_asked(planner, close, examined), counts),
         pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
         issues=issues,
@@ -122,6 +124,13 @@ def _examine_all(
             if progress is not None:
                 progress(len(done), len(pairs))
     return done
+
+
+def _with_asked(
+    planner: Planner, close: list[tuple[int, int]], examined: list[Examined]
+) -> Iterator[tuple[Asked, Finding]]:
+    for pair, one in zip(close, examined, strict=True):
+        yield planner.asked(*pair), one.finding
 
 
 def _volume_meter(settings: Settings) -> VolumeMeter:

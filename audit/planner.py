@@ -7,14 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal, get_args
 
+from satcheck.audit.report import Effect
 from satcheck.audit.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.settings import Settings
 from satcheck.scene.rules import Rule, Severity
 
-Effect = Literal["overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate"]
-EFFECTS: tuple[Effect, ...] = get_args(Effect)
+# The key by which a rule asks for an effect.
+ASKING_KEYS: dict[Effect, str] = {
+    "depth": "max_depth",
+    "distance": "clearance",
+    "volume": "max_volume",
+}
 ALWAYS = "always"
 FOR_MESHES = "by default, for mesh files alone"
 
@@ -69,6 +73,13 @@ class Planner:
             terms = self._book.terms(i, j)
             self._asked[key] = asked_by(self.settings, terms, composed=self._composed)
         return self._asked[key]
+
+    def who_asks(self, effect: Effect) -> tuple[str, ...]:
+        """The flag, and the rules that ask for the effect; empty: nobody does."""
+        flag = asked_by(self.settings, composed=self._composed).by.get(effect)
+        key = ASKING_KEYS.get(effect)
+        rules = (rule.name for rule in self._book.rules if key and getattr(rule, key))
+        return tuple(dict.fromkeys(([flag] if flag else []) + list(rules)))
 
     @property
     def depth(self) -> bool:

@@ -35,6 +35,8 @@ Quality = Literal["exact", "bounded", "estimate"]
 # other, whether an overlap is within its limits.
 Undecided = Literal["relation", "inside", "limit"]
 Verdict = Literal["pass", "fail", "incomplete"]
+Effect = Literal["overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate"]
+EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
 CROSS_CHECK = "cross-check"
@@ -179,6 +181,21 @@ class Finding:
 
 
 @dataclass(frozen=True, slots=True)
+class EffectReport:
+    """What a check computes beyond reading files, over all pairs.
+
+    asked_by: flags, and the rules that ask; empty: nobody does. pairs: on how many it ran; not_run:
+    why -> on how many it did not; together all pairs. microseconds: of its stages.
+    """
+
+    effect: Effect
+    asked_by: tuple[str, ...]
+    pairs: int
+    not_run: Mapping[str, int]
+    microseconds: float
+
+
+@dataclass(frozen=True, slots=True)
 class Issue:
     """Something about the input or the run, with a stable code."""
 
@@ -214,6 +231,7 @@ class Report:
     issues: tuple[Issue, ...]
     exempt: Exempt = Exempt()
     rules: tuple[Rule, ...] = ()
+    effects: tuple[EffectReport, ...] = ()
     pose: Mapping[str, float | list[float]] | None = None
     truncated: None = None
     tracebacks: tuple[str, ...] = field(default=())
@@ -233,6 +251,7 @@ class Report:
                 "static_pairs": self.exempt.static_pairs,
             },
             "rules": [rule_values(rule) for rule in self.rules],
+            "effects": [_effect(effect, timings) for effect in self.effects],
             "findings": [_finding(finding, timings) for finding in self.findings],
             "issues": [_issue(issue) for issue in self.issues],
             "truncated": self.truncated,
@@ -267,6 +286,16 @@ def _summary(summary: Summary) -> dict[str, Any]:
         "surfaces_only": summary.surfaces_only,
         "limits_undecided": summary.limits_undecided,
     }
+
+
+def _effect(effect: EffectReport, timings: bool) -> dict[str, Any]:
+    plain: dict[str, Any] = {
+        "effect": effect.effect,
+        "asked_by": list(effect.asked_by),
+        "pairs": effect.pairs,
+        "not_run": dict(effect.not_run),
+    }
+    return plain | {"microseconds": _number(effect.microseconds)} if timings else plain
 
 
 def rule_values(rule: Rule) -> dict[str, Any]:

@@ -13,8 +13,7 @@ if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
     from satcheck.audit.placed_body import PlacedBody
     from satcheck.audit.plan import Plan
-    from satcheck.audit.planner import Effect
-    from satcheck.audit.report import Finding, Relation, Vector
+    from satcheck.audit.report import Effect, Finding, Relation, Vector
 
 STAGE = "curved"
 TOO_CLOSE = "one may lie within the other: too close to its surface to tell"

@@ -1,4 +1,4 @@
-"""`--explain`: what is known about each body, and the plan of each pair."""
+"""`--explain`: what was computed for whom, what is known about each body, the plan of each pair."""
 
 from __future__ import annotations
 
@@ -13,18 +13,45 @@ from satcheck.cli.report.numbers import at_most, duration, number
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import BodyReport, Finding
+    from satcheck.audit.report import BodyReport, EffectReport, Finding, Report
+
+
+# Of those who ask for an effect.
+MOST_NAMES = 4
 
 
 def explain(
-    console: Console, bodies: Sequence[BodyReport], findings: Sequence[Finding], *, timings: bool
+    console: Console, report: Report, findings: Sequence[Finding], *, timings: bool
 ) -> None:
     """Prints to the console of the renderer."""
-    console.print(_bodies(bodies))
+    console.print(_effects(report.effects, timings=timings))
+    console.print()
+    console.print(_bodies(report.bodies))
     for finding in findings:
         console.print(Text(f"\n{finding.a} against {finding.b}: {finding.relation}", style="bold"))
         console.print(_plan(finding, timings=timings))
     console.print()
+
+
+def _effects(effects: Sequence[EffectReport], *, timings: bool) -> Table:
+    table = _grid(columns=4 if timings else 3)
+    for one in effects:
+        cost = [duration(one.microseconds) if one.pairs else ""] if timings else []
+        table.add_row(
+            "", Text(one.effect, style="bold"), counted(one.pairs, "pair"), *cost, _who(one)
+        )
+    return table
+
+
+def _who(effect: EffectReport) -> str:
+    """`--depth; not on 2 (boxes apart), 1 (allowed)`."""
+    if not effect.asked_by:
+        return "not asked"
+    who = ", ".join(effect.asked_by[:MOST_NAMES])
+    if len(effect.asked_by) > MOST_NAMES:
+        who += f" and {len(effect.asked_by) - MOST_NAMES} more"
+    reasons = [f"{count:,} ({reason})" for reason, count in effect.not_run.items()]
+    return f"{who}; not on {', '.join(reasons)}" if reasons else who
 
 
 def _bodies(bodies: Sequence[BodyReport]) -> Table:

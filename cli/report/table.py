@@ -52,7 +52,7 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
     if shown and rest:
         console.print(f"{counted(rest, 'more pair')}, all separated")
     if explain:
-        print_explanation(console, report.bodies, shown, timings=timings)
+        print_explanation(console, report, shown, timings=timings)
     for line in remarks(report, shown):
         console.print(line)
     console.print(summary_line(report))

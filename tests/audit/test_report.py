@@ -76,6 +76,7 @@ def test_keys_come_in_the_order_of_the_schema():
             "bodies",
             "exempt",
             "rules",
+            "effects",
             "findings",
             "issues",
             "truncated",

@@ -59,6 +59,13 @@ def test_what_was_not_asked_for_is_not_there(option: str) -> None:
     assert {"manifold3d", "numpy"} & asked == set()
 
 
+def test_without_a_depth_its_search_is_not_even_imported() -> None:
+    search = {"satcheck.audit.depth", "satcheck.audit.concave_depth"}
+    arguments = ("--format", "json", "l_bracket.obj", "peg_in_arm.ply")
+    assert imported("--no-depth", *arguments, code=1) & search == set()
+    assert search <= imported("--depth", *arguments, code=1)
+
+
 def test_json_needs_no_table() -> None:
     assert "rich" not in imported("--format", "json", "box.obj", "box_pushed.stl", code=1)
 
