@@ -11,7 +11,7 @@ import pytest
 
 from satcheck.scene import CODES, load_scene
 from satcheck.scene.primitives import Box
-from tests.scene import files
+from tests.scene import files, graphs
 from tests.scene.format.scenes import scene_of, write
 
 # What costs more to import than reading an OBJ and an STL file takes.
@@ -160,3 +160,34 @@ def test_motions_follow_their_bodies_to_new_ids(tmp_path):
     path = write(tmp_path, document)
     scene = load_scene([path, path])
     assert [motion.bodies for motion in scene.motions] == [("a",), ("a-2",)]
+
+
+def test_a_part_of_a_mesh_file_stays_where_the_file_places_it(tmp_path):
+    nodes = [
+        {"name": "crane", "translation": [10, 0, 0], "children": [1]},
+        {"name": "hook", "mesh": 0, "translation": [0, 5, 0]},
+        {"name": "base", "mesh": 0},
+    ]
+    (tmp_path / "crane.glb").write_bytes(graphs.glb(nodes))
+    document = {
+        "schema": "satcheck.scene/1",
+        "bodies": [
+            {"id": "as-is", "mesh": "crane.glb", "part": "crane/hook"},
+            {"id": "up", "mesh": "crane.glb", "part": "crane/hook", "position": [0, 0, 7]},
+            {"id": "base", "mesh": "crane.glb", "part": "base", "position": [0, 0, 7]},
+            {"id": "all", "mesh": "crane.glb"},
+            {"id": "gone", "mesh": "crane.glb", "part": "crane"},
+        ],
+    }
+    (tmp_path / "scene.json").write_text(json.dumps(document))
+    scene = load_scene([tmp_path / "scene.json"])
+    assert {body.id: body.world_mesh().bounds for body in scene.bodies} == {
+        "as-is": ((10, 5, 0), (11, 6, 1)),
+        "up": ((10, 5, 7), (11, 6, 8)),
+        "base": ((0, 0, 7), (1, 1, 8)),
+        "all": ((0, 0, 0), (11, 6, 1)),
+    }
+    hook, up, base, _ = scene.bodies
+    assert hook.file is up.file is base.file
+    assert [body.path for body in scene.bodies] == ["crane/hook", "crane/hook", "base", None]
+    assert [lost.issue.code for lost in scene.unreadable] == ["unknown-part"]
