@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from threading import RLock
+from threading import Lock, RLock
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 MeshKey = tuple[str, str, str | None]
+
+# Held while a body gets its World, which makes nothing yet.
+_MAKING = Lock()
 
 
 class Once(Generic[T]):
@@ -46,22 +49,67 @@ def mesh_key(file: MeshFile) -> MeshKey:
     return file.path, file.sha256, file.part
 
 
+class Work:
+    """What was done for the bodies of one file, counted.
+
+    hierarchies: built; refits: fitted again to placed vertices; decompositions: asked for.
+    """
+
+    __slots__ = ("_lock", "decompositions", "hierarchies", "refits")
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self.hierarchies = self.refits = self.decompositions = 0
+
+    def add(self, what: str) -> None:
+        with self._lock:
+            setattr(self, what, getattr(self, what) + 1)
+
+
 class SharedMesh:
     """What all bodies made of one mesh share, in file coordinates.
 
     convex(): closed, consistently outward, and exactly convex. An affine map keeps that, up to the
     one rounding of each world coordinate: the body is then taken as the hull of its world vertices.
     covers_once(): a solid that covers no point twice, so that its volume is that of its mesh.
+    surface(): its tree is fitted again for each body, and only the boxes change.
+    hull(), hull_points(): as it lies in the file; what an affine map leaves of it.
     """
 
-    __slots__ = ("convex", "covers_once", "decomposition", "file", "shape")
+    __slots__ = (
+        "convex",
+        "covers_once",
+        "decomposition",
+        "file",
+        "hull",
+        "hull_points",
+        "hull_shape",
+        "shape",
+        "surface",
+        "work",
+    )
 
     def __init__(self, file: MeshFile, settings: Settings) -> None:
         self.file = file
+        self.work = Work()
         self.convex = Once(self._convex)
-        self.covers_once = Once(lambda: core.covers_once(core.Surface(file.mesh, True)))
+        self.surface = Once(lambda: self._built(core.Surface(file.mesh, file.health.solid)))
+        self.hull = Once(lambda: file.mesh.convex_hull())
+        self.hull_shape = Once(lambda: core.Hull(self.hull()))
+        self.hull_points = Once(lambda: core.HullPoints(file.mesh))
+        self.covers_once = Once(lambda: core.covers_once(self.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))
         self.shape = Once(self._shape)
+
+    def _built(self, surface: core.Surface) -> core.Surface:
+        self.work.add("hierarchies")
+        return surface
+
+    def surface_at(self, mesh: core.Mesh) -> core.Surface:
+        """The surface of the placed mesh."""
+        surface = self.surface().refit(mesh)
+        self.work.add("refits" if surface.refitted else "hierarchies")
+        return surface
 
     def _convex(self) -> bool:
         return self.file.health.solid and self.file.mesh.convexity_defect(0.0) == 0.0
@@ -76,6 +124,7 @@ class SharedMesh:
         """A failure is an answer too: it is not tried again for the next pair."""
         from satcheck.decompose import Cache, DecompositionError, decompose
 
+        self.work.add("decompositions")
         directory = settings.cache_directory
         cache = Cache(None if directory is None else Path(directory)) if settings.cache else None
         try:
@@ -104,47 +153,84 @@ def _curved(body: Body) -> CurvedShape | None:
     return curved_shape(body.shape, body.transform)
 
 
+class World:
+    """What is made of a body in the world once a pair asks for it.
+
+    mesh: each coordinate rounded once. hull: of all its vertices, with its faces; hull_shape: the
+    same as a shape, as a rule without faces.
+    """
+
+    __slots__ = ("checked", "hull", "hull_shape", "mesh", "surface")
+
+    def __init__(self, body: Body, shared: SharedMesh) -> None:
+        placed = body.transform is not None
+        self.mesh = Once(body.world_mesh)
+        self.surface = Once(lambda: shared.surface_at(self.mesh()) if placed else shared.surface())
+        self.hull = Once(lambda: self.mesh().convex_hull() if placed else shared.hull())
+        self.hull_shape = Once(lambda: self._shape(body, shared) if placed else shared.hull_shape())
+        self.checked = Once(lambda: _checked(body, shared))
+
+    def _shape(self, body: Body, shared: SharedMesh) -> core.Hull:
+        assert body.transform is not None
+        hull = shared.hull_points().placed(body.transform)
+        return hull or core.Hull(self.hull())
+
+
+def _checked(body: Body, shared: SharedMesh) -> Placed:
+    from satcheck.verify.bodies import place_shape
+
+    return place_shape(body.id, body.groups, shared.shape(), body.transform)
+
+
 class PlacedBody:
     """World frame. bounds: ((x, y, z), (x, y, z)); resolution: the input precision, world units.
 
     curved: the shape, where the body is one; its mesh is then only within it, its bounds around it.
+    A scene has many bodies and most are far from each other: what is more than this is made when it
+    is asked for, and can be let go again.
     """
 
-    __slots__ = (
-        "body",
-        "bounds",
-        "checked",
-        "curved",
-        "hull",
-        "hull_shape",
-        "id",
-        "mesh",
-        "resolution",
-        "shared",
-        "solid",
-        "surface",
-    )
+    __slots__ = ("_world", "body", "bounds", "curved", "id", "resolution", "shared", "solid")
 
-    def __init__(self, body: Body, shared: SharedMesh) -> None:
+    def __init__(self, body: Body, shared: SharedMesh, bounds: Box | None = None) -> None:
+        """bounds: of the mesh, where known. ValueError, OverflowError when it cannot be placed."""
         self.body = body
         self.shared = shared
         self.id = body.id
-        self.mesh: core.Mesh = body.world_mesh()
-        self.bounds: Box = self.mesh.bounds
+        self.bounds: Box = body.world_mesh().bounds if bounds is None else bounds
         self.curved = _curved(body)
         if self.curved is not None:
             self.bounds = self.curved.bounds()
         self.resolution = body.resolution_world
         self.solid = body.file.health.solid
-        self.surface = Once(lambda: core.Surface(self.mesh, self.solid))
-        self.hull = Once(lambda: self.mesh.convex_hull())
-        self.hull_shape = Once(lambda: core.Hull(self.hull()))
-        self.checked = Once(self._checked)
+        self._world: World | None = None
 
-    def _checked(self) -> Placed:
-        from satcheck.verify.bodies import place_shape
+    def _made(self) -> World:
+        world = self._world
+        if world is None:
+            with _MAKING:
+                world = self._world = self._world or World(self.body, self.shared)
+        return world
 
-        return place_shape(self.id, self.body.groups, self.shared.shape(), self.body.transform)
+    def let_go(self) -> None:
+        """Forget what was made; it is made again should somebody ask."""
+        self._world = None
+
+    @property
+    def mesh(self) -> core.Mesh:
+        return self._made().mesh()
+
+    def surface(self) -> core.Surface:
+        return self._made().surface()
+
+    def hull(self) -> core.Polytope:
+        return self._made().hull()
+
+    def hull_shape(self) -> core.Hull:
+        return self._made().hull_shape()
+
+    def checked(self) -> Placed:
+        return self._made().checked()
 
     @property
     def convex(self) -> bool:
@@ -165,3 +251,11 @@ class PlacedBody:
             for one in columns
         ]
         return math.sqrt(max(rows)) * (1 + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF)
+
+
+def world_bounds(bodies: Sequence[Body], threads: int) -> list[Box | None]:
+    """Of all bodies at once, without placing a mesh; None for one that cannot be placed."""
+    moved = [(body.file.mesh, body.transform) for body in bodies if body.transform is not None]
+    meshes, matrices = [mesh for mesh, _ in moved], [matrix for _, matrix in moved]
+    placed = iter(core.placed_bounds(meshes, matrices, threads))
+    return [body.file.mesh.bounds if body.transform is None else next(placed) for body in bodies]

@@ -326,7 +326,7 @@ def _body(body: BodyReport) -> dict[str, Any]:
         "groups": list(body.groups),
         "static": body.static,
         "triangles": body.triangles,
-        "health": None if body.health is None else dict(body.health),
+        "health": body.health,
         "resolution": _number(body.resolution),
         "convex": body.convex,
         "parts": body.parts,

@@ -6,7 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from satcheck.audit.placed_body import MeshKey, PlacedBody, SharedMesh, mesh_key
+from satcheck.audit.placed_body import (
+    MeshKey,
+    PlacedBody,
+    SharedMesh,
+    mesh_key,
+    world_bounds,
+)
 from satcheck.audit.report import Issue
 from satcheck.audit.rule_book import RuleBook, Subject
 from satcheck.audit.settings import Settings
@@ -69,6 +75,8 @@ def place(
     lost: dict[int, Lost] = {}
     issues: list[Issue] = []
     members = scene.in_order()
+    readable = [body for body in members if isinstance(body, Body)]
+    bounds = iter(world_bounds(readable, settings.jobs))
     for index, body in enumerate(members):
         if not isinstance(body, Body):
             reason = f"unreadable {body.file}: {body.issue.code}"
@@ -79,7 +87,7 @@ def place(
             shared[key] = SharedMesh(body.file, settings)
         mesh = shared[key]
         try:
-            placed[index] = PlacedBody(body, mesh)
+            placed[index] = PlacedBody(body, mesh, next(bounds))
         except (ValueError, OverflowError) as error:
             reason = f"cannot be placed: {error}"
             lost[index] = Lost(body.id, body.file.path, reason, body.groups, body.path, body.static)

@@ -29,7 +29,10 @@ from satcheck.core.errors import SatcheckError
 if TYPE_CHECKING:
     from satcheck.audit.settings import FailOn
     from satcheck.scene import Scene
+    from satcheck.scene.health import MeshHealth
     from satcheck.scene.primitives import Primitive
+
+Health = Mapping[str, bool | int | float | str | None]
 
 
 def tool() -> Tool:
@@ -78,10 +81,18 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -
 
 
 def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
+    meshes = {id(body.shared): body.shared for body in roster.placed.values()}
+    health = {key: _health(mesh.file.health) for key, mesh in meshes.items()}
     return tuple(
-        _lost_report(roster.lost[k]) if k in roster.lost else _body_report(roster.placed[k])
+        _lost_report(roster.lost[k])
+        if k in roster.lost
+        else _body_report(roster.placed[k], health[id(roster.placed[k].shared)])
         for k in range(len(roster.ids))
     )
+
+
+def _health(health: MeshHealth) -> Health:
+    return {field.name: _finite(getattr(health, field.name)) for field in fields(health)}
 
 
 def _lost_report(body: Lost) -> BodyReport:
@@ -103,7 +114,7 @@ def _lost_report(body: Lost) -> BodyReport:
     )
 
 
-def _body_report(body: PlacedBody) -> BodyReport:
+def _body_report(body: PlacedBody, health: Health) -> BodyReport:
     file, shape = body.body.file, body.body.shape
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
@@ -117,9 +128,7 @@ def _body_report(body: PlacedBody) -> BodyReport:
         groups=body.body.groups,
         static=body.body.static,
         triangles=file.mesh.triangle_count,
-        health={
-            field.name: _finite(getattr(file.health, field.name)) for field in fields(file.health)
-        },
+        health=health,
         resolution=body.resolution,
         convex=body.shared.convex.known,
         parts=None if parts is None else len(parts.parts),

@@ -107,7 +107,7 @@ class _Nudges:
         pair = self._pair
         for away in _ways_off(pair, crossing):
             there = added(at, scaled(away, pair.tolerance / WALLS))
-            moved = core.Surface(pair.a.mesh.translated(there), pair.a.solid)
+            moved = pair.a.surface().refit(pair.a.mesh.translated(there))
             found = core.mesh_relation(moved, pair.b.surface())
             if found.proven and found.relation in FREE:
                 return there

@@ -59,7 +59,7 @@ def relation_after(pair: Pair, translation: Vector) -> str:
         return "separated" if frees(pair, translation) else "penetrating"
     moved = pair.a.mesh.translated(translation)
     if pair.may("exact"):
-        found = core.mesh_relation(core.Surface(moved, pair.a.solid), pair.b.surface())
+        found = core.mesh_relation(pair.a.surface().refit(moved), pair.b.surface())
         return found.relation if found.proven else "unproven"
     return core.check_pair(
         core.Hull(moved.convex_hull()), pair.b.hull_shape(), query="overlap"

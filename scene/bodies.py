@@ -148,28 +148,22 @@ def largest_stretch(transform: Transform) -> float:
     The largest eigenvalue of M^T M in closed form: Smith, "Eigenvalues of a symmetric 3 x 3
     matrix" (1961).
     """
-    columns = [[transform[4 * row + column] for row in range(3)] for column in range(3)]
-    gram = [[sum(x * y for x, y in zip(a, b, strict=True)) for b in columns] for a in columns]
-    mean = (gram[0][0] + gram[1][1] + gram[2][2]) / 3.0
-    off_diagonal = gram[0][1] ** 2 + gram[0][2] ** 2 + gram[1][2] ** 2
-    spread = sum((gram[i][i] - mean) ** 2 for i in range(3)) + 2.0 * off_diagonal
-    radius = math.sqrt(spread / 6.0)
+    a, b, c, _, d, e, f, _, g, h, i = transform[:11]
+    xx, yy, zz = a * a + d * d + g * g, b * b + e * e + h * h, c * c + f * f + i * i
+    xy, xz, yz = a * b + d * e + g * h, a * c + d * f + g * i, b * c + e * f + h * i
+    mean = (xx + yy + zz) / 3.0
+    spread = (xx - mean) ** 2 + (yy - mean) ** 2 + (zz - mean) ** 2
+    radius = math.sqrt((spread + 2.0 * (xy**2 + xz**2 + yz**2)) / 6.0)
     if radius == 0.0:
         return math.sqrt(mean)
-    shifted = [[(gram[i][j] - mean * (i == j)) / radius for j in range(3)] for i in range(3)]
-    half_determinant = max(-1.0, min(1.0, _determinant(shifted) / 2.0))
+    xx, yy, zz = (xx - mean) / radius, (yy - mean) / radius, (zz - mean) / radius
+    xy, xz, yz = xy / radius, xz / radius, yz / radius
+    determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    half_determinant = max(-1.0, min(1.0, determinant / 2.0))
     return math.sqrt(mean + 2.0 * radius * math.cos(math.acos(half_determinant) / 3.0))
-
-
-def _determinant(m: list[list[float]]) -> float:
-    return (
-        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-        - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-        + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
-    )
 
 
 def _largest_coordinate(transform: Transform, largest: float) -> float:
     """An upper bound of |world coordinate| for file coordinates up to `largest`."""
-    rows = (transform[4 * row : 4 * row + 4] for row in range(3))
-    return max((abs(a) + abs(b) + abs(c)) * largest + abs(t) for a, b, c, t in rows)
+    a, b, c, x, d, e, f, y, g, h, i, z = map(abs, transform[:12])
+    return max((a + b + c) * largest + x, (d + e + f) * largest + y, (g + h + i) * largest + z)

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "batch.hpp"
+#include "hull_points.hpp"
 #include "numeric_range.hpp"
 #include "sat_polygon.hpp"
 
@@ -233,6 +234,25 @@ struct CylinderShape : Shape {};
 struct ConeShape : Shape {};
 struct EllipsoidShape : Shape {};
 
+void bind_hull_points(nb::module_& m) {
+  nb::class_<HullPoints>(m, "HullPoints",
+                         R"(The vertices of a mesh that can be corners of its convex hull wherever an affine map puts it.)")
+      .def(nb::new_([](const Mesh& mesh) { return find_hull_points(mesh); }), nb::arg("mesh"),
+           nb::call_guard<nb::gil_scoped_release>())
+      .def_prop_ro("count", [](const HullPoints& h) { return h.points.size(); })
+      .def(
+          "placed",
+          [](const HullPoints& h, const std::array<double, 16>& matrix) -> std::optional<HullShape> {
+            auto shape = placed_hull(h, matrix);
+            if (!shape) return std::nullopt;
+            return HullShape{std::move(*shape)};
+          },
+          nb::arg("matrix"), nb::call_guard<nb::gil_scoped_release>(),
+          R"(The hull of the mesh placed by a 4x4 matrix, 16 numbers by rows, as a shape: what Mesh.transformed and then
+convex_hull give, without sorting anything. None where rounding may have brought further vertices to its
+surface. Raises what Mesh.transformed does.)");
+}
+
 void bind_shapes(nb::module_& m) {
   nb::class_<Shape>(m, "Shape", "A convex shape in its own frame. Immutable.")
       .def_prop_ro("vertex_count", [](const Shape& s) { return s.polytope.vertices.size(); })
@@ -255,6 +275,7 @@ outside 1e-80 .. 1e45, beyond which nothing is proven.)")
       .def(
           "__init__", [](HullShape* self, const Polytope& polytope) { new (self) HullShape{make_hull(polytope)}; },
           nb::arg("polytope"));
+  bind_hull_points(m);
   nb::class_<BoxShape, Shape>(m, "Box", "Box around the origin; half_extents (x, y, z) > 0.").def(
       "__init__", [](BoxShape* self, const Triple& half) { new (self) BoxShape{make_box(to_vec(half))}; },
       nb::arg("half_extents"));

@@ -3,6 +3,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -15,9 +16,12 @@
 #include "boundary_contact.hpp"
 #include "convexity.hpp"
 #include "deviation.hpp"
+#include "hull_points.hpp"
 #include "mesh_checks.hpp"
 #include "mesh_distance.hpp"
 #include "mesh_pair.hpp"
+#include "parallel.hpp"
+#include "placed_bounds.hpp"
 #include "polytope.hpp"
 #include "surface.hpp"
 #include "topology.hpp"
@@ -149,6 +153,29 @@ where that closes the surface.)")
 equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");
 }
 
+using Bounds = std::pair<Tuple3, Tuple3>;
+
+std::vector<std::optional<Bounds>> bounds_of_placed(const std::vector<const Mesh*>& meshes,
+                                                    const std::vector<std::array<double, 16>>& matrices,
+                                                    unsigned threads) {
+  if (meshes.size() != matrices.size()) throw std::invalid_argument("meshes and matrices differ in number");
+  constexpr std::size_t kTogether = 64;  // bodies that one thread takes at a time
+  std::vector<std::optional<Bounds>> bounds(meshes.size());
+  const nb::gil_scoped_release release;
+  parallel_for(meshes.size(), threads, [&](std::size_t i) {
+    if (const auto box = placed_bounds(*meshes[i], matrices[i])) {
+      bounds[i] = Bounds{to_tuple(box->min), to_tuple(box->max)};
+    }
+  }, kTogether);
+  return bounds;
+}
+
+void bind_placed_bounds(nb::module_& m) {
+  m.def("placed_bounds", &bounds_of_placed, "meshes"_a, "matrices"_a, "threads"_a = 0,
+        R"(The bounds of meshes[i].transformed(matrices[i]) for each i, to the bit, without placing a mesh; None where that
+raises. On `threads` threads, 0: one a core. ValueError when the lengths differ.)");
+}
+
 void bind_topology(nb::module_& m) {
   nb::class_<Topology>(m, "Topology",
                        R"(Counts and facts of a mesh. closed: no boundary edge, every edge an even number of triangles. manifold: two
@@ -204,6 +231,9 @@ void bind_surface(nb::module_& m) {
       .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
                    nb::rv_policy::reference_internal)
       .def_ro("solid", &Surface::solid)
+      .def_ro("refitted", &Surface::refitted, "Whether the tree has the form of another surface's.")
+      .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of this mesh with its vertices elsewhere, `mesh`: the tree is fitted again in linear time. Made anew
+where the triangles are others, or where rounding has put two vertices into one place.)")
       .def("winding_number",
            [](const Surface& s, const Tuple3& point) {
              if (!s.solid) throw std::invalid_argument("the surface is not a solid");
@@ -293,6 +323,7 @@ void bind_mesh(nb::module_& m) {
   bind_topology(m);
   bind_polytope(m);
   bind_mesh_class(m);
+  bind_placed_bounds(m);
   bind_surface(m);
   bind_mesh_relation(m);
   bind_mesh_distance(m);

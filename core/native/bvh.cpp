@@ -207,6 +207,12 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads) {
   return build(boxes, std::move(items), threads);
 }
 
+void refit(Bvh& bvh, const Mesh& mesh) {
+  for (std::size_t k = 0; k < bvh.order.size(); ++k) bvh.boxes[k] = triangle_box(mesh, bvh.order[k]);
+  for (BvhNode& node : bvh.nodes) node.box = Aabb{};
+  fit_boxes(bvh.nodes, bvh.nodes.size(), bvh.boxes);
+}
+
 Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads) {
   if (boxes.empty()) return {};
   Aabb bounds;

@@ -29,6 +29,10 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
 // whose boxes would be as large as the scaffold.
 Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads = 0);
 
+// Fits the boxes to the triangles where they are now, in linear time. The tree keeps its form, which is as
+// good as a new one while neighbours stay neighbours, as under an affine map.
+void refit(Bvh& bvh, const Mesh& mesh);
+
 inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
   Aabb box;
   for (const std::uint32_t v : mesh.triangles[t]) box.include(mesh.vertices[v]);

@@ -29,7 +29,8 @@ struct CoreAnswer {
 };
 
 bool solid_polytopes(const MinkowskiDifference& m) {
-  return m.a.is_polytope() && m.b.is_polytope() && m.a.polytope.dimension == 3 && m.b.polytope.dimension == 3;
+  const auto is_solid = [](const Shape& s) { return s.is_polytope() && s.has_faces && s.polytope.dimension == 3; };
+  return is_solid(m.a) && is_solid(m.b);
 }
 
 bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
@@ -183,7 +184,7 @@ Polytope world_hull(const Shape& shape, const Pose& pose) {
   Polytope hull = shape.polytope;
   for (Vec3& p : hull.vertices) p = pose * (p + shape.origin);
   const bool in_place = pose.rotation == Mat3{} && pose.translation == Vec3{};
-  return in_place ? hull : convex_hull(hull.vertices);
+  return in_place && shape.has_faces ? hull : convex_hull(hull.vertices);
 }
 
 // How far the rounding of a pose moves a vertex at most: 3 products, 2 sums and the translation make 6
@@ -303,6 +304,9 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
 
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                       MethodChoice method) {
+  const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
+  if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);
+  if (needs_faces && !b.has_faces) return check_pair(a, pose_a, with_faces(b), pose_b, query, method);
   if (comes_before(a, pose_a, b, pose_b)) return check_in_order(a, pose_a, b, pose_b, query, method);
   PairResult result = check_in_order(b, pose_b, a, pose_a, query, method);
   mirror(result);

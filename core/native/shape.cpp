@@ -59,6 +59,21 @@ Shape make_hull(Polytope polytope) {
 
 Shape make_hull(const std::vector<Vec3>& points) { return make_hull(convex_hull(points)); }
 
+Shape make_hull_without_faces(std::vector<Vec3> points) {
+  Polytope polytope;
+  polytope.dimension = 3;
+  polytope.vertices = std::move(points);
+  Shape shape = make_hull(std::move(polytope));
+  shape.has_faces = false;
+  return shape;
+}
+
+Shape with_faces(const Shape& hull) {
+  std::vector<Vec3> points = hull.polytope.vertices;
+  for (Vec3& p : points) p = p + hull.origin;
+  return make_hull(points);
+}
+
 Shape make_box(Vec3 half_extents) {
   for (int axis = 0; axis < 3; ++axis) require_positive(half_extents[axis], "a half extent of the box");
   std::vector<Vec3> corners;

@@ -37,12 +37,20 @@ struct Shape {
   Vec3 origin;
   double extent = 0;  // largest |coordinate| of the core, relative to `origin`
 
+  // Of a hull. False: the vertices hold all extreme points, and maybe others; faces, edges and arcs are
+  // left to those who need them (with_faces).
+  bool has_faces = true;
+
   bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
 };
 
 // Points (n >= 1) in any order; the shape is their convex hull, computed exactly.
 Shape make_hull(const std::vector<Vec3>& points);
 Shape make_hull(Polytope polytope);
+// The hull of points of which the faces are not computed; they span a solid.
+Shape make_hull_without_faces(std::vector<Vec3> points);
+// The same hull, with its faces.
+Shape with_faces(const Shape& hull);
 // All sizes are positive and finite, or std::invalid_argument is thrown.
 Shape make_box(Vec3 half_extents);
 Shape make_sphere(double radius);

@@ -1,5 +1,6 @@
 #include "surface.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -42,6 +43,16 @@ std::vector<SurfacePart> find_parts(const Mesh& welded) {
   return parts;
 }
 
+// Whether both have the same triangles, or one the other's turned over as transform() does it.
+bool has_triangles_of(const Mesh& a, const Mesh& b) {
+  if (a.vertices.size() != b.vertices.size()) return false;
+  if (a.triangles == b.triangles) return true;
+  const auto mirrored = [](const Triangle& s, const Triangle& t) {
+    return s[0] == t[0] && s[1] == t[2] && s[2] == t[1];
+  };
+  return std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(), mirrored);
+}
+
 }  // namespace
 
 Surface make_surface(const Mesh& mesh, bool solid) {
@@ -53,6 +64,23 @@ Surface make_surface(const Mesh& mesh, bool solid) {
   }
   surface.bvh = build_bvh(surface.mesh);
   surface.parts = find_parts(surface.mesh);
+  return surface;
+}
+
+Surface refitted_surface(const Surface& like, const Mesh& mesh) {
+  if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) return make_surface(mesh, like.solid);
+  Surface surface = like;
+  surface.refitted = true;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    surface.mesh.vertices[i] = mesh.vertices[i] + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
+  }
+  surface.mesh.triangles = mesh.triangles;
+  refit(surface.bvh, surface.mesh);
+  if (surface.parts.size() == 1) {
+    surface.parts[0].box = surface.bvh.nodes[0].box;
+  } else {
+    surface.parts = find_parts(surface.mesh);
+  }
   return surface;
 }
 

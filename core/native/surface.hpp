@@ -22,11 +22,17 @@ struct Surface {
   std::vector<SurfacePart> parts;
   // Closed and consistently wound: winding numbers say what is inside.
   bool solid = false;
+  bool refitted = false;  // the tree has the form of another surface's
 };
 
 // Throws std::invalid_argument when `solid` is claimed of a surface that is not closed and
 // consistently wound, for then it has no inside.
 Surface make_surface(const Mesh& mesh, bool solid);
+
+// The surface of `mesh`, which is that of `like` with its vertices elsewhere, as an affine map puts them;
+// a mirror turns the winding. Nothing is sorted: the tree of `like` is fitted again. Where the triangles
+// are others, or rounding has put two vertices into one place, the surface is made anew.
+Surface refitted_surface(const Surface& like, const Mesh& mesh);
 
 // Winding number of a point with respect to a solid; nothing when the point is on the surface.
 std::optional<int> winding_number(const Surface& surface, Vec3 point);

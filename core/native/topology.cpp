@@ -106,6 +106,16 @@ void count_triangles(Topology& topology, const Mesh& welded) {
 
 }  // namespace
 
+bool is_welded(const Mesh& mesh) {
+  std::vector<Vec3> points = mesh.vertices;
+  for (Vec3& p : points) p = p + Vec3{};  // as in weld_and_count()
+  const std::vector<std::uint32_t> first = first_of_equal(points);
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    if (first[i] != i) return false;
+  }
+  return true;
+}
+
 Mesh weld(const Mesh& mesh) { return weld_and_count(mesh).mesh; }
 
 Mesh sort(const Mesh& mesh) {

@@ -33,6 +33,9 @@ Topology measure_topology(const Mesh& mesh);
 // of vertices and triangles is kept.
 Mesh weld(const Mesh& mesh);
 
+// No two vertices have equal coordinates.
+bool is_welded(const Mesh& mesh);
+
 // The same triangles in an order that depends on nothing but their coordinates: vertices ascending,
 // each triangle from its lowest one on, triangles ascending. Copies of a vertex stay apart.
 Mesh sort(const Mesh& mesh);
