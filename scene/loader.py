@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 
 from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.file_facts import issues_of_files, units_of_files
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
@@ -16,7 +17,6 @@ from satcheck.scene.mesh_files import (
     MeshFiles,
 )
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames, plain_ids
-from satcheck.scene.units import is_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import BodyEntry, MeshPath
@@ -103,7 +103,6 @@ class _Loader:
         self._only_meshes = True
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
-        self._shapes: dict[tuple[Primitive, str], MeshFile | MeshFileError] = {}
         self._scenes: JoinedScenes | None = None
         self._taken_apart = False
         self._robots: list[SceneRobot] = []
@@ -150,7 +149,7 @@ class _Loader:
         file: MeshFile | MeshFileError
         transform = entry.transform
         if entry.shape is not None:
-            file = self._shape(entry.shape, path)
+            file = self._files.shape(entry.shape, path)
         else:
             path = entry.mesh.path
             if entry.part is None:
@@ -223,7 +222,7 @@ class _Loader:
             elif isinstance(part.source, MeshFileError):
                 id_ = self._add(part.id, part.id, path, part.source, part.offset)
             else:
-                file = self._shape(part.source, path)
+                file = self._files.shape(part.source, path)
                 id_ = self._add(part.id, part.id, path, file, part.offset, shape=part.source)
             bodies.append(RobotBody(id_, part.link, part.offset))
         self._robots.append(SceneRobot(robot, tuple(bodies)))
@@ -257,17 +256,6 @@ class _Loader:
             self._unreadable.append(Unreadable(id_, path, reason, groups, node, static))
         return id_
 
-    def _shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
-        """Made once however many bodies have it."""
-        from satcheck.scene.shape_file import shape_file
-
-        if (shape, path) not in self._shapes:
-            try:
-                self._shapes[shape, path] = shape_file(shape, path)
-            except MeshFileError as error:
-                self._shapes[shape, path] = error
-        return self._shapes[shape, path]
-
     def scene(self) -> Scene:
         scene = self._bodies_and_files()
         if not self._robots and not self._srdfs:
@@ -289,7 +277,7 @@ class _Loader:
         return posed(scene, {})
 
     def _bodies_and_files(self) -> Scene:
-        units = self._units_of_files() if self._only_meshes else set(self._units)
+        units = units_of_files(self._bodies) if self._only_meshes else set(self._units)
         scenes = self._scenes
         return Scene(
             name=" ".join(self._names),
@@ -305,36 +293,9 @@ class _Loader:
             issues=(
                 *self._issues,
                 *(lost.issue for lost in self._unreadable),
-                *self._file_issues(),
+                *issues_of_files(self._bodies),
             ),
         )
-
-    def _units_of_files(self) -> set[str]:
-        """One where all files declare the same."""
-        declared = {body.file.units for body in self._bodies}
-        return (
-            {units for units in declared if units and is_unit(units)}
-            if len(declared) == 1
-            else set()
-        )
-
-    def _file_issues(self) -> list[Issue]:
-        """Each file's warnings once: with the body's id where only one body uses the file."""
-        users: dict[tuple[str, str | None], list[Body]] = {}
-        for body in self._bodies:
-            users.setdefault((body.file.path, body.file.part), []).append(body)
-        return [
-            _shared_issue(found, bodies)
-            for bodies in users.values()
-            for found in bodies[0].file.issues
-        ]
-
-
-def _shared_issue(found: Issue, bodies: list[Body]) -> Issue:
-    part, message = bodies[0].file.part, found.message
-    if len(bodies) == 1:
-        return replace(found, body=bodies[0].id)
-    return found if part is None else replace(found, message=f"mesh {part!r}: {message}")
 
 
 def _node_id(path: str | None, file_id: str, alone: bool) -> str:

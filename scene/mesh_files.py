@@ -1,4 +1,4 @@
-"""Mesh files, each read once, whole or taken apart."""
+"""Mesh files, each read once, whole or taken apart, and shapes, each made once."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from satcheck.scene.plain_ids import COMPONENT_MARK
 
 if TYPE_CHECKING:
     from satcheck.scene.loading.nodes import Node, Nodes
+    from satcheck.scene.primitives import Primitive
 
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
@@ -30,13 +31,21 @@ class MeshFiles:
         allow_outside: bool = False,
     ) -> None:
         self._limits = ReadLimits(seconds, megabytes, allow_outside)
+        self._places: dict[Path, Path] = {}
         self._wholes: dict[Path, MeshFile | MeshFileError] = {}
         self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}
         self._by_path: dict[tuple[Path, bool], dict[str | None, Node]] = {}
+        self._shapes: dict[tuple[Primitive, str], MeshFile | MeshFileError] = {}
+
+    def _absolute(self, location: Path) -> Path:
+        """Once for a path, however many bodies it has."""
+        if location not in self._places:
+            self._places[location] = Path(location).absolute()
+        return self._places[location]
 
     def whole(self, path: str, location: Path) -> MeshFile | MeshFileError:
         """All of the file as one mesh. path: its name in messages; location: where it lies."""
-        key = Path(location).absolute()
+        key = self._absolute(location)
         if key not in self._wholes:
             try:
                 self._wholes[key] = self._load_whole(path, location)
@@ -52,7 +61,7 @@ class MeshFiles:
 
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
         """The file taken apart."""
-        key = Path(location).absolute(), components
+        key = self._absolute(location), components
         if key not in self._nodes:
             try:
                 found = self._load_nodes(path, location, components)
@@ -77,11 +86,22 @@ class MeshFiles:
         found = self.nodes(path, location, components=components)
         if isinstance(found, MeshFileError):
             return found
-        by_path = self._by_path[Path(location).absolute(), components]
+        by_path = self._by_path[self._absolute(location), components]
         if part in by_path:
             return by_path[part]
         message = f"there is no part {part!r} in the file{_meant(part, by_path)}"
         return MeshFileError("unknown-part", message, file=path)
+
+    def shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
+        """path: the file that states it."""
+        from satcheck.scene.shape_file import shape_file
+
+        if (shape, path) not in self._shapes:
+            try:
+                self._shapes[shape, path] = shape_file(shape, path)
+            except MeshFileError as error:
+                self._shapes[shape, path] = error
+        return self._shapes[shape, path]
 
 
 def _meant(part: str, known: Iterable[str | None]) -> str:

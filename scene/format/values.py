@@ -12,7 +12,7 @@ T = TypeVar("T")
 Reader = Callable[[Any], T]
 Triple = tuple[float, float, float]
 
-_FLOAT = {float}
+_NUMBERS = {int, float}
 _MOST_SHOWN = 40  # characters of a text in a message
 
 
@@ -59,9 +59,12 @@ def _numbers(value: Any, count: int, word: str) -> list[float]:
         raise Wrong(f"{word} numbers expected, not {shown(value)}")
     if len(value) != count:
         raise Wrong(f"{word} numbers expected, not {len(value)}")
-    if _FLOAT.issuperset(map(type, value)) and all(map(math.isfinite, value)):
-        return value  # what most of the numbers of a large scene are
-    return items(value, number)
+    try:
+        found = list(map(float, value)) if _NUMBERS.issuperset(map(type, value)) else []
+    except OverflowError:
+        found = []
+    # One by one only to name the one at fault: a large scene has a million of them.
+    return found if found and all(map(math.isfinite, found)) else items(value, number)
 
 
 def items(values: list[Any], read: Reader[T]) -> list[T]:
