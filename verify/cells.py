@@ -32,6 +32,7 @@ UNIT_CELL: list[Plane] = [
 ]
 ATTEMPTS = 8  # points of a cell, until one lies on no triangle of another plane
 MOST_CELLS = 200_000
+BLOCK = 256  # triangles whose own partners are looked up at once
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,18 +60,17 @@ def sides_of(
     partners: dict[int, list[int]] = {}
     for s, t in contacts:
         partners.setdefault(s, []).append(t)
-    chosen = set(partners)
-    for region, vertex in _regions(a, chosen):
+    chosen = sorted(partners)
+    for region, vertex in _regions(a, set(partners)):
         if wanted(b.world.solid and _winding(b, _point(a.points[vertex])) != 0):
-            chosen.update(region)
+            chosen += region
     total = 0
-    own = own_partners(a, sorted(chosen))
-    for t in sorted(chosen):
+    for t, own in _with_own_partners(a, chosen):
         corners = a.corners(t)
         normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
         if not any(normal):
             continue
-        others = [b.corners(u) for u in partners.get(t, [])], [a.corners(u) for u in own.get(t, [])]
+        others = [b.corners(u) for u in partners.get(t, [])], [a.corners(u) for u in own]
         for cell in cells_of(corners, normal, *others):
             total += 1
             if total > MOST_CELLS:
@@ -114,6 +114,15 @@ def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
         if index[s] != t:
             found.setdefault(index[s], []).append(t)
     return found
+
+
+def _with_own_partners(a: Exact, chosen: list[int]) -> Iterator[tuple[int, list[int]]]:
+    """In blocks, because most falsehoods are found out by the first few triangles."""
+    for start in range(0, len(chosen), BLOCK):
+        block = chosen[start : start + BLOCK]
+        own = own_partners(a, block)
+        for t in block:
+            yield t, own.get(t, [])
 
 
 def _cuts(corners: Corners, normal: Vector, others: list[Corners]) -> list[Segment]:
