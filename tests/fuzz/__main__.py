@@ -3,8 +3,8 @@
 Batches of 4,096 pairs, each made from (seed, share, number) alone: a run can be cut off and resumed
 with --from, or one batch repeated. Every pair is asked for overlap, depth and distance, swapped,
 reordered, scaled and moved; a sample of each batch is judged in rationals. Contradictions are
-printed with what makes them again; `--show SHARE NUMBER ROW` prints such a pair. Exit code 1 when
-there was one.
+printed with what makes them again; `--show SHARE NUMBER ROW` prints such a pair, `--shrink` a
+smaller one with the same contradiction. Exit code 1 when there was one.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ import numpy as np
 
 from satcheck import core
 from tests.fuzz.invariants import against_truth, contradictions, sample
-from tests.fuzz.pairs import PAIRS, SHARES, Share, make_batch
+from tests.fuzz.pairs import PAIRS, SHARES, Batch, Share, make_batch
+from tests.fuzz.shrink import contradictions_of, shrunk
 
 PRINTED = 5  # contradictions of one batch and question
 
@@ -67,8 +68,8 @@ def say(line: str) -> None:
     sys.stdout.flush()
 
 
-def show(share: Share, seed: int, number: int, row: int) -> None:
-    pair = make_batch(share, seed, number).rows(np.array([row]))
+def show(pair: Batch) -> None:
+    """A pair: the first row of the batch."""
     i, j = int(pair.index_a[0]), int(pair.index_b[0])
     say(pair.name)
     for shapes, k in ((pair.a, i), (pair.b, j)):
@@ -80,6 +81,16 @@ def show(share: Share, seed: int, number: int, row: int) -> None:
             say(f"{what} {query} {question.ask(query)[0]}")
 
 
+def shrink(pair: Batch) -> None:
+    found = contradictions_of(pair)
+    if not found:
+        say("it contradicts nothing")
+        return
+    say(f"{', '.join(sorted(found))}, of which the first stays:")
+    first = min(found)
+    show(shrunk(pair, lambda smaller: first in contradictions_of(smaller)))
+
+
 def main() -> int:
     assert __doc__ is not None
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
@@ -89,11 +100,13 @@ def main() -> int:
         "--from", type=int, default=0, dest="first", help="number of the first batch"
     )
     parser.add_argument("--judged", type=int, default=4, help="pairs of a batch in rationals")
-    parser.add_argument("--show", nargs=3, metavar=("SHARE", "NUMBER", "ROW"))
+    for option in ("--show", "--shrink"):
+        parser.add_argument(option, nargs=3, metavar=("SHARE", "NUMBER", "ROW"))
     options = parser.parse_args()
-    if options.show:
-        share, number, row = options.show
-        show(share, options.seed, int(number), int(row))
+    if options.show or options.shrink:
+        share, number, row = options.show or options.shrink
+        pair = make_batch(share, options.seed, int(number)).rows(np.array([int(row)]))
+        (show if options.show else shrink)(pair)
         return 0
     found = 0
     for share, pairs in (request.split("=") for request in options.pairs):
