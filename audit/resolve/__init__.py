@@ -1,0 +1,16 @@
+"""Pushing the bodies of a scene apart: `resolve`, and what it found."""
+
+from __future__ import annotations
+
+from satcheck.audit.resolve.resolution import Left, Move, Resolution
+from satcheck.audit.resolve.resolve import ITERATIONS, moved_scene, proof_of, resolve
+
+__all__ = [
+    "ITERATIONS",
+    "Left",
+    "Move",
+    "Resolution",
+    "moved_scene",
+    "proof_of",
+    "resolve",
+]

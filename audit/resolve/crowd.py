@@ -1,0 +1,163 @@
+"""The bodies of a scene, each at its own translation, and what their pairs say there."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+from satcheck.audit.boxes import Box
+from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.finding import examine
+from satcheck.audit.pair import Pair
+from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import OVERLAPS, Finding, Vector
+from satcheck.audit.resolve.separation import nudge
+from satcheck.audit.resolve.wall import BodyPair
+from satcheck.audit.roster import place
+from satcheck.audit.settings import Settings
+from satcheck.audit.vectors import added, scaled
+
+if TYPE_CHECKING:
+    from satcheck.scene import Body, Scene
+
+# What a way out may cost here: one that is a few percent too long is shortened with the others.
+WAY_OUT_WIDTH = 0.25
+WAY_OUT_BUDGET = 0.03
+
+ORIGIN: Vector = (0.0, 0.0, 0.0)
+IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Opinion:
+    """What a pair says where it is.
+
+    push: of an overlap, or of a gap below the clearance, a translation of the first body that ends
+    it; None: none was found. flush: they overlap, but within the touch band.
+    """
+
+    kind: Literal["free", "overlap", "near", "undecided"]
+    push: Vector | None = None
+    flush: bool = False
+    reason: str | None = None
+
+
+class Crowd:
+    """Bodies go by their rank among the ids, and a pair is (i, j) with i < j: the order of a scene
+    then changes nothing.
+
+    home: where the scene has them; placed: where they are now, moved by `offsets`. movable: the
+    bodies that may be moved.
+    """
+
+    def __init__(self, scene: Scene, settings: Settings, staying: frozenset[str]) -> None:
+        # The verdicts of a check, and with every overlap a way out.
+        self._asked = replace(
+            settings,
+            depth=True,
+            depth_width=WAY_OUT_WIDTH,
+            depth_budget=WAY_OUT_BUDGET,
+            contacts=False,
+            volume=False,
+            cross_check=False,
+            certificate=False,
+        )
+        self._strict = replace(self._asked, tolerance=0.0)
+        self.clearance = settings.clearance or 0.0
+        self._roster = place(scene, self._asked)
+        self._index = sorted(self._roster.placed, key=self._roster.ids.__getitem__)
+        self.home = [self._roster.placed[index] for index in self._index]
+        self.placed = list(self.home)
+        self.movable = frozenset(i for i, body in enumerate(self.home) if body.id not in staying)
+        self.offsets = [ORIGIN] * len(self.home)
+        self._flush: set[BodyPair] = set()
+        self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, Opinion]] = {}
+
+    def move(self, offsets: dict[int, Vector]) -> None:
+        """Put these bodies at these translations from home."""
+        for i, offset in offsets.items():
+            if offset != self.offsets[i]:
+                home = self.home[i]
+                self.offsets[i] = offset
+                self.placed[i] = (
+                    home
+                    if offset == ORIGIN
+                    else PlacedBody(translated(home.body, offset), home.shared)
+                )
+
+    def offset(self, pair: BodyPair) -> Vector:
+        """t_a - t_b."""
+        return added(self.offsets[pair[0]], scaled(self.offsets[pair[1]], -1.0))
+
+    def pair(self, pair: BodyPair) -> Pair:
+        """Without a touch band."""
+        return Pair(self.placed[pair[0]], self.placed[pair[1]], self._strict)
+
+    def is_asked(self, i: int, j: int) -> bool:
+        return self._roster.is_asked(*sorted((self._index[i], self._index[j])))
+
+    def close_pairs(self, boxes: Sequence[Box] | None = None) -> list[BodyPair]:
+        """Asked pairs whose boxes, by default those of the bodies, are close enough to matter."""
+        around = boxes or [body.bounds for body in self.placed]
+        reach = [max(0.5 * self.clearance, body.resolution) for body in self.placed]
+        return [pair for pair in close_pairs(around, reach) if self.is_asked(*pair)]
+
+    def opinions(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, Opinion]:
+        """Of pairs where their bodies are now; those that did not move are not asked again."""
+        unknown = [pair for pair in pairs if not self._is_known(pair)]
+        for pair, opinion in zip(unknown, self._in_parallel(unknown), strict=True):
+            self._known[pair] = (self.placed[pair[0]], self.placed[pair[1]], opinion)
+            if opinion.flush:
+                self._flush.add(pair)
+            else:
+                self._flush.discard(pair)
+        return {pair: self._known[pair][2] for pair in pairs}
+
+    def _is_known(self, pair: BodyPair) -> bool:
+        known = self._known.get(pair)
+        return known is not None and all(known[k] is self.placed[pair[k]] for k in range(2))
+
+    def _in_parallel(self, pairs: Sequence[BodyPair]) -> Iterable[Opinion]:
+        threads = min(self._asked.jobs or os.cpu_count() or 1, len(pairs))
+        if threads <= 1:
+            return map(self._opinion, pairs)
+        with ThreadPoolExecutor(threads) as pool:
+            return list(pool.map(self._opinion, pairs))
+
+    def _opinion(self, pair: BodyPair) -> Opinion:
+        """At home, and of flush pairs, by the touch band of a check; elsewhere without one: what is
+        moved is moved until it is free."""
+        at_home = pair not in self._known and all(self.offsets[i] == ORIGIN for i in pair)
+        strict = self.pair(pair)
+        if at_home or pair in self._flush:
+            return self._said(strict, examine(replace(strict, settings=self._asked), Plan()))
+        return self._said(strict, examine(strict, Plan()))
+
+    def _said(self, pair: Pair, found: Finding) -> Opinion:
+        if found.relation == "indeterminate":
+            return Opinion("undecided", reason=found.reason)
+        if found.relation in OVERLAPS:
+            return Opinion("overlap", found.mtv and longer(found.mtv, self.clearance))
+        if found.rule is None:
+            return Opinion("free", flush=found.exact_relation in OVERLAPS)
+        if found.normal is None:
+            return Opinion("near", nudge(pair, self.clearance))
+        return Opinion("near", scaled(found.normal, (found.distance or 0.0) - self.clearance))
+
+
+def translated(body: Body, offset: Vector) -> Body:
+    """The body, moved in the world; each entry of its placement is rounded once."""
+    transform = list(body.transform or IDENTITY)
+    for row in range(3):
+        transform[4 * row + 3] += offset[row]
+    return replace(body, transform=tuple(transform))
+
+
+def longer(way: Vector, by: float) -> Vector:
+    length = math.hypot(*way)
+    return scaled(way, (length + by) / length) if by and length else way

@@ -1,0 +1,97 @@
+"""A free place for one body among others that stay: where it goes when pushing does not help.
+
+Each body is taken as a discrete-orientation polytope: Klosowski et al., "Efficient Collision
+Detection Using Bounding Volume Hierarchies of k-DOPs" (1998), with 26 planes. Such polytopes
+overlap along an interval of every ray of translations; the first point of a ray that no interval
+covers is free for certain. The shortest such translation over a fan of rays is what is returned:
+one exists for every body, beyond all others, but it need not be the shortest there is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+import numpy.typing as npt
+
+from satcheck.audit.boxes import largest_coordinate
+from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.report import Vector
+from satcheck.audit.tolerances import rounding_pad
+from satcheck.core import Mesh
+
+Array = npt.NDArray[np.float64]
+
+# Rays spread over the sphere, beside those along the normals of the planes.
+SPREAD_RAYS = 100
+
+
+def _unit_axes() -> Array:
+    """One of each opposite pair of the 26 directions to the faces, edges and corners of a cube."""
+    directions = [v for v in product((-1, 0, 1), repeat=3) if v > (0, 0, 0)]
+    return np.array([np.array(v) / math.sqrt(sum(c * c for c in v)) for v in directions])
+
+
+def _spread(count: int) -> Array:
+    """Nearly even on the sphere: the golden spiral."""
+    k = np.arange(count) + 0.5
+    z = 1.0 - 2.0 * k / count
+    turn = math.pi * (1.0 + math.sqrt(5.0)) * k
+    flat = np.sqrt(1.0 - z * z)
+    return np.stack([flat * np.cos(turn), flat * np.sin(turn), z], axis=1)
+
+
+AXES = _unit_axes()
+RAYS = np.concatenate([AXES, -AXES, _spread(SPREAD_RAYS)])
+
+
+def extent(mesh: Mesh) -> Array:
+    """(2, axes): the lowest and the highest projection of the mesh on each axis."""
+    along = mesh.vertices @ AXES.T
+    return np.stack([along.min(axis=0), along.max(axis=0)])
+
+
+def free_slot(
+    body: PlacedBody, others: Sequence[PlacedBody], clearance: float, longest: float
+) -> Vector | None:
+    """A translation of the body, from where it is placed, that leaves it `clearance` from all
+    others; None: no ray has one that is at most `longest`. World units."""
+    if not others:
+        return (0.0, 0.0, 0.0)
+    scale = largest_coordinate(body.bounds, *(other.bounds for other in others))
+    pad = clearance + 2 * rounding_pad(scale)
+    own = extent(body.mesh)
+    around = np.stack([extent(other.mesh) for other in others])
+    # The body overlaps another one at s along a ray while below < s * rate < above on each axis.
+    below = around[:, 0] - pad - own[1]
+    above = around[:, 1] + pad - own[0]
+    best, way = longest, None
+    for ray in RAYS:
+        free = _first_free(below, above, AXES @ ray)
+        if free <= best and (way is None or free < best):
+            best, way = free, ray
+    return None if way is None else tuple(float(best * c) for c in way)  # type: ignore[return-value]
+
+
+def _first_free(below: Array, above: Array, rates: Array) -> float:
+    """The least s >= 0 outside all intervals; inf where a ray never leaves one."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ends = np.sort(np.stack([below / rates, above / rates]), axis=0)
+    level = np.abs(rates) < 1e-12
+    inside = (below < 0) & (above > 0)
+    ends[0][:, level] = np.where(inside[:, level], -np.inf, np.inf)
+    ends[1][:, level] = np.where(inside[:, level], np.inf, -np.inf)
+    start, stop = ends[0].max(axis=1), ends[1].min(axis=1)
+    return _gap(start, stop)
+
+
+def _gap(start: Array, stop: Array) -> float:
+    blocked = (start < stop) & (stop > 0)
+    at = 0.0
+    for low, high in sorted(zip(start[blocked].tolist(), stop[blocked].tolist(), strict=True)):
+        if low >= at:
+            break
+        at = max(at, high)
+    return at

@@ -1,0 +1,125 @@
+"""Shortening translations that leave nothing overlapping, so that nothing overlaps on the way.
+
+Walls are laid between the bodies where they are, the shortest translations that keep those are
+taken, and the bodies go there: all the way, or half of it, a quarter ... of it where bodies that
+are not convex meet. So the sum of squares falls with every step. It ends at a least motion among
+those nearby, which need not be the least there is.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+
+from satcheck.audit.boxes import Box, largest_coordinate
+from satcheck.audit.report import Vector
+from satcheck.audit.resolve.crowd import ORIGIN, Crowd
+from satcheck.audit.resolve.hildreth import project
+from satcheck.audit.resolve.islands import islands
+from satcheck.audit.resolve.separation import separation
+from satcheck.audit.resolve.wall import BodyPair, Wall
+from satcheck.audit.tolerances import rounding_pad
+from satcheck.audit.vectors import added, dot, scaled
+
+STEPS = 8
+HALVINGS = 4
+# A step that gains less of the sum of squares than this share is not worth the next one.
+LEAST_GAIN = 1e-3
+
+Offsets = dict[int, Vector]
+
+
+def pull_back(crowd: Crowd, left: Collection[BodyPair]) -> None:
+    """Move the bodies closer to home. left: pairs that may overlap; no others do."""
+    for _ in range(STEPS):
+        before = _squares(crowd)
+        if before == 0:
+            return
+        _step(crowd, left)
+        if before - _squares(crowd) < LEAST_GAIN * before:
+            return
+
+
+def walled(crowd: Crowd, pair: BodyPair) -> Wall | None:
+    """The wall between two bodies where they are; None where no direction is known."""
+    found = separation(crowd.pair(pair))
+    if found is None:
+        return None
+    normal, gap = found
+    return Wall(*pair, normal, dot(normal, crowd.offset(pair)) - gap + crowd.clearance)
+
+
+def swept(start: Box, end: Box) -> Box:
+    """What holds both boxes, and every box on the way from one to the other."""
+    low = tuple(min(a, b) for a, b in zip(start[0], end[0], strict=True))
+    high = tuple(max(a, b) for a, b in zip(start[1], end[1], strict=True))
+    return low, high  # type: ignore[return-value]
+
+
+def _squares(crowd: Crowd) -> float:
+    return math.fsum(dot(t, t) for t in crowd.offsets)
+
+
+def _step(crowd: Crowd, left: Collection[BodyPair]) -> None:
+    start = dict(enumerate(crowd.offsets))
+    groups = _groups(crowd, left)
+    member = {body: number for number, group in enumerate(groups) for body in group}
+    share = [1.0] * len(groups)
+    while True:
+        crowd.move(
+            {
+                body: _between(start[body], end, share[number])
+                for number, group in enumerate(groups)
+                for body, end in group.items()
+            }
+        )
+        met = {
+            member[body]
+            for pair, said in crowd.opinions(crowd.close_pairs()).items()
+            if said.kind != "free" and pair not in left
+            for body in pair
+            if body in member and share[member[body]] > 0
+        }
+        if not met:
+            return
+        for number in met:
+            share[number] = share[number] / 2 if share[number] > 0.5**HALVINGS else 0.0
+
+
+def _between(start: Vector, end: Vector, share: float) -> Vector:
+    if share in (0.0, 1.0):
+        return end if share else start
+    return added(scaled(start, 1 - share), scaled(end, share))
+
+
+def _groups(crowd: Crowd, left: Collection[BodyPair]) -> list[Offsets]:
+    """Where the bodies would go, those together that share walls; bodies at their place left out."""
+    walls, held = _walls(crowd, left)
+    free = crowd.movable - held.keys()
+    found: list[Offsets] = []
+    for island in islands(walls, free):
+        moved = project(island, held)
+        if not moved.broken:
+            found.append(moved.offsets)
+    walled_in = {body for wall in walls for body in (wall.a, wall.b)}
+    found += [{body: ORIGIN} for body in sorted(free - walled_in)]
+    return [
+        group for group in found if any(crowd.offsets[body] != end for body, end in group.items())
+    ]
+
+
+def _walls(crowd: Crowd, left: Collection[BodyPair]) -> tuple[list[Wall], Offsets]:
+    """Between all bodies that might meet on their ways home; and the bodies that are held: those
+    that stay, and those of pairs without a wall."""
+    ways = [swept(a.bounds, b.bounds) for a, b in zip(crowd.home, crowd.placed, strict=True)]
+    walls, held = [], {i: ORIGIN for i in range(len(crowd.home)) if i not in crowd.movable}
+    for pair in crowd.close_pairs(ways):
+        if all(crowd.offsets[body] == ORIGIN for body in pair) or pair in left:
+            continue
+        wall = walled(crowd, pair)
+        if wall is None:
+            held.update({body: crowd.offsets[body] for body in pair})
+            continue
+        wall.least += rounding_pad(largest_coordinate(*(crowd.placed[i].bounds for i in pair)))
+        walls.append(wall)
+    return [wall for wall in walls if wall.a not in held or wall.b not in held], held

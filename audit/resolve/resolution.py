@@ -1,0 +1,143 @@
+"""What `resolve` found: the moves, what is left, and the check that proves it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from satcheck.audit.report import OVERLAPS, Finding, Report, Vector
+
+SCHEMA = "satcheck.resolution/1"
+
+Verdict = Literal["resolved", "unresolved", "incomplete"]
+_VERDICTS: dict[str, Verdict] = {
+    "pass": "resolved",
+    "fail": "unresolved",
+    "incomplete": "incomplete",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """translation: of the body in the world, units of the scene. length: of it."""
+
+    body: str
+    translation: Vector
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """A pair that still is not as asked, and why nothing was done about it."""
+
+    a: str
+    b: str
+    relation: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Resolution:
+    """moves: of the bodies that were moved, in the order of the scene. pinned: those that had to
+    stay. found: pairs that overlapped, or were closer than the clearance, before. rounds: how often
+    bodies were pushed. left: what could not be resolved. report: of a check of the moved scene; the
+    verdict is its own.
+    """
+
+    moves: tuple[Move, ...]
+    pinned: tuple[str, ...]
+    found: int
+    rounds: int
+    left: tuple[Left, ...]
+    report: Report
+
+    @property
+    def verdict(self) -> Verdict:
+        return _VERDICTS[self.report.summary.verdict]
+
+    @property
+    def remaining(self) -> tuple[Finding, ...]:
+        """What the check of the moved scene still objects to."""
+        return tuple(
+            finding
+            for finding in self.report.findings
+            if finding.relation in OVERLAPS or finding.severity == "error"
+        )
+
+    @property
+    def flush(self) -> int:
+        """Pairs that overlap by no more than the tolerance: to a check they touch."""
+        return sum(
+            finding.relation == "touching" and finding.exact_relation in OVERLAPS
+            for finding in self.report.findings
+        )
+
+    @property
+    def total_motion(self) -> float:
+        return math.fsum(move.length for move in self.moves)
+
+    @property
+    def largest_motion(self) -> float:
+        return max((move.length for move in self.moves), default=0.0)
+
+    def to_dict(self, output: str | None = None) -> dict[str, Any]:
+        """JSON values in the fixed key order of the schema. output: the file it was written to."""
+        report = self.report
+        pairs = report.summary.pairs
+        return {
+            "schema": SCHEMA,
+            "tool": {"name": report.tool.name, "version": report.tool.version},
+            "units": report.units,
+            "output": output,
+            "summary": {
+                "verdict": self.verdict,
+                "found": self.found,
+                "remaining": len(self.remaining),
+                "flush": self.flush,
+                "moved": len(self.moves),
+                "pinned": len(self.pinned),
+                "total_motion": self.total_motion,
+                "largest_motion": self.largest_motion,
+                "rounds": self.rounds,
+            },
+            "moves": [
+                {
+                    "body": move.body,
+                    "translation": [c + 0.0 for c in move.translation],
+                    "length": move.length,
+                }
+                for move in self.moves
+            ],
+            "pinned": list(self.pinned),
+            "left": [
+                {"a": one.a, "b": one.b, "relation": one.relation, "reason": one.reason}
+                for one in self.left
+            ],
+            "check": {
+                "verdict": report.summary.verdict,
+                "pairs": {
+                    "total": pairs.total,
+                    "pruned": pairs.pruned,
+                    "decided": pairs.decided,
+                    "allowed": pairs.allowed,
+                    "indeterminate": pairs.indeterminate,
+                },
+                "by_relation": _counts(report.summary.by_relation),
+            },
+            "issues": [
+                {
+                    "code": issue.code,
+                    "severity": issue.severity,
+                    "body": issue.body,
+                    "file": issue.file,
+                    "message": issue.message,
+                }
+                for issue in report.issues
+            ],
+        }
+
+
+def _counts(by_relation: Mapping[str, int]) -> dict[str, int]:
+    return {relation: count for relation, count in sorted(by_relation.items()) if count}

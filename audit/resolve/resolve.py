@@ -1,0 +1,117 @@
+"""A scene in, translations out after which nothing overlaps that must not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from satcheck.audit.check import check
+from satcheck.audit.report import OVERLAPS, Report
+from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
+from satcheck.audit.resolve.pull_back import pull_back
+from satcheck.audit.resolve.resolution import Left, Move, Resolution
+from satcheck.audit.resolve.rounds import Progress, Rounds
+from satcheck.audit.settings import Settings
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import Scene
+from satcheck.scene.rules import Selector
+
+ITERATIONS = 50
+
+BOTH_STAY = "both bodies stay"
+NO_WAY = "no way out was found"
+
+
+def resolve(
+    scene: Scene,
+    settings: Settings | None = None,
+    *,
+    pins: Sequence[str] = (),
+    max_motion: float | None = None,
+    iterations: int = ITERATIONS,
+    progress: Progress | None = None,
+) -> Resolution:
+    """Translations, without rotation, that end every overlap of a scene that can be ended.
+
+    What counts as one is what `check` with these settings finds: a pair that the scene allows or
+    ignores stays as it is, one within the touch band counts as touching, one closer than the
+    clearance is pushed apart until it keeps it. Bodies that are moved are moved until they are free
+    without any touch band. The sum of the squares of the translations is made small, not least.
+
+    pins: selectors of bodies that stay, as in rules; bodies that the scene calls static stay too.
+    max_motion: no body is moved farther. iterations: rounds of pushing, after which bodies are
+    taken out to free places, wherever these are. progress(done, total) counts pairs.
+
+    Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
+    """
+    settings = settings or Settings()
+    if max_motion is not None and not (math.isfinite(max_motion) and max_motion > 0):
+        raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
+    if iterations < 0:
+        raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
+    staying = _staying(scene, pins)
+    crowd = Crowd(scene, settings, staying)
+    before = crowd.opinions(crowd.close_pairs())
+    rounds = Rounds(crowd, math.inf if max_motion is None else max_motion)
+    rounds.run(iterations, progress)
+    pull_back(crowd, rounds.left)
+    moves = _moves(scene, crowd)
+    moved = moved_scene(scene, {move.body: move.translation for move in moves})
+    report = check(moved, proof_of(settings))
+    left = {frozenset(crowd.home[i].id for i in pair): why for pair, why in rounds.left.items()}
+    return Resolution(
+        moves=moves,
+        pinned=tuple(body.id for body in scene.bodies if body.id in staying),
+        found=sum(said.kind in ("overlap", "near") for said in before.values()),
+        rounds=rounds.count,
+        left=tuple(_left(report, staying, left)),
+        report=report,
+    )
+
+
+def proof_of(settings: Settings) -> Settings:
+    """What the moved scene is checked with: the same questions, without figures for overlaps."""
+    return replace(settings, depth=False, contacts=False, volume=False, cross_check=False)
+
+
+def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
+    selectors = [Selector(pin) for pin in pins]
+    for selector in selectors:
+        if not any(selector.matches(body.id, body.groups) for body in scene.bodies):
+            raise SatcheckError("unknown-pin", f"no body is called {selector.text!r}")
+    return frozenset(
+        body.id
+        for body in scene.bodies
+        if body.static or any(pin.matches(body.id, body.groups) for pin in selectors)
+    )
+
+
+def _moves(scene: Scene, crowd: Crowd) -> tuple[Move, ...]:
+    by_id = {body.id: offset for body, offset in zip(crowd.home, crowd.offsets, strict=True)}
+    return tuple(
+        Move(body.id, offset, math.hypot(*offset))
+        for body in scene.bodies
+        if (offset := by_id.get(body.id, ORIGIN)) != ORIGIN
+    )
+
+
+def _left(
+    report: Report, staying: frozenset[str], known: dict[frozenset[str], str]
+) -> Iterator[Left]:
+    for finding in report.findings:
+        if finding.relation in OVERLAPS or finding.rule is not None:
+            pair = frozenset((finding.a, finding.b))
+            why = BOTH_STAY if pair <= staying else known.get(pair, NO_WAY)
+            yield Left(finding.a, finding.b, finding.relation, why)
+
+
+def moved_scene(scene: Scene, translations: dict[str, Vector]) -> Scene:
+    """The scene with these bodies, by id, moved in the world."""
+    return replace(
+        scene,
+        bodies=tuple(
+            translated(body, translations[body.id]) if body.id in translations else body
+            for body in scene.bodies
+        ),
+    )

@@ -1,0 +1,46 @@
+"""Directions in which two bodies without a common interior are apart."""
+
+from __future__ import annotations
+
+import math
+from itertools import product
+
+from satcheck import core
+from satcheck.audit.pair import Pair
+from satcheck.audit.report import Vector
+from satcheck.audit.vectors import scaled, unit
+
+
+def separation(pair: Pair) -> tuple[Vector, float] | None:
+    """The unit direction in which A is from B, and the gap along it; None where none is known.
+
+    Of bodies whose hulls are apart it is that of a separating plane: A may move along the plane and
+    away from it as far as it likes. Of others it is that of their nearest points, which says as
+    much for small translations only.
+    """
+    found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
+    if found.outcome in ("separated", "touching") and found.normal is not None:
+        return scaled(found.normal, -1.0), max(found.lower or 0.0, 0.0)
+    near = core.mesh_distance(pair.a.surface(), pair.b.surface())
+    (ax, ay, az), (bx, by, bz) = near.witness_a, near.witness_b
+    step = (ax - bx, ay - by, az - bz)
+    if near.distance == 0 or not any(step) or not all(map(math.isfinite, step)):
+        return None
+    return unit(step), near.distance
+
+
+def nudge(pair: Pair, length: float) -> Vector | None:
+    """Of the translations of A this long to the faces, edges and corners of a cube, the one that
+    leaves touching bodies farthest apart; None where none parts them."""
+    best, way = 0.0, None
+    for direction in product((-1.0, 0.0, 1.0), repeat=3):
+        if not any(direction):
+            continue
+        step = scaled(unit(direction), length)
+        moved = core.Surface(pair.a.mesh.translated(step), pair.a.solid)
+        if core.mesh_relation(moved, pair.b.surface()).relation != "separated":
+            continue
+        gap = core.mesh_distance(moved, pair.b.surface()).distance
+        if gap > best:
+            best, way = gap, step
+    return way
