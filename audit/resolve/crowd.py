@@ -9,8 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
+from satcheck import core
 from satcheck.audit.boxes import Box
-from satcheck.audit.broad_phase import close_pairs
 from satcheck.audit.finding import examine
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
@@ -105,7 +105,8 @@ class Crowd:
         """Asked pairs whose boxes, by default those of the bodies, are close enough to matter."""
         around = boxes or [body.bounds for body in self.placed]
         reach = [max(0.5 * self.clearance, body.resolution) for body in self.placed]
-        return [pair for pair in close_pairs(around, reach) if self.is_asked(*pair)]
+        close = core.close_pairs(around, reach, [0] * len(around), [], [])
+        return [pair for pair in close if self.is_asked(*pair)]
 
     def opinions(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, Opinion]:
         """Of pairs where their bodies are now; those that did not move are not asked again."""

@@ -16,11 +16,9 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from satcheck.audit.boxes import largest_coordinate
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import rounding_pad
-from satcheck.core import Mesh
 
 Array = npt.NDArray[np.float64]
 
@@ -47,32 +45,55 @@ AXES = _unit_axes()
 RAYS = np.concatenate([AXES, -AXES, _spread(SPREAD_RAYS)])
 
 
-def extent(mesh: Mesh) -> Array:
-    """(2, axes): the lowest and the highest projection of the mesh on each axis."""
-    along = mesh.vertices @ AXES.T
-    return np.stack([along.min(axis=0), along.max(axis=0)])
+class Slots:
+    """Free places among these bodies, which are translated from where they are placed here."""
+
+    def __init__(self, bodies: Sequence[PlacedBody]) -> None:
+        self._bodies = bodies
+        self._extents: tuple[Array, Array] | None = None
+
+    def free(
+        self,
+        body: int,
+        others: Sequence[int],
+        offsets: Sequence[Vector],
+        clearance: float,
+        longest: float,
+    ) -> Vector | None:
+        """A translation of the body that leaves it `clearance` from all others, translated by their
+        offsets; None: no ray has one that is at most `longest`. World units."""
+        if not others:
+            return (0.0, 0.0, 0.0)
+        low, high = self._placed_extents()
+        chosen = np.array(others)
+        moved = np.array([offsets[other] for other in others])
+        shift = moved @ AXES.T
+        far = max(np.abs(low).max(), np.abs(high).max()) + np.abs(moved).max()
+        pad = clearance + 2 * rounding_pad(float(far))
+        # It overlaps another one at s along a ray while below < s * rate < above on each axis.
+        below = low[chosen] + shift - pad - high[body]
+        above = high[chosen] + shift + pad - low[body]
+        best, way = longest, None
+        for ray in RAYS:
+            length = _first_free(below, above, AXES @ ray)
+            if length < best or (way is None and length <= best < math.inf):
+                best, way = length, ray
+        return None if way is None else _point(way, best)
+
+    def _placed_extents(self) -> tuple[Array, Array]:
+        """(bodies, axes) each: the lowest and the highest projections on the axes."""
+        if self._extents is None:
+            along = [body.mesh.vertices @ AXES.T for body in self._bodies]
+            self._extents = (
+                np.stack([one.min(axis=0) for one in along]),
+                np.stack([one.max(axis=0) for one in along]),
+            )
+        return self._extents
 
 
-def free_slot(
-    body: PlacedBody, others: Sequence[PlacedBody], clearance: float, longest: float
-) -> Vector | None:
-    """A translation of the body, from where it is placed, that leaves it `clearance` from all
-    others; None: no ray has one that is at most `longest`. World units."""
-    if not others:
-        return (0.0, 0.0, 0.0)
-    scale = largest_coordinate(body.bounds, *(other.bounds for other in others))
-    pad = clearance + 2 * rounding_pad(scale)
-    own = extent(body.mesh)
-    around = np.stack([extent(other.mesh) for other in others])
-    # The body overlaps another one at s along a ray while below < s * rate < above on each axis.
-    below = around[:, 0] - pad - own[1]
-    above = around[:, 1] + pad - own[0]
-    best, way = longest, None
-    for ray in RAYS:
-        free = _first_free(below, above, AXES @ ray)
-        if free <= best and (way is None or free < best):
-            best, way = free, ray
-    return None if way is None else tuple(float(best * c) for c in way)  # type: ignore[return-value]
+def _point(ray: Array, length: float) -> Vector:
+    x, y, z = (float(length * c) for c in ray)
+    return x, y, z
 
 
 def _first_free(below: Array, above: Array, rates: Array) -> float:

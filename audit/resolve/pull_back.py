@@ -14,8 +14,8 @@ from collections.abc import Collection
 from satcheck.audit.boxes import Box, largest_coordinate
 from satcheck.audit.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
-from satcheck.audit.resolve.hildreth import project
 from satcheck.audit.resolve.islands import islands
+from satcheck.audit.resolve.least_motion import least_motion
 from satcheck.audit.resolve.separation import separation
 from satcheck.audit.resolve.wall import BodyPair, Wall
 from satcheck.audit.tolerances import rounding_pad
@@ -32,11 +32,12 @@ Offsets = dict[int, Vector]
 def pull_back(crowd: Crowd, left: Collection[BodyPair]) -> None:
     """Move the bodies closer to home. left: pairs that may overlap; no others do."""
     for _ in range(STEPS):
-        before = _squares(crowd)
+        start, before = dict(enumerate(crowd.offsets)), _squares(crowd)
         if before == 0:
             return
         _step(crowd, left)
         if before - _squares(crowd) < LEAST_GAIN * before:
+            crowd.move(start)
             return
 
 
@@ -93,12 +94,12 @@ def _between(start: Vector, end: Vector, share: float) -> Vector:
 
 
 def _groups(crowd: Crowd, left: Collection[BodyPair]) -> list[Offsets]:
-    """Where the bodies would go, those together that share walls; bodies at their place left out."""
+    """Where the bodies would go, those together that share walls; bodies that stay left out."""
     walls, held = _walls(crowd, left)
     free = crowd.movable - held.keys()
     found: list[Offsets] = []
     for island in islands(walls, free):
-        moved = project(island, held)
+        moved = least_motion(island, held)
         if not moved.broken:
             found.append(moved.offsets)
     walled_in = {body for wall in walls for body in (wall.a, wall.b)}

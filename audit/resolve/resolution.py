@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from satcheck.audit.report import OVERLAPS, Finding, Report, Vector
+from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
 
 SCHEMA = "satcheck.resolution/1"
 
@@ -139,5 +139,5 @@ class Resolution:
         }
 
 
-def _counts(by_relation: Mapping[str, int]) -> dict[str, int]:
+def _counts(by_relation: Mapping[Relation, int]) -> dict[str, int]:
     return {relation: count for relation, count in sorted(by_relation.items()) if count}

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from satcheck.audit.check import check
-from satcheck.audit.report import OVERLAPS, Report
+from satcheck.audit.report import OVERLAPS, Report, Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
 from satcheck.audit.resolve.pull_back import pull_back
 from satcheck.audit.resolve.resolution import Left, Move, Resolution

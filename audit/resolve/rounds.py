@@ -14,25 +14,38 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 
 from satcheck.audit.boxes import largest_coordinate
+from satcheck.audit.cheap_bounds import way_out_of_hulls
 from satcheck.audit.report import Vector
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd, Opinion
-from satcheck.audit.resolve.free_slot import free_slot
-from satcheck.audit.resolve.hildreth import project
+from satcheck.audit.resolve.crowd import ORIGIN, Crowd, Opinion, longer
+from satcheck.audit.resolve.free_slot import Slots
 from satcheck.audit.resolve.islands import islands
+from satcheck.audit.resolve.least_motion import least_motion
 from satcheck.audit.resolve.pull_back import swept, walled
 from satcheck.audit.resolve.wall import BodyPair, Wall
-from satcheck.audit.tolerances import LENGTHENING_ULPS, UNIT_ROUNDOFF
-from satcheck.audit.vectors import added, dot, scaled
+from satcheck.audit.tolerances import rounding_pad
+from satcheck.audit.vectors import added, dot, scaled, unit
 
-# After so many rounds in which a pair overlaps, one of its bodies is taken out.
-PATIENCE = 6
-# Walls of one pair whose normals are this close are one wall, moved.
-SAME_NORMAL = 1 - 1e-9
-# An overlap below this share of the coordinates comes from rounding.
+# After so many rounds in which a pair overlaps, its walls are replaced: by one between the hulls, if
+# the way out of these is not much longer. After so many, one of its bodies is taken out.
+LOCAL_WALLS = 3
+MUCH_LONGER = 2.0
+PATIENCE = 8
+# How often in a round walls that exclude each other may cost a body its place, and how many of the
+# walls that push hardest name the bodies to choose from.
+CONFLICTS = 12
+CANDIDATES = 2
+# An overlap below this share of the coordinates is a remainder: of rounding, or of a wall that is
+# nearly right. Each time the same pair has one it is made up for by more, so many times.
+REPAIR_SHARE = 1e-5
+REPAIR_GROWTH = 4.0
+REPAIRS = 16
+# Up to this share of the coordinates a wall is kept.
 ROUNDING_SHARE = 1e-9
+
+AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 Progress = Callable[[int, int], None]
 
@@ -43,7 +56,9 @@ class Rounds:
     def __init__(self, crowd: Crowd, longest: float) -> None:
         self._crowd = crowd
         self._longest = longest
+        self._slots = Slots(crowd.home)
         self._walls: dict[BodyPair, list[Wall]] = {}
+        self._locked: set[BodyPair] = set()
         self._seen: Counter[BodyPair] = Counter()
         self._repairs: Counter[BodyPair] = Counter()
         self.left: dict[BodyPair, str] = {}
@@ -81,111 +96,150 @@ class Rounds:
 
     def _push_apart(self, overlaps: dict[BodyPair, Opinion]) -> None:
         stuck = [pair for pair, opinion in overlaps.items() if not self._add_wall(pair, opinion)]
-        self._take_out_one_each(stuck)
-        self._project(range(3))
-
-    def _project(self, attempts: Iterable[int]) -> None:
-        """Move the bodies; walls that exclude each other cost a body its place."""
-        for _ in attempts:
-            offsets, broken = self._solution()
-            self._crowd.move(offsets)
-            if not broken:
+        done: set[int] = set()
+        for pair in stuck:
+            if done.isdisjoint(pair):
+                taken = self._take_out(pair)
+                done.update(taken)
+                if not taken:
+                    self._give_up(pair)
+        for _ in range(CONFLICTS):
+            conflicts = self._project()
+            if not conflicts:
                 return
-            self._take_out_one_each(broken)
+            for walls in conflicts:
+                self._settle(walls)
+        self._project()
 
-    def _solution(self) -> tuple[dict[int, Vector], list[BodyPair]]:
-        offsets = dict.fromkeys(sorted(self._crowd.movable), ORIGIN)
-        broken = []
-        for island in islands(self.walls, self._crowd.movable):
-            held = {
-                body: ORIGIN
-                for wall in island
-                for body in (wall.a, wall.b)
-                if body not in self._crowd.movable
-            }
-            found = project(island, held)
-            offsets.update(found.offsets)
-            too_far = [i for i, t in found.offsets.items() if math.hypot(*t) > self._longest]
-            if found.broken:
-                broken.append((found.broken[0].a, found.broken[0].b))
-            elif too_far:
-                longest = max(too_far, key=lambda i: math.hypot(*found.offsets[i]))
-                walls = [wall for wall in island if longest in (wall.a, wall.b)]
-                worst = max(walls, key=lambda wall: wall.multiplier)
-                broken.append((worst.a, worst.b))
-        return offsets, broken
+    def _project(self) -> list[list[Wall]]:
+        """Move the bodies whose walls can be kept, all others stay; returns, of each island where
+        that cannot be, or not within the longest motion, the walls to blame, the worst first."""
+        crowd = self._crowd
+        offsets = dict.fromkeys(sorted(crowd.movable), ORIGIN)
+        conflicts = []
+        for island in islands(self.walls, crowd.movable):
+            bodies = {body for wall in island for body in (wall.a, wall.b)}
+            found = least_motion(island, dict.fromkeys(bodies - crowd.movable, ORIGIN))
+            blamed = found.broken or self._too_hard(island, found.offsets)
+            if blamed:
+                conflicts.append(list(blamed))
+                for wall in island:
+                    wall.multiplier = 0.0
+                for body in found.offsets:
+                    del offsets[body]
+            else:
+                offsets.update(found.offsets)
+        crowd.move(offsets)
+        return conflicts
+
+    def _too_hard(self, walls: list[Wall], offsets: dict[int, Vector]) -> list[Wall]:
+        """The walls of the body that is pushed the farthest, if that is too far."""
+        body = max(offsets, key=lambda i: math.hypot(*offsets[i]))
+        if math.hypot(*offsets[body]) <= self._longest:
+            return []
+        own = [wall for wall in walls if body in (wall.a, wall.b)]
+        return sorted(own, key=lambda wall: -wall.multiplier)
+
+    def _settle(self, blamed: list[Wall]) -> None:
+        """Ease the first of these walls: of several of one pair only the newest is kept; else one
+        of the bodies is taken out, and where there is no place for it the pair is given up."""
+        pair = (blamed[0].a, blamed[0].b)
+        if len(self._walls[pair]) > 1 and pair not in self._locked:
+            self._walls[pair] = self._walls[pair][-1:]
+            return
+        worst = blamed[:CANDIDATES]
+        bodies = dict.fromkeys(body for wall in worst for body in (wall.a, wall.b))
+        if not self._take_out(tuple(bodies)):
+            self._give_up(pair)
 
     def _add_wall(self, pair: BodyPair, opinion: Opinion) -> bool:
-        """Whether the pair has a wall that is worth a try."""
-        push = opinion.push
-        length = 0.0 if push is None else math.hypot(*push)
-        if push is None or not length > 0:
+        """Whether the pair has a wall that is worth a try.
+
+        Between bodies that are not convex a wall holds nearby only. A remainder of an overlap raises
+        the walls that are there. Where walls contradict each other, or come too often, one that
+        holds everywhere takes their place, or the bodies are locked to each other."""
+        push, size = opinion.push, self._size(pair)
+        if push is None or not any(push):
             return False
-        size = self._size(pair)
-        if length < ROUNDING_SHARE * size:
-            step = LENGTHENING_ULPS[min(self._repairs[pair], len(LENGTHENING_ULPS) - 1)]
+        walls, length = self._walls.get(pair, []), math.hypot(*push)
+        if walls and length < REPAIR_SHARE * size:
+            more = (length + rounding_pad(size)) * REPAIR_GROWTH ** self._repairs[pair]
             self._repairs[pair] += 1
-            push = scaled(push, 1 + step * 2 * UNIT_ROUNDOFF * size / length)
+            if pair in self._locked:
+                self._lock(pair, longer(push, more))
+            for wall in walls if pair not in self._locked else ():
+                wall.least += more
+            return self._repairs[pair] <= REPAIRS
+        self._seen[pair] += 1
+        opposed = any(dot(wall.normal, push) < 0 for wall in walls)
+        if pair in self._locked:
+            self._lock(pair, push)
+        elif opposed or self._seen[pair] > LOCAL_WALLS:
+            hull = self._out_of_hull(pair)
+            if math.hypot(*hull) <= MUCH_LONGER * max([length, *(wall.least for wall in walls)]):
+                self._walls[pair] = [self._wall(pair, hull)]
+            else:
+                self._lock(pair, push)
         else:
-            self._seen[pair] += 1
-        normal = scaled(push, 1 / length)
-        offset = self._crowd.offset(pair)
-        there = added(offset, push)
-        wall = Wall(*pair, normal, dot(normal, there))
-        kept = [
-            other
-            for other in self._walls.get(pair, [])
-            if other.slack(there) >= -ROUNDING_SHARE * size
-        ]
-        for other in kept:
-            if dot(other.normal, normal) > SAME_NORMAL:
-                other.least = max(other.least, wall.least)
-                break
-        else:
-            kept.append(wall)
-        self._walls[pair] = kept
+            there = added(self._crowd.offset(pair), push)
+            kept = [wall for wall in walls if wall.slack(there) >= -ROUNDING_SHARE * size]
+            self._walls[pair] = [*kept, self._wall(pair, push)]
         return self._seen[pair] <= PATIENCE
+
+    def _wall(self, pair: BodyPair, push: Vector) -> Wall:
+        normal = unit(push)
+        return Wall(*pair, normal, dot(normal, added(self._crowd.offset(pair), push)))
+
+    def _lock(self, pair: BodyPair, push: Vector) -> None:
+        """Keep the bodies just where the push puts one from the other."""
+        there = added(self._crowd.offset(pair), push)
+        self._locked.add(pair)
+        self._walls[pair] = [
+            Wall(*pair, scaled(axis, side), side * dot(axis, there))
+            for axis in AXES
+            for side in (1.0, -1.0)
+        ]
+
+    def _out_of_hull(self, pair: BodyPair) -> Vector:
+        """The shortest push that parts the hulls and leaves the clearance between them."""
+        found, size = way_out_of_hulls(self._crowd.pair(pair)), self._size(pair)
+        return scaled(found.normal, -(found.upper + self._crowd.clearance + rounding_pad(size)))
 
     def _size(self, pair: BodyPair) -> float:
         return largest_coordinate(*(self._crowd.placed[i].bounds for i in pair))
 
-    def _take_out_one_each(self, pairs: Iterable[BodyPair]) -> None:
-        """One body of each of these pairs, unless one of them was taken out just now."""
-        done: set[int] = set()
-        for pair in pairs:
-            if done.isdisjoint(pair):
-                done.update(self._take_out(pair))
-
-    def _take_out(self, pair: BodyPair) -> BodyPair | tuple[int] | tuple[()]:
-        """Put the body that has the shorter way to a free slot there."""
-        ways = [(way, i) for i in pair if (way := self._slot(i)) is not None]
+    def _take_out(self, bodies: Sequence[int]) -> tuple[int, ...]:
+        """Put the one of these bodies that has the shortest way to a free slot there; returns it,
+        or nothing where none has one."""
+        ways = [(way, i) for i in bodies if (way := self._slot(i)) is not None]
         if not ways:
-            self.left[pair] = "no free place was found within the longest motion allowed"
-            self._walls.pop(pair, None)
             return ()
         way, i = min(ways, key=lambda found: math.hypot(*found[0]))
         self._crowd.move({i: way})
         self._wall_in(i)
         return (i,)
 
+    def _give_up(self, pair: BodyPair) -> None:
+        self.left[pair] = "no free place was found within the longest motion allowed"
+        self._walls.pop(pair, None)
+
     def _slot(self, i: int) -> Vector | None:
         crowd = self._crowd
         if i not in crowd.movable:
             return None
-        others = [
-            other for j, other in enumerate(crowd.placed) if j != i and crowd.is_asked(i, j)
-        ]
-        return free_slot(crowd.home[i], others, crowd.clearance, self._longest)
+        others = [j for j in range(len(crowd.home)) if j != i and crowd.is_asked(i, j)]
+        return self._slots.free(i, others, crowd.offsets, crowd.clearance, self._longest)
 
     def _wall_in(self, i: int) -> None:
         """Make the walls of a body anew, from where it is, to all that is on its way home."""
         crowd = self._crowd
         self._walls = {pair: walls for pair, walls in self._walls.items() if i not in pair}
+        self._locked = {pair for pair in self._locked if i not in pair}
         way = swept(crowd.home[i].bounds, crowd.placed[i].bounds)
         boxes = [way if j == i else other.bounds for j, other in enumerate(crowd.placed)]
         for pair in crowd.close_pairs(boxes):
             if i in pair:
-                self._seen[pair] = 0
+                self._seen[pair] = self._repairs[pair] = 0
                 wall = walled(crowd, pair)
                 if wall is not None:
                     self._walls[pair] = [wall]
@@ -194,5 +248,7 @@ class Rounds:
         """Without another push: each body that still overlaps goes to a slot that is free of all
         others, wherever these are now, so that the number of overlaps only falls."""
         while overlaps := self.overlaps():
-            self._take_out(next(iter(overlaps)))
+            pair = next(iter(overlaps))
+            if not self._take_out(pair):
+                self._give_up(pair)
         return True

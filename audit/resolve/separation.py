@@ -33,10 +33,10 @@ def nudge(pair: Pair, length: float) -> Vector | None:
     """Of the translations of A this long to the faces, edges and corners of a cube, the one that
     leaves touching bodies farthest apart; None where none parts them."""
     best, way = 0.0, None
-    for direction in product((-1.0, 0.0, 1.0), repeat=3):
-        if not any(direction):
+    for x, y, z in product((-1.0, 0.0, 1.0), repeat=3):
+        if x == y == z == 0.0:
             continue
-        step = scaled(unit(direction), length)
+        step = scaled(unit((x, y, z)), length)
         moved = core.Surface(pair.a.mesh.translated(step), pair.a.solid)
         if core.mesh_relation(moved, pair.b.surface()).relation != "separated":
             continue

@@ -15,7 +15,7 @@ class Wall:
     """normal . (t_a - t_b) >= least, for translations t of the bodies a and b, world frame.
 
     normal: unit; A goes along it to get away from B. multiplier: what the wall pushes A with, and B
-    the other way, in the last solution (`hildreth`); a length.
+    the other way, in the last solution (`least_motion`); a length.
     """
 
     a: int

@@ -15,7 +15,8 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 
 def text(name: str = "report") -> str:
-    """The schema of one kind of document: `report` of a check, `samples`, `stability`; `scene`."""
+    """The schema of one kind of document: `report` of a check, `resolution`, `samples`,
+    `stability`; `scene`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     found = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")

@@ -19,6 +19,7 @@ using namespace satcheck;
 
 namespace satcheck {
 void bind_broad_phase(nb::module_& m);
+void bind_resolve(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
 void bind_mesh(nb::module_& m);
@@ -319,6 +320,7 @@ NB_MODULE(_native, m) {
   nb::set_leak_warnings(false);
   bind_mesh(m);
   bind_broad_phase(m);
+  bind_resolve(m);
   bind_contacts(m);
   bind_depth(m);
   bind_motion(m);

@@ -1,0 +1,61 @@
+"""The shortest translations, by the sum of their squares, that keep a set of walls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from satcheck import core
+from satcheck.audit.report import Vector
+from satcheck.audit.resolve.wall import Wall
+from satcheck.audit.vectors import added, dot, scaled
+
+ORIGIN: Vector = (0.0, 0.0, 0.0)
+# Of the longest way that a wall asks for: by what a wall may be missed and still is no sign that
+# walls exclude each other, and what is rounding in a translation.
+MISSED = 1e-3
+NOISE = 1e-13
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """broken: walls that are not kept, because they exclude each other, the worst first."""
+
+    offsets: dict[int, Vector]
+    broken: tuple[Wall, ...]
+
+
+def least_motion(walls: Sequence[Wall], held: Mapping[int, Vector]) -> Motion:
+    """Translations of the bodies of these walls; the multipliers of the walls are kept for the next
+    time.
+
+    held: bodies that stay where they are, with their translation; a wall has at most one of them.
+    """
+    bodies = sorted({body for wall in walls for body in (wall.a, wall.b)})
+    place = {body: k for k, body in enumerate(bodies)}
+    fixed = [
+        dot(wall.normal, added(held.get(wall.a, ORIGIN), scaled(held.get(wall.b, ORIGIN), -1.0)))
+        for wall in walls
+    ]
+    found, multipliers = core.least_motion(
+        [body not in held for body in bodies],
+        [(place[wall.a], place[wall.b]) for wall in walls],
+        [wall.normal for wall in walls],
+        [wall.least - shift for wall, shift in zip(walls, fixed, strict=True)],
+        [wall.multiplier for wall in walls],
+    )
+    for wall, multiplier in zip(walls, multipliers, strict=True):
+        wall.multiplier = multiplier
+    unit = max((abs(wall.least) for wall in walls), default=0.0)
+    at = {body: held.get(body) or _clean(found[place[body]], NOISE * unit) for body in bodies}
+    missed = [(wall.slack(added(at[wall.a], scaled(at[wall.b], -1.0))), wall) for wall in walls]
+    missed.sort(key=lambda entry: entry[0])
+    return Motion(
+        {body: at[body] for body in bodies if body not in held},
+        tuple(wall for slack, wall in missed if slack < -MISSED * unit),
+    )
+
+
+def _clean(offset: Vector, noise: float) -> Vector:
+    x, y, z = (0.0 if abs(c) <= noise else c for c in offset)
+    return x, y, z

@@ -1,0 +1,89 @@
+"""`satcheck resolve SCENE`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option, paths_argument
+from satcheck.cli.lengths import length
+
+
+@click.command("resolve", context_settings=HELP_NAMES)
+@paths_argument("SCENE", -1)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write the moved scene to FILE. [default: show the moves only]",
+)
+@click.option(
+    "--pin",
+    "pins",
+    multiple=True,
+    metavar="GLOB",
+    help="Leave bodies with such ids where they are; group:GLOB, those in such groups. Repeatable.",
+)
+@click.option(
+    "--clearance",
+    type=length,
+    help="The gap to leave between bodies. [default: none, they may touch]",
+)
+@click.option(
+    "--tolerance",
+    type=length,
+    help="Take it for touching when depth is at most this. "
+    "[default: the precision of the input files]",
+)
+@click.option("--max-motion", type=length, help="Move no body farther than this.")
+@click.option(
+    "--iterations",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=50,
+    show_default=True,
+    help="Rounds of pushing; what overlaps after them is taken out to a free place.",
+)
+@click.option(
+    "--allow-open",
+    is_flag=True,
+    help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
+    "not make the check incomplete.",
+)
+@click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=0,
+    show_default=True,
+    help="Threads; 0 is one per core. Changes no answer.",
+)
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    default="table",
+    show_default=True,
+    help="How to report.",
+)
+@debug_option
+def command(debug: bool, **options: Any) -> int:
+    """Move the bodies of a scene apart, by short translations.
+
+    SCENE is a scene file, or several mesh files. Static bodies and pinned ones stay, and so do
+    pairs that the scene allows. Of several ways the one with a small sum of squared lengths is
+    taken. The moved scene is checked afresh, and with -o it is the file written that is checked:
+    what still overlaps is said.
+
+    Exit codes: 0, nothing overlaps any more; 1, something does; 2, wrong usage, an unreadable
+    input, or an internal error; 3, nothing that is known overlaps, but not everything could be
+    checked.
+    """
+    from satcheck.cli.resolving import Choices, run
+
+    del debug
+    return run(Choices(**options))

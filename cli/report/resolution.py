@@ -1,0 +1,88 @@
+"""What `satcheck resolve` did, for people: a row a moved body, what is left, one sentence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.table import Table
+
+from satcheck.cli.lengths import unit_of
+from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.numbers import number, vector
+from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.words import counted
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from satcheck.audit.resolve import Left, Move, Resolution
+    from satcheck.cli.output import Page
+
+# More rows than this, and the longest moves are shown.
+ROWS = 60
+
+
+def render(found: Resolution, page: Page, output: str | None) -> str:
+    """The whole text, final newline included. output: the file that the scene was written to."""
+    console = Canvas(page)
+    shown = _shown(found.moves)
+    if shown:
+        console.print(_moves(shown, unicode=page.unicode))
+    if rest := len(found.moves) - len(shown):
+        console.print(f"{counted(rest, 'more body', 'more bodies')} moved by less")
+    for one in found.left:
+        console.print(_left_line(one))
+    console.print(_motion_line(found))
+    if found.flush:
+        console.print(
+            f"{counted(found.flush, 'pair')} within the tolerance: they count as touching."
+        )
+    subject = "The moved scene" if output is None else output
+    console.print(f"{subject}, checked: {summary_line(found.report)}")
+    return console.text()
+
+
+def _shown(moves: Sequence[Move]) -> list[Move]:
+    """All in the order of the scene, or the longest first."""
+    if len(moves) <= ROWS:
+        return list(moves)
+    return sorted(moves, key=lambda move: -move.length)[:ROWS]
+
+
+def _moves(moves: Sequence[Move], *, unicode: bool) -> Table:
+    table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
+    table.add_column("body", overflow="fold")
+    table.add_column("move by", overflow="fold")
+    table.add_column("length", justify="right")
+    for move in moves:
+        table.add_row(move.body, vector(move.translation), number(move.length))
+    return table
+
+
+def _left_line(left: Left) -> str:
+    return (
+        f"left: {left.a} and {left.b} {_RELATIONS.get(left.relation, left.relation)}: {left.reason}"
+    )
+
+
+_RELATIONS = {"penetrating": "penetrate", "coincident": "coincide"}
+
+
+def _motion_line(found: Resolution) -> str:
+    """`2 overlaps: 3 bodies moved by 1.25 mm in total, at most 0.75 mm, in 2 rounds; 1 stays.`"""
+    unit = unit_of(found.report.units)
+    unit = f" {unit}" if unit else ""
+    stays = ""
+    if count := len(found.pinned):
+        stays = f" {counted(count, 'body', 'bodies')} had to stay."
+    if not found.found:
+        return f"Nothing overlaps: nothing was moved.{stays}"
+    done = counted(found.found, "overlap")
+    if not found.moves:
+        return f"{done}: nothing was moved.{stays}"
+    return (
+        f"{done}: {counted(len(found.moves), 'body', 'bodies')} moved, "
+        f"by {number(found.total_motion)}{unit} in total and {number(found.largest_motion)}{unit} "
+        f"at most, in {counted(found.rounds, 'round')}.{stays}"
+    )

@@ -1,0 +1,278 @@
+"""Scenes with known answers, and what must hold of any answer."""
+
+from __future__ import annotations
+
+import math
+import random
+
+import pytest
+
+from satcheck.audit import Settings, check
+from satcheck.audit.resolve import resolve
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import load_scene
+from tests.audit.resolve.boxes import after, boxes_scene, moves, overlapping, unit_at
+from tests.audit.shapes import bracket, moved, open_box, scene_of, unit_box, write
+
+
+def test_two_free_boxes_share_the_shortest_way(tmp_path) -> None:
+    scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.75, 0.25)})
+    found = resolve(scene)
+    assert moves(found) == {"a": (-0.125, 0.0, 0.0), "b": (0.125, 0.0, 0.0)}
+    assert found.verdict == "resolved"
+    assert found.report.summary.by_relation["touching"] == 1
+    assert (found.found, found.total_motion, found.largest_motion) == (1, 0.25, 0.125)
+
+
+@pytest.mark.parametrize("how", ["static", "pin", "group"])
+def test_a_box_beside_one_that_stays_moves_all_the_way(tmp_path, how) -> None:
+    scene = boxes_scene(
+        tmp_path,
+        {"a": unit_at(0), "b": unit_at(0.75, 0.25)},
+        static=("a",) if how == "static" else (),
+        groups={"a": "fixed"},
+    )
+    pins = {"static": (), "pin": ("a*",), "group": ("group:fix*",)}[how]
+    found = resolve(scene, pins=pins)
+    assert moves(found) == {"b": (0.25, 0.0, 0.0)}
+    assert found.pinned == ("a",)
+
+
+def test_a_box_in_the_corner_of_two_walls_leaves_both(tmp_path) -> None:
+    scene = boxes_scene(
+        tmp_path,
+        {
+            "left": ((-1, -9, -9), (0, 9, 9)),
+            "floor": ((-9, -9, -1), (9, 9, 0)),
+            "box": ((-0.25, 0, -0.125), (0.75, 1, 0.875)),
+        },
+        static=("left", "floor"),
+    )
+    found = resolve(scene)
+    assert moves(found) == {"box": (0.25, 0.0, 0.125)}
+    # The walls cross each other, and both stay.
+    assert [(one.a, one.b, one.reason) for one in found.left] == [
+        ("left", "floor", "both bodies stay")
+    ]
+    assert found.verdict == "unresolved"
+
+
+def test_a_stack_on_the_floor_rises(tmp_path) -> None:
+    """The least sum of squares: 1/4 for the lowest box, 1/2 and 3/4 for those on it."""
+    scene = boxes_scene(
+        tmp_path,
+        {
+            "floor": ((-9, -9, -1), (9, 9, 0)),
+            **{f"box{k}": unit_at(0, 0, 0.75 * k - 0.25) for k in range(3)},
+        },
+        static=("floor",),
+    )
+    found = resolve(scene)
+    assert not overlapping(after(scene, found))
+    rises = [moves(found)[f"box{k}"] for k in range(3)]
+    for k, way in enumerate(rises):
+        assert way == pytest.approx((0, 0, 0.25 * (k + 1)), abs=1e-12)
+
+
+def test_a_free_row_spreads_about_its_middle(tmp_path) -> None:
+    scene = boxes_scene(tmp_path, {f"box{k}": unit_at(0.5 * k) for k in range(3)})
+    found = resolve(scene)
+    assert not overlapping(after(scene, found))
+    assert set(moves(found)) == {"box0", "box2"}
+    assert moves(found)["box0"] == pytest.approx((-0.5, 0, 0), abs=1e-12)
+
+
+def test_a_row_too_long_for_its_place_sends_some_elsewhere(tmp_path) -> None:
+    """Ten boxes between walls that leave room for nine."""
+    scene = boxes_scene(
+        tmp_path,
+        {
+            "left": ((-1, -1, -1), (0, 2, 2)),
+            "right": ((9.5, -1, -1), (10, 2, 2)),
+            **{f"box{k}": unit_at(8.5 * k / 9) for k in range(10)},
+        },
+        static=("left", "right"),
+    )
+    found = resolve(scene)
+    assert found.verdict == "resolved"
+    assert not overlapping(after(scene, found))
+    assert not {"left", "right"} & set(moves(found))
+    # One box gives way by its width, shared with a neighbour; the others close up.
+    assert 0.5 <= found.largest_motion <= 1
+    assert found.total_motion <= 3
+
+
+def test_a_box_in_another_comes_out(tmp_path) -> None:
+    scene = boxes_scene(tmp_path, {"big": ((0, 0, 0), (8, 8, 8)), "small": unit_at(6.5, 3, 3)})
+    found = resolve(scene, pins=["big"])
+    assert moves(found) == {"small": (1.5, 0.0, 0.0)}
+
+
+def test_what_nobody_asks_about_stays(tmp_path) -> None:
+    scene = boxes_scene(
+        tmp_path,
+        {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(9), "d": unit_at(9.5)},
+        groups={"c": "g", "d": "g"},
+        allowed_pairs=[["a", "b", "welded"]],
+        ignore_within_groups=["g"],
+    )
+    found = resolve(scene)
+    assert (found.found, found.moves, found.verdict) == (0, (), "resolved")
+
+
+def test_exempt_pairs_stay_together_only_as_far_as_others_let_them(tmp_path) -> None:
+    """a and b may overlap, but c has to leave both."""
+    scene = boxes_scene(
+        tmp_path,
+        {"a": unit_at(0), "b": unit_at(0.25), "c": unit_at(0.75, 0.5, 0.5)},
+        allowed_pairs=[["a", "b"]],
+    )
+    found = resolve(scene)
+    assert found.verdict == "resolved"
+    assert overlapping(after(scene, found)) <= {("a", "b")}
+
+
+def test_nothing_to_do(tmp_path) -> None:
+    scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(1), "c": unit_at(3)})
+    found = resolve(scene)
+    assert (found.found, found.moves, found.rounds, found.verdict) == (0, (), 0, "resolved")
+
+
+def test_an_overlap_of_two_that_stay_is_said_and_the_rest_resolved(tmp_path) -> None:
+    scene = boxes_scene(
+        tmp_path,
+        {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(5), "d": unit_at(5.5)},
+        static=("a",),
+    )
+    found = resolve(scene, pins=["b"])
+    assert [(one.a, one.b, one.relation) for one in found.left] == [("a", "b", "penetrating")]
+    assert set(moves(found)) == {"c", "d"}
+    assert found.verdict == "unresolved"
+
+
+def test_a_longest_motion_is_kept_or_the_pair_is_left(tmp_path) -> None:
+    boxes = {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(5), "d": unit_at(5.125)}
+    scene = boxes_scene(tmp_path, boxes)
+    found = resolve(scene, max_motion=0.3)
+    assert found.largest_motion <= 0.3
+    assert set(moves(found)) == {"a", "b"}
+    assert [(one.a, one.b) for one in found.left] == [("c", "d")]
+    assert "longest motion" in found.left[0].reason
+
+
+def test_the_clearance_is_what_is_left_between(tmp_path) -> None:
+    boxes = {"a": unit_at(0), "b": unit_at(0.75, 0.25), "c": unit_at(5), "d": unit_at(6.125)}
+    scene = boxes_scene(tmp_path, boxes)
+    found = resolve(scene, Settings(clearance=0.25))
+    assert found.verdict == "resolved"
+    assert moves(found)["a"] == pytest.approx((-0.25, 0, 0), abs=1e-12)
+    assert moves(found)["d"] == pytest.approx((0.0625, 0, 0), abs=1e-12)
+
+
+def test_touching_concave_bodies_can_be_given_a_clearance(tmp_path) -> None:
+    """A box in the notch of a bracket, flush with both walls."""
+    scene = scene_of(tmp_path, bracket=bracket(), box=unit_box(2, 2, 1))
+    found = resolve(scene, Settings(clearance=0.25), pins=["bracket"])
+    assert found.verdict == "resolved"
+    assert found.total_motion <= 0.75
+
+
+def test_a_box_leaves_the_notch_of_a_bracket_by_the_notch(tmp_path) -> None:
+    scene = scene_of(tmp_path, bracket=bracket(), box=unit_box(1.75, 1.875, 1))
+    found = resolve(scene, pins=["bracket"])
+    assert found.verdict == "resolved"
+    assert moves(found)["box"] == pytest.approx((0.25, 0.125, 0), abs=0.02)
+
+
+def test_an_open_surface_is_left(tmp_path) -> None:
+    scene = scene_of(tmp_path, tray=open_box(), box=unit_box(1.5, 1.5, -0.25))
+    found = resolve(scene, Settings(allow_open=True), pins=["tray"])
+    assert found.verdict == "resolved"
+    assert moves(found)["box"] == pytest.approx((0, 0, 0.25), abs=0.01)
+
+
+def test_coincident_bodies_part(tmp_path) -> None:
+    scene = scene_of(tmp_path, a=bracket(), b=bracket())
+    found = resolve(scene)
+    assert found.verdict == "resolved"
+    assert found.found == 1
+
+
+def test_an_unreadable_mesh_is_left_alone(tmp_path) -> None:
+    paths = write(tmp_path, a=unit_box(), b=unit_box(0.5))
+    (tmp_path / "c.obj").write_text("no mesh\n")
+    found = resolve(load_scene([*paths, tmp_path / "c.obj"]))
+    assert len(found.moves) == 2
+    assert found.verdict == "incomplete"
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_boxes_end_free(tmp_path, seed) -> None:
+    dice = random.Random(seed)
+    boxes = {}
+    for k in range(dice.randrange(2, 26)):
+        low = tuple(dice.uniform(0, 3) for _ in range(3))
+        boxes[f"box{k}"] = (low, tuple(c + dice.uniform(0.2, 1.5) for c in low))
+    static = tuple(id_ for id_ in boxes if dice.random() < 0.15)
+    scene = boxes_scene(tmp_path, boxes, static=static)
+    before = overlapping(scene)
+    found = resolve(scene)
+    still = {pair for pair in before if set(pair) <= set(static)}
+    assert overlapping(after(scene, found)) == still
+    assert not set(moves(found)) & set(static)
+    assert found.verdict == ("unresolved" if still else "resolved")
+    # Scaled about one corner by the largest extent over the least distance of two centres, free
+    # boxes would be apart; that is far more than what is needed, so a bound that is easy to keep.
+    if not static:
+        spread = sum(math.dist(low, (0, 0, 0)) for low, _ in boxes.values())
+        assert found.total_motion <= spread * 4
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_random_brackets_end_free(tmp_path, seed) -> None:
+    dice = random.Random(seed)
+    meshes = {
+        f"bracket{k}": moved(bracket(), *(dice.uniform(0, 9) for _ in range(3))) for k in range(8)
+    }
+    scene = scene_of(tmp_path, **meshes)
+    found = resolve(scene)
+    report = check(after(scene, found), Settings(depth=False, tolerance=0.0))
+    assert report.summary.verdict == "pass"
+    assert found.verdict == "resolved"
+
+
+def test_the_order_of_the_scene_changes_nothing(tmp_path) -> None:
+    boxes = {f"box{k}": unit_at(0.7 * k, 0.1 * k * k, 0.3 * (k % 3)) for k in range(6)}
+    one = resolve(boxes_scene(tmp_path, boxes, static=("box2",)))
+    other = resolve(boxes_scene(tmp_path, dict(reversed(boxes.items())), static=("box2",)))
+    assert moves(one) == moves(other)
+
+
+def test_threads_change_nothing(tmp_path) -> None:
+    meshes = {f"bracket{k}": moved(bracket(), 3.5 * k, 2.5 * (k % 3), k) for k in range(9)}
+    scene = scene_of(tmp_path, **meshes)
+    one, many = (resolve(scene, Settings(jobs=jobs)).to_dict() for jobs in (1, 4))
+    assert one == many
+
+
+@pytest.mark.parametrize(
+    ("code", "arguments"),
+    [
+        ("unknown-pin", {"pins": ["c*"]}),
+        ("bad-setting", {"max_motion": 0.0}),
+        ("bad-setting", {"max_motion": math.nan}),
+        ("bad-setting", {"iterations": -1}),
+    ],
+)
+def test_wrong_arguments_are_refused(tmp_path, code, arguments) -> None:
+    scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.5)})
+    with pytest.raises(SatcheckError) as error:
+        resolve(scene, **arguments)
+    assert error.value.code == code
+
+
+def test_without_rounds_bodies_are_taken_out(tmp_path) -> None:
+    scene = boxes_scene(tmp_path, {f"box{k}": unit_at(0.5 * k) for k in range(4)})
+    found = resolve(scene, iterations=0)
+    assert found.verdict == "resolved"
+    assert not overlapping(after(scene, found))
