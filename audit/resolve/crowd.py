@@ -15,7 +15,9 @@ from satcheck.audit.finding import examine
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
+from satcheck.audit.planner import Planner
 from satcheck.audit.report import OVERLAPS, Finding, Vector
+from satcheck.audit.resolve.resolution import is_objected
 from satcheck.audit.resolve.separation import nudge
 from satcheck.audit.resolve.wall import BodyPair
 from satcheck.audit.roster import place
@@ -38,13 +40,12 @@ class Opinion:
     """What a pair says where it is.
 
     push: of an overlap, or of a gap below the clearance, a translation of the first body that ends
-    it; None: none was found. flush: they overlap, but within the touch band.
+    it; None: none was found. flush: they overlap, but nobody objects: within the touch band, say.
     """
 
     kind: Literal["free", "overlap", "near", "undecided"]
     push: Vector | None = None
     flush: bool = False
-    reason: str | None = None
 
 
 class Crowd:
@@ -67,9 +68,8 @@ class Crowd:
             cross_check=False,
             certificate=False,
         )
-        self._strict = replace(self._asked, tolerance=0.0)
-        self.clearance = settings.clearance or 0.0
         self._roster = place(scene, self._asked)
+        self._planner = Planner(self._asked, self._roster.book, scene.composed)
         self._index = sorted(self._roster.placed, key=self._roster.ids.__getitem__)
         self.home = [self._roster.placed[index] for index in self._index]
         self.placed = list(self.home)
@@ -96,17 +96,28 @@ class Crowd:
 
     def pair(self, pair: BodyPair) -> Pair:
         """Without a touch band."""
-        return Pair(self.placed[pair[0]], self.placed[pair[1]], self._strict)
+        asked = replace(self._planner.asked(*self._members(pair)), tolerance=0.0)
+        return Pair(self.placed[pair[0]], self.placed[pair[1]], self._asked, asked)
 
-    def is_asked(self, i: int, j: int) -> bool:
-        return self._roster.is_asked(*sorted((self._index[i], self._index[j])))
+    def clearance(self, pair: BodyPair) -> float:
+        return self._planner.asked(*self._members(pair)).clearance or 0.0
+
+    def is_asked(self, pair: BodyPair) -> bool:
+        return self._roster.book.is_asked(*self._members(pair))
+
+    def _members(self, pair: BodyPair) -> tuple[int, int]:
+        """In the order of the scene."""
+        i, j = sorted(self._index[body] for body in pair)
+        return i, j
 
     def close_pairs(self, boxes: Sequence[Box] | None = None) -> list[BodyPair]:
         """Asked pairs whose boxes, by default those of the bodies, are close enough to matter."""
         around = boxes or [body.bounds for body in self.placed]
-        reach = [max(0.5 * self.clearance, body.resolution) for body in self.placed]
-        close = core.close_pairs(around, reach, [0] * len(around), [], [])
-        return [pair for pair in close if self.is_asked(*pair)]
+        reach = self._planner.reach(
+            {index: body.resolution for index, body in zip(self._index, self.placed, strict=True)}
+        )
+        close = core.close_pairs(around, reach, [0] * len(around))
+        return [pair for pair in close if self.is_asked(pair)]
 
     def opinions(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, Opinion]:
         """Of pairs where their bodies are now; those that did not move are not asked again."""
@@ -136,19 +147,22 @@ class Crowd:
         at_home = pair not in self._known and all(self.offsets[i] == ORIGIN for i in pair)
         strict = self.pair(pair)
         if at_home or pair in self._flush:
-            return self._said(strict, examine(replace(strict, settings=self._asked), Plan()))
+            asked = self._planner.asked(*self._members(pair))
+            return self._said(strict, examine(replace(strict, asked=asked), Plan()))
         return self._said(strict, examine(strict, Plan()))
 
     def _said(self, pair: Pair, found: Finding) -> Opinion:
+        """What a check does not object to stays as it is."""
+        clearance = pair.asked.clearance or 0.0
         if found.relation == "indeterminate":
-            return Opinion("undecided", reason=found.reason)
-        if found.relation in OVERLAPS:
-            return Opinion("overlap", found.mtv and longer(found.mtv, self.clearance))
-        if found.rule is None:
+            return Opinion("undecided")
+        if not is_objected(found):
             return Opinion("free", flush=found.exact_relation in OVERLAPS)
+        if found.relation in OVERLAPS:
+            return Opinion("overlap", found.mtv and longer(found.mtv, clearance))
         if found.normal is None:
-            return Opinion("near", nudge(pair, self.clearance))
-        return Opinion("near", scaled(found.normal, (found.distance or 0.0) - self.clearance))
+            return Opinion("near", nudge(pair, clearance))
+        return Opinion("near", scaled(found.normal, (found.distance or 0.0) - clearance))
 
 
 def translated(body: Body, offset: Vector) -> Body:

@@ -57,11 +57,11 @@ class Slots:
         body: int,
         others: Sequence[int],
         offsets: Sequence[Vector],
-        clearance: float,
+        clearances: Sequence[float],
         longest: float,
     ) -> Vector | None:
-        """A translation of the body that leaves it `clearance` from all others, translated by their
-        offsets; None: no ray has one that is at most `longest`. World units."""
+        """A translation of the body that leaves it its clearance from each of the others, these
+        translated by their offsets; None: no ray has one that is at most `longest`. World units."""
         if not others:
             return (0.0, 0.0, 0.0)
         low, high = self._placed_extents()
@@ -69,7 +69,7 @@ class Slots:
         moved = np.array([offsets[other] for other in others])
         shift = moved @ AXES.T
         far = max(np.abs(low).max(), np.abs(high).max()) + np.abs(moved).max()
-        pad = clearance + 2 * rounding_pad(float(far))
+        pad = np.array(clearances)[:, None] + 2 * rounding_pad(float(far))
         # It overlaps another one at s along a ray while below < s * rate < above on each axis.
         below = low[chosen] + shift - pad - high[body]
         above = high[chosen] + shift + pad - low[body]

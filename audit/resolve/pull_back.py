@@ -47,7 +47,7 @@ def walled(crowd: Crowd, pair: BodyPair) -> Wall | None:
     if found is None:
         return None
     normal, gap = found
-    return Wall(*pair, normal, dot(normal, crowd.offset(pair)) - gap + crowd.clearance)
+    return Wall(*pair, normal, dot(normal, crowd.offset(pair)) - gap + crowd.clearance(pair))
 
 
 def swept(start: Box, end: Box) -> Box:

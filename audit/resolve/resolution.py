@@ -11,12 +11,21 @@ from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
 
 SCHEMA = "satcheck.resolution/1"
 
+# Severities of what is to be resolved.
+OBJECTIONS = frozenset({"error", "warning"})
+
 Verdict = Literal["resolved", "unresolved", "incomplete"]
 _VERDICTS: dict[str, Verdict] = {
     "pass": "resolved",
     "fail": "unresolved",
     "incomplete": "incomplete",
 }
+
+
+def is_objected(finding: Finding) -> bool:
+    """Whether a check finds fault with what the pair is known to be."""
+    overlaps = finding.relation in OVERLAPS
+    return finding.severity in OBJECTIONS and (overlaps or finding.undecided is None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,11 +69,7 @@ class Resolution:
     @property
     def remaining(self) -> tuple[Finding, ...]:
         """What the check of the moved scene still objects to."""
-        return tuple(
-            finding
-            for finding in self.report.findings
-            if finding.relation in OVERLAPS or finding.severity == "error"
-        )
+        return tuple(filter(is_objected, self.report.findings))
 
     @property
     def flush(self) -> int:

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from satcheck.audit.check import check
-from satcheck.audit.report import OVERLAPS, Report, Vector
+from satcheck.audit.report import Report, Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
 from satcheck.audit.resolve.pull_back import pull_back
-from satcheck.audit.resolve.resolution import Left, Move, Resolution
+from satcheck.audit.resolve.resolution import Left, Move, Resolution, is_objected
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.settings import Settings
 from satcheck.core.errors import SatcheckError
@@ -72,7 +72,9 @@ def resolve(
 
 def proof_of(settings: Settings) -> Settings:
     """What the moved scene is checked with: the same questions, without figures for overlaps."""
-    return replace(settings, depth=False, contacts=False, volume=False, cross_check=False)
+    return replace(
+        settings, depth=False, contacts=False, volume=False, cross_check=False, certificate=False
+    )
 
 
 def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
@@ -100,7 +102,7 @@ def _left(
     report: Report, staying: frozenset[str], known: dict[frozenset[str], str]
 ) -> Iterator[Left]:
     for finding in report.findings:
-        if finding.relation in OVERLAPS or finding.rule is not None:
+        if is_objected(finding):
             pair = frozenset((finding.a, finding.b))
             why = BOTH_STAY if pair <= staying else known.get(pair, NO_WAY)
             yield Left(finding.a, finding.b, finding.relation, why)

@@ -28,8 +28,8 @@ from satcheck.audit.resolve.wall import BodyPair, Wall
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, dot, scaled, unit
 
-# After so many rounds in which a pair overlaps, its walls are replaced: by one between the hulls, if
-# the way out of these is not much longer. After so many, one of its bodies is taken out.
+# After so many rounds in which a pair overlaps, one wall between its hulls takes the place of all,
+# if the way out of these is not much longer. After so many, one of its bodies is taken out.
 LOCAL_WALLS = 3
 MUCH_LONGER = 2.0
 PATIENCE = 8
@@ -155,9 +155,9 @@ class Rounds:
     def _add_wall(self, pair: BodyPair, opinion: Opinion) -> bool:
         """Whether the pair has a wall that is worth a try.
 
-        Between bodies that are not convex a wall holds nearby only. A remainder of an overlap raises
-        the walls that are there. Where walls contradict each other, or come too often, one that
-        holds everywhere takes their place, or the bodies are locked to each other."""
+        Between bodies that are not convex a wall holds nearby only. A remainder of an overlap
+        raises the walls that are there. Where walls contradict each other, or come too often, one
+        that holds everywhere takes their place, or the bodies are locked to each other."""
         push, size = opinion.push, self._size(pair)
         if push is None or not any(push):
             return False
@@ -203,7 +203,9 @@ class Rounds:
     def _out_of_hull(self, pair: BodyPair) -> Vector:
         """The shortest push that parts the hulls and leaves the clearance between them."""
         found, size = way_out_of_hulls(self._crowd.pair(pair)), self._size(pair)
-        return scaled(found.normal, -(found.upper + self._crowd.clearance + rounding_pad(size)))
+        return scaled(
+            found.normal, -(found.upper + self._crowd.clearance(pair) + rounding_pad(size))
+        )
 
     def _size(self, pair: BodyPair) -> float:
         return largest_coordinate(*(self._crowd.placed[i].bounds for i in pair))
@@ -227,8 +229,9 @@ class Rounds:
         crowd = self._crowd
         if i not in crowd.movable:
             return None
-        others = [j for j in range(len(crowd.home)) if j != i and crowd.is_asked(i, j)]
-        return self._slots.free(i, others, crowd.offsets, crowd.clearance, self._longest)
+        others = [j for j in range(len(crowd.home)) if j != i and crowd.is_asked((i, j))]
+        gaps = [crowd.clearance((i, j)) for j in others]
+        return self._slots.free(i, others, crowd.offsets, gaps, self._longest)
 
     def _wall_in(self, i: int) -> None:
         """Make the walls of a body anew, from where it is, to all that is on its way home."""

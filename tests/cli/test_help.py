@@ -30,7 +30,7 @@ def test_help_advertises_what_exists() -> None:
         "_SATCHECK_COMPLETE",
     ):
         assert word in ran.out
-    for later in ("batch", "tradeoff", "resolve", "view"):
+    for later in ("batch", "tradeoff", "view"):
         assert f"satcheck {later}" not in ran.out
 
 

@@ -1,0 +1,117 @@
+"""`satcheck resolve` as a whole process: what it writes, its documents and exit codes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from satcheck.cli.report.schema import text
+from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
+
+# The box from (0, 0, 0) to (1, 1, 1).
+BOX = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1)) + (
+    "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+)
+SCHEMA = json.loads(text("resolution"))
+
+
+def scene_of_boxes(folder: Path, *xs: float, **extra: object) -> str:
+    (folder / "box.obj").write_text(BOX)
+    rows = [[0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+    bodies = [
+        {"id": f"box{k}", "mesh": "box.obj", "transform": [[1, 0, 0, x], *rows]}
+        for k, x in enumerate(xs)
+    ]
+    path = folder / "scene.json"
+    path.write_text(json.dumps({"schema": "satcheck-scene-1", "bodies": bodies, **extra}))
+    return str(path)
+
+
+def test_a_dry_run_shows_the_moves() -> None:
+    ran = satcheck("resolve", *PUSHED, "--pin", "box")
+    assert ran.code == 0, ran.err
+    assert "box_pushed" in ran.out
+    assert "(1, 0, 0)" in ran.out
+    assert "1 overlap: 1 body moved, by 1 in total and 1 at most" in ran.out
+    assert "1 body had to stay" in ran.out
+    assert "1 touching. No collision." in ran.out
+
+
+def test_what_is_written_passes_a_check(tmp_path: Path) -> None:
+    scene, moved = scene_of_boxes(tmp_path, 0, 0.7, 1.4, units="mm"), str(tmp_path / "moved.json")
+    assert satcheck("--no-depth", scene).code == 1
+    ran = satcheck("resolve", scene, "-o", moved, "--clearance", "10um")
+    assert ran.code == 0, ran.err
+    assert f"{moved}, checked: 3 bodies, 3 pairs" in ran.out
+    assert satcheck("--no-depth", "--clearance", "10um", moved).code == 0
+
+
+def test_the_document_follows_its_schema(tmp_path: Path) -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+    output = tmp_path / "moved.json"
+    ran = satcheck("resolve", *(str(SAMPLES / name) for name in PUSHED), "--format", "json")
+    assert ran.code == 0, ran.err
+    Draft202012Validator(SCHEMA).validate(ran.document)
+    assert ran.document["summary"]["total_motion"] == 1.0
+    assert [move["translation"] for move in ran.document["moves"]] == [[-0.5, 0, 0], [0.5, 0, 0]]
+    scene = scene_of_boxes(tmp_path, 0, 0.5)
+    written = satcheck("resolve", scene, "-o", str(output), "--format", "json")
+    Draft202012Validator(SCHEMA).validate(written.document)
+    assert written.document["output"] == str(output)
+
+
+def test_the_same_scene_gives_the_same_bytes(tmp_path: Path) -> None:
+    scene, output = scene_of_boxes(tmp_path, 0, 0.3, 0.8, 1.1), tmp_path / "moved.json"
+    seen = set()
+    for jobs in ("1", "3"):
+        ran = satcheck("resolve", scene, "-o", str(output), "--format", "json", "--jobs", jobs)
+        seen.add((ran.out, output.read_bytes()))
+    assert len(seen) == 1
+
+
+def test_the_schema_is_printed() -> None:
+    assert satcheck("schema", "resolution").document == SCHEMA
+
+
+def test_nothing_to_do_is_said() -> None:
+    ran = satcheck("resolve", *APART)
+    assert ran.code == 0
+    assert "nothing was moved" in ran.out
+
+
+def test_what_cannot_be_resolved_is_said(tmp_path: Path) -> None:
+    scene = scene_of_boxes(tmp_path, 0, 0.5)
+    ran = satcheck("resolve", scene, "--pin", "*")
+    assert ran.code == 1
+    assert "left: box0 and box1 penetrate: both bodies stay" in ran.out
+
+
+def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
+    scene = scene_of_boxes(tmp_path, 0, 0.5, units="m")
+    assert satcheck("resolve", scene, "--max-motion", "26cm").code == 0
+    ran = satcheck("resolve", scene, "--max-motion", "24cm")
+    assert ran.code == 1
+    assert "longest motion" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((), "give two or more"),
+        (("box.obj",), "one body alone"),
+        (("missing.json",), "no such file"),
+        ((*PUSHED, "--pin", "boks"), "no body is called 'boks'"),
+        ((*PUSHED, "-o", "moved.obj"), ".json"),
+        ((*PUSHED, "workcell.json", "-o", "moved.json"), "not of both"),
+        ((*PUSHED, "--max-motion", "1mm"), "no units"),
+        (("workcell.json", "-o", "workcell.json"), "overwrite an input"),
+        (("workcell.json", "-o", "nowhere/moved.json"), "does not exist"),
+    ],
+)
+def test_wrong_usage(arguments: tuple[str, ...], said: str) -> None:
+    ran = satcheck("resolve", *arguments)
+    assert ran.code == 2
+    assert said in ran.err
