@@ -10,16 +10,18 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
+from satcheck.cli.lengths import in_units_of
 from satcheck.cli.output import Document, talk, write_file
 
 if TYPE_CHECKING:
     from satcheck.audit import Report, Settings
     from satcheck.audit.resolve import Resolution
-    from satcheck.cli.lengths import Length
     from satcheck.cli.output import Page
     from satcheck.scene import Scene
+    from satcheck.scene.loader import Split
+    from satcheck.scene.units import Length
 
-SCENE_SUFFIX = ".json"
+SCENE_SUFFIXES = frozenset({".json", ".toml"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +35,8 @@ class Choices:
     tolerance: Length | None
     max_motion: Length | None
     iterations: int
+    split: Split | None
+    allow_outside: bool
     allow_open: bool
     jobs: int
     form: str
@@ -43,27 +47,35 @@ def run(choices: Choices) -> int:
     refuse_early(choices.paths, choices.output)
     _refuse_output(choices)
     document = Document()
-    scene = load(choices.paths)
+    scene = load(choices.paths, split=choices.split, allow_outside=choices.allow_outside)
     settings = _settings(choices, scene)
     found = _resolve(scene, settings, choices)
     if choices.output:
         write_file(choices.output, _written(scene, found, choices))
-        found = replace(found, report=_checked(choices.output, settings))
+        found = replace(found, report=_checked(choices.output, settings, choices.allow_outside))
     document.write(_render(found, choices, document.page), utf8=choices.form == "json")
     return exit_codes.of_report(found.report, exit_zero=False)
 
 
-def _is_scene(path: str | Path) -> bool:
-    return Path(path).suffix.lower() == SCENE_SUFFIX
+def _is_scene(path: str) -> bool:
+    return Path(path).suffix.lower() in SCENE_SUFFIXES
 
 
 def _refuse_output(choices: Choices) -> None:
+    """What cannot be written is said before any work is done."""
     if choices.output is None:
         return
-    if not _is_scene(choices.output):
-        raise click.UsageError(f"-o {choices.output}: a moved scene is written as a .json file")
-    if len(choices.paths) > 1 and any(map(_is_scene, choices.paths)):
-        raise click.UsageError("-o writes one scene file, or one of mesh files alone, not of both")
+    from satcheck.scene.loader import is_mesh
+
+    first = choices.paths[0]
+    if len(choices.paths) == 1 and _is_scene(first):
+        wanted = Path(first).suffix.lower()
+    elif all(map(is_mesh, choices.paths)):
+        wanted = ".json"
+    else:
+        raise click.UsageError("-o writes one scene file, or one of mesh files alone")
+    if choices.output.suffix.lower() != wanted:
+        raise click.UsageError(f"-o {choices.output}: this scene is written as a {wanted} file")
 
 
 def _settings(choices: Choices, scene: Scene) -> Settings:
@@ -78,7 +90,7 @@ def _settings(choices: Choices, scene: Scene) -> Settings:
 
 
 def _length(given: Length | None, scene: Scene, option: str) -> float | None:
-    return None if given is None else given.in_units_of(scene.units, option)
+    return None if given is None else in_units_of(given, scene.units, option)
 
 
 def _resolve(scene: Scene, settings: Settings, choices: Choices) -> Resolution:
@@ -97,29 +109,23 @@ def _resolve(scene: Scene, settings: Settings, choices: Choices) -> Resolution:
 
 
 def _written(scene: Scene, found: Resolution, choices: Choices) -> str:
-    from satcheck.audit.resolve import moved_scene
     from satcheck.scene.moved_file import moved_scene_file, scene_file_of
 
     assert choices.output is not None
     translations = {move.body: move.translation for move in found.moves}
-    bodies = {body.id: body for body in moved_scene(scene, translations).bodies}
-    placements = {
-        id_: body.transform
-        for id_, body in bodies.items()
-        if id_ in translations and body.transform is not None
-    }
     if _is_scene(choices.paths[0]):
-        return moved_scene_file(Path(choices.paths[0]), choices.output, placements)
-    return scene_file_of(choices.output, bodies, placements)
+        return moved_scene_file(choices.paths[0], choices.output, translations)
+    return scene_file_of(choices.output, scene.bodies, translations)
 
 
-def _checked(path: Path, settings: Settings) -> Report:
+def _checked(path: Path, settings: Settings, allow_outside: bool) -> Report:
     """The file as anybody would check it; errors of reading are told."""
     from satcheck.audit import check
     from satcheck.audit.resolve import proof_of
     from satcheck.cli.report.words import issue_line
+    from satcheck.scene import load_scene
 
-    report = check([str(path)], proof_of(settings))
+    report = check(load_scene([path], allow_outside=allow_outside), proof_of(settings))
     for issue in report.issues:
         if issue.severity == "error":
             talk(f"satcheck: {issue_line(issue)}")

@@ -4,68 +4,81 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from satcheck.scene.bodies import Body, Transform
-from satcheck.scene.scene_file import SCHEMA
+from satcheck.scene.bodies import Body
+from satcheck.scene.format import scene_1, simple
+from satcheck.scene.format.placement import IDENTITY
+from satcheck.scene.format.reading import read_scene_file
+from satcheck.scene.format.text import parsed, read_text
+from satcheck.scene.format.writing import moved
+
+Translation = tuple[float, float, float]
 
 
-def moved_scene_file(source: Path, output: Path, placements: Mapping[str, Transform]) -> str:
-    """The text of the satcheck-scene-1 file `source`, which has been read before, for the place
-    `output`: these bodies, by id, get these placements, and mesh paths lead from there on. All else
-    stays as it is, the order of keys included."""
-    document = json.loads(source.read_text("utf-8-sig"))
-    for entry in document["bodies"]:
-        entry["mesh"] = _path_from(output, source.parent / entry["mesh"], entry["mesh"])
-        if entry["id"] in placements:
-            entry["transform"] = _rows(placements[entry["id"]])
-    return _text(document)
+def moved_scene_file(source: str, output: Path, translations: Mapping[str, Translation]) -> str:
+    """The text of the scene file `source`, of either form, with these bodies, by id, moved in the
+    world, for the place `output`: mesh paths lead from there on. All else stays as it is written.
+
+    Raises SceneFileError for a source that is wrong.
+    """
+    entries = read_scene_file(source, Path(source), allow_outside=True).bodies
+    placements = {
+        entry.id: _translated(entry.transform or IDENTITY, translations[entry.id])
+        for entry in entries
+        if entry.id in translations
+    }
+    text = moved(source, read_text(source, Path(source)), placements)
+    return _with_paths_from(output, source, text)
 
 
 def scene_file_of(
-    output: Path, bodies: Mapping[str, Body], placements: Mapping[str, Transform]
+    output: Path, bodies: Iterable[Body], translations: Mapping[str, Translation]
 ) -> str:
-    """The text of a satcheck-scene-1 file, for the place `output`, of such mesh files."""
-    return _text(
-        {
-            "schema": SCHEMA,
-            "name": output.stem,
-            "bodies": [
-                {
-                    "id": id_,
-                    "mesh": _path_from(output, Path(body.file.path), body.file.path),
-                    **({"transform": _rows(placements[id_])} if id_ in placements else {}),
-                }
-                for id_, body in bodies.items()
-            ],
-        }
-    )
+    """The text of a new scene file, for the place `output`, of bodies that are mesh files or parts
+    of them, as the files place them, and then moved."""
+    bodies = tuple(bodies)
+    in_parts = any(body.path is not None for body in bodies)
+    entries = []
+    for body in bodies:
+        entry: dict[str, Any] = {"id": body.id, "mesh": _path_from(output, Path(body.file.path))}
+        if body.path is not None:
+            entry["part"] = body.path
+        if body.id in translations:
+            x, y, z = translations[body.id]
+            rows = [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]
+            entry |= {"position": [x, y, z]} if in_parts else {"transform": rows}
+        entries.append(f"\n    {json.dumps(entry, ensure_ascii=False)}")
+    schema = scene_1.SCHEMA if in_parts else simple.SCHEMA
+    return f'{{\n  "schema": "{schema}",\n  "bodies": [{",".join(entries)}\n  ]\n}}\n'
 
 
-def _path_from(output: Path, target: Path, written: str) -> str:
-    """The path of `target` from the folder of `output` on; as written where that is right."""
-    if Path(written).is_absolute():
-        return written
-    folder = output.absolute().parent
-    if (folder / written).absolute() == target.absolute():
-        return written
-    return Path(os.path.relpath(target.absolute(), folder)).as_posix()
+def _translated(placement: tuple[float, ...], by: Translation) -> tuple[float, ...]:
+    values = list(placement)
+    for row in range(3):
+        values[4 * row + 3] += by[row]
+    return tuple(values)
 
 
-def _rows(transform: Transform) -> list[list[float]]:
-    return [list(transform[4 * row : 4 * row + 4]) for row in range(4)]
+def _with_paths_from(output: Path, source: str, text: str) -> str:
+    folder = Path(source).parent
+    if folder.absolute() == output.parent.absolute():
+        return text
+    scene = parsed(source, Path(source), text)
+    pieces, done = [], 0
+    for index, entry in enumerate(scene.document["bodies"]):
+        if "mesh" in entry:
+            place = scene.positions.place(("bodies", index, "mesh"))
+            path = json.dumps(_path_from(output, folder / entry["mesh"]), ensure_ascii=False)
+            pieces += [text[done : place.start], path]
+            done = place.end
+    return "".join([*pieces, text[done:]])
 
 
-def _text(document: Mapping[str, Any]) -> str:
-    """A line for each key, and one for each entry of a list: a body is read as a whole."""
-    lines = [f"{json.dumps(key)}: {_value(value)}" for key, value in document.items()]
-    return "{\n  " + ",\n  ".join(lines) + "\n}\n"
-
-
-def _value(value: Any) -> str:
-    if not isinstance(value, list) or not any(isinstance(entry, dict | list) for entry in value):
-        return json.dumps(value, ensure_ascii=False)
-    entries = [json.dumps(entry, ensure_ascii=False) for entry in value]
-    return "[\n    " + ",\n    ".join(entries) + "\n  ]"
+def _path_from(output: Path, target: Path) -> str:
+    """The path of `target` from the folder of `output` on; an absolute one stays so."""
+    if target.is_absolute():
+        return target.as_posix()
+    return Path(os.path.relpath(target.absolute(), output.absolute().parent)).as_posix()

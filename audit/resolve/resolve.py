@@ -39,7 +39,8 @@ def resolve(
     clearance is pushed apart until it keeps it. Bodies that are moved are moved until they are free
     without any touch band. The sum of the squares of the translations is made small, not least.
 
-    pins: selectors of bodies that stay, as in rules; bodies that the scene calls static stay too.
+    pins: selectors of bodies that stay, as in rules; those that the scene calls static or pinned
+    stay too.
     max_motion: no body is moved farther. iterations: rounds of pushing, after which bodies are
     taken out to free places, wherever these are. progress(done, total) counts pairs.
 
@@ -85,7 +86,7 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     return frozenset(
         body.id
         for body in scene.bodies
-        if body.static or any(pin.matches(body.id, body.groups) for pin in selectors)
+        if body.static or body.pinned or any(pin.matches(body.id, body.groups) for pin in selectors)
     )
 
 

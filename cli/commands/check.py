@@ -14,13 +14,13 @@ from satcheck.cli.commands.options import (
     output_option,
     outside_option,
     paths_argument,
+    split_option,
 )
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 from satcheck.cli.lengths import length
 
 PLANES = ("xy", "yz", "xz")
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
-SPLITS = ("nodes", "components", "none")
 SEVERITIES = ("error", "warning", "note")
 # More characters than the first sentence of any help text has.
 _WHOLE_SENTENCE = 200
@@ -141,12 +141,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     type=click.Choice(PLANES),
     help="Take bodies as their outlines in this plane: flat layouts, SVG and DXF drawings too.",
 )
-@click.option(
-    "--split",
-    type=click.Choice(SPLITS),
-    help="What a body is: a node of a GLB, glTF or 3MF file, a connected component, or a whole "
-    "file. [default: nodes for one file alone, otherwise none]",
-)
+@split_option
 @click.option(
     "--fail-on",
     type=click.Choice(SEVERITIES),

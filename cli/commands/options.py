@@ -12,6 +12,7 @@ from click.shell_completion import CompletionItem
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 FORMATS = ("table", "json")
+SPLITS = ("nodes", "components", "none")
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 _STANDARD_OUTPUT = Path("-")
 
@@ -58,5 +59,11 @@ outside_option = click.option(
     is_flag=True,
     help="Read files that lie outside of the folder of the scene, robot or glTF file that names "
     "them.",
+)
+split_option = click.option(
+    "--split",
+    type=click.Choice(SPLITS),
+    help="What a body is: a node of a GLB, glTF or 3MF file, a connected component, or a whole "
+    "file. [default: nodes for one file alone, otherwise none]",
 )
 debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")

@@ -7,7 +7,14 @@ from typing import Any
 
 import click
 
-from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option, paths_argument
+from satcheck.cli.commands.options import (
+    FORMATS,
+    HELP_NAMES,
+    debug_option,
+    outside_option,
+    paths_argument,
+    split_option,
+)
 from satcheck.cli.lengths import length
 
 
@@ -70,12 +77,14 @@ from satcheck.cli.lengths import length
     show_default=True,
     help="How to report.",
 )
+@split_option
+@outside_option
 @debug_option
 def command(debug: bool, **options: Any) -> int:
     """Move the bodies of a scene apart, by short translations.
 
-    SCENE is a scene file, or several mesh files. Static bodies and pinned ones stay, and so do
-    pairs that the scene allows. Of several ways the one with a small sum of squared lengths is
+    SCENE is a scene file, or mesh files. Static bodies and pinned ones stay, and so do pairs that
+    the scene allows. Of several ways the one with a small sum of squared lengths is
     taken. The moved scene is checked afresh, and with -o it is the file written that is checked:
     what still overlaps is said.
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from rich import box
 from rich.table import Table
 
-from satcheck.cli.lengths import unit_of
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import number, vector
 from satcheck.cli.report.summary import summary_line
 from satcheck.cli.report.words import counted
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -105,7 +105,7 @@ def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
         (("missing.json",), "no such file"),
         ((*PUSHED, "--pin", "boks"), "no body is called 'boks'"),
         ((*PUSHED, "-o", "moved.obj"), ".json"),
-        ((*PUSHED, "workcell.json", "-o", "moved.json"), "not of both"),
+        ((*PUSHED, "workcell.json", "-o", "moved.json"), "mesh files alone"),
         ((*PUSHED, "--max-motion", "1mm"), "no units"),
         (("workcell.json", "-o", "workcell.json"), "overwrite an input"),
         (("workcell.json", "-o", "nowhere/moved.json"), "does not exist"),

@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
+import base64
 import json
+import os
+import struct
 from pathlib import Path
 
 from satcheck.scene import load_scene
 from satcheck.scene.moved_file import moved_scene_file, scene_file_of
 from tests.audit.shapes import unit_box, write
 
-PLACED = (
-    1.0,
-    0.0,
-    0.0,
-    0.1 + 0.2,
-    0.0,
-    1.0,
-    0.0,
-    -2.5e-300,
-    0.0,
-    0.0,
-    1.0,
-    1 / 3,
-    0.0,
-    0.0,
-    0.0,
-    1.0,
-)
-ROWS = [list(PLACED[4 * row : 4 * row + 4]) for row in range(4)]
+TOML = """\
+# what stands where
+schema = "satcheck.scene/1"
+
+[[bodies]]
+id = "a"  # the first
+mesh = "a.obj"
+
+[[bodies]]
+id = "b"
+mesh = "a.obj"
+position = [1, 2, 3]  # beside it
+"""
+ROWS = [[0, -2, 0, 7], [2, 0, 0, 0], [0, 0, 1, 0.5], [0, 0, 0, 1]]
+BY = (0.1 + 0.2, -2.5e-300, 1 / 3)
 
 
 def scene_file(folder: Path) -> Path:
@@ -38,7 +37,7 @@ def scene_file(folder: Path) -> Path:
         "units": "mm",
         "bodies": [
             {"mesh": "a.obj", "id": "a", "static": True},
-            {"id": "ä", "mesh": "./b.obj", "group": "g", "transform": [[1, 0, 0, 7], *ROWS[1:]]},
+            {"id": "ä", "mesh": "./b.obj", "group": "g", "transform": ROWS},
         ],
         "allowed_pairs": [["a", "ä", "why"]],
         "ignore_within_groups": ["g"],
@@ -48,39 +47,104 @@ def scene_file(folder: Path) -> Path:
     return path
 
 
-def test_nothing_but_the_placement_changes(tmp_path) -> None:
+def two_nodes() -> str:
+    """A glTF file in which two nodes show one box, one of them elsewhere."""
+    points, quads = unit_box()
+    corners = [k for quad in quads for k in (quad[0], *quad[1:3], quad[0], *quad[2:])]
+    data = b"".join(struct.pack("<3f", *point) for point in points)
+    data += struct.pack(f"<{len(corners)}H", *corners)
+    uri = f"data:application/octet-stream;base64,{base64.b64encode(data).decode()}"
+    mesh = {"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}
+    return json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "scene": 0,
+            "scenes": [{"nodes": [0, 1]}],
+            "nodes": [
+                {"name": "one", "mesh": 0},
+                {"name": "two", "mesh": 0, "translation": [0.5, 0.25, 0]},
+            ],
+            "meshes": [mesh],
+            "buffers": [{"uri": uri, "byteLength": len(data)}],
+            "bufferViews": [
+                {"buffer": 0, "byteOffset": 0, "byteLength": 96},
+                {"buffer": 0, "byteOffset": 96, "byteLength": len(data) - 96},
+            ],
+            "accessors": [
+                {
+                    "bufferView": 0,
+                    "componentType": 5126,
+                    "count": 8,
+                    "type": "VEC3",
+                    "min": [0, 0, 0],
+                    "max": [1, 1, 1],
+                },
+                {
+                    "bufferView": 1,
+                    "componentType": 5123,
+                    "count": len(corners),
+                    "type": "SCALAR",
+                },
+            ],
+        }
+    )
+
+
+def test_nothing_but_the_translation_changes(tmp_path) -> None:
     source = scene_file(tmp_path)
     expected = json.loads(source.read_text("utf-8"))
-    expected["bodies"][1]["transform"] = ROWS
-    text = moved_scene_file(source, tmp_path / "out.json", {"ä": PLACED})
+    for row in range(3):
+        expected["bodies"][1]["transform"][row][3] += BY[row]
+    text = moved_scene_file(str(source), tmp_path / "out.json", {"ä": BY})
     assert json.loads(text) == expected
     assert list(json.loads(text)) == list(expected)
-    assert [list(body) for body in json.loads(text)["bodies"]] == [
-        list(body) for body in expected["bodies"]
-    ]
 
 
 def test_the_placement_is_read_back_to_the_last_bit(tmp_path) -> None:
     source, output = scene_file(tmp_path), tmp_path / "out.json"
-    output.write_text(moved_scene_file(source, output, {"ä": PLACED}), encoding="utf-8")
-    assert load_scene([output]).bodies[1].transform == PLACED
+    text = moved_scene_file(str(source), output, {"a": BY, "ä": BY})
+    output.write_text(text, encoding="utf-8")
+    a, b = load_scene([output]).bodies
+    assert a.transform == (1, 0, 0, BY[0], 0, 1, 0, BY[1], 0, 0, 1, BY[2], 0, 0, 0, 1)
+    assert b.transform[3::4] == (7 + BY[0], BY[1], 0.5 + BY[2], 1)
 
 
 def test_mesh_paths_lead_from_where_the_file_is_written(tmp_path) -> None:
     (tmp_path / "in").mkdir()
     (tmp_path / "out").mkdir()
     source, output = scene_file(tmp_path / "in"), tmp_path / "out" / "moved.json"
-    output.write_text(moved_scene_file(source, output, {}), encoding="utf-8")
+    output.write_text(moved_scene_file(os.path.relpath(source), output, {}), encoding="utf-8")
     bodies = json.loads(output.read_text("utf-8"))["bodies"]
     assert [body["mesh"] for body in bodies] == ["../in/a.obj", "../in/b.obj"]
     assert len(load_scene([output]).bodies) == 2
 
 
+def test_a_toml_scene_keeps_its_comments(tmp_path) -> None:
+    write(tmp_path, a=unit_box())
+    source, output = tmp_path / "scene.toml", tmp_path / "out.toml"
+    source.write_text(TOML)
+    output.write_text(moved_scene_file(str(source), output, {"b": (0.5, 0.0, 0.0)}))
+    assert output.read_text() == TOML.replace("[1, 2, 3]", "[1.5, 2, 3]")
+    assert load_scene([output]).bodies[1].transform[3::4] == (1.5, 2, 3, 1)
+
+
 def test_mesh_files_become_a_scene(tmp_path) -> None:
-    paths = write(tmp_path, a=unit_box(), b=unit_box(2))
-    bodies = {body.id: body for body in load_scene(paths).bodies}
+    scene = load_scene(write(tmp_path, a=unit_box(), b=unit_box(2)))
     output = tmp_path / "made.json"
-    output.write_text(scene_file_of(output, bodies, {"b": PLACED}), encoding="utf-8")
-    scene = load_scene([output])
-    assert [body.id for body in scene.bodies] == ["a", "b"]
-    assert [body.transform for body in scene.bodies] == [None, PLACED]
+    output.write_text(scene_file_of(output, scene.bodies, {"b": BY}), encoding="utf-8")
+    made = load_scene([output])
+    assert [body.id for body in made.bodies] == ["a", "b"]
+    assert made.bodies[0].transform is None
+    assert made.bodies[1].transform[3::4] == (*BY, 1)
+
+
+def test_nodes_of_a_file_become_parts(tmp_path) -> None:
+    (tmp_path / "asm.gltf").write_text(two_nodes())
+    scene = load_scene([tmp_path / "asm.gltf"])
+    output = tmp_path / "made.json"
+    output.write_text(scene_file_of(output, scene.bodies, {scene.bodies[1].id: BY}))
+    made = load_scene([output])
+    assert [body.id for body in made.bodies] == [body.id for body in scene.bodies]
+    assert made.bodies[0].world_mesh().bounds == scene.bodies[0].world_mesh().bounds
+    (x, y, z), _ = scene.bodies[1].world_mesh().bounds
+    assert made.bodies[1].world_mesh().bounds[0] == (x + BY[0], y + BY[1], z + BY[2])
