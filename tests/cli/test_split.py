@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 
-from satcheck.cli.commands.check import SPLITS
+from satcheck.cli.commands.options import SPLITS
 from satcheck.scene.loader import Split
 from tests.cli.process import VALIDATOR, satcheck
 from tests.scene import files
