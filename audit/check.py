@@ -15,7 +15,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import Asked, Planner
 from satcheck.audit.report import Finding, Issue, Report
-from satcheck.audit.roster import Roster, place
+from satcheck.audit.roster import Known, Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
 from satcheck.core.errors import SatcheckError
@@ -23,7 +23,6 @@ from satcheck.scene.drawing import DRAWINGS
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
-    from satcheck.audit.placed_body import MeshKey, SharedMesh
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Scene
 
@@ -45,15 +44,15 @@ def check(
     scene: Scene | Sequence[str | Path],
     settings: Settings = DEFAULT_SETTINGS,
     progress: Progress | None = None,
-    meshes: dict[MeshKey, SharedMesh] | None = None,
+    known: Known | None = None,
 ) -> Report:
     """Check every pair of bodies that the scene does not exempt.
 
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
     this thread as pairs are settled. Findings come in the order of the bodies, whatever the threads
     do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
-    bodies (Settings.list_pruned). meshes: what earlier checks with the same settings found out
-    about mesh files, for those of this one to find and to add to.
+    bodies (Settings.list_pruned). known: what earlier checks with the same settings, of the
+    same bodies elsewhere, have found out; this one adds to it.
 
     Raises SatcheckError (`too-few-bodies`, `cross-check-missing`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
@@ -63,7 +62,7 @@ def check(
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
     if scene.motions:  # a check of the placements alone would read as one of the motion
         raise SatcheckError("unsupported-feature", "the scene has motions, which are not checked")
-    roster = place(scene, settings, meshes)
+    roster = place(scene, settings, known)
     planner = Planner(settings, roster.book, scene.composed)
     close = close_pairs(roster, planner)
     examined = _examine_all(roster, close, planner, progress)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from satcheck.audit.boxes import Box
 from satcheck.audit.placed_body import (
     MeshKey,
     PlacedBody,
@@ -63,14 +64,39 @@ class Roster:
                     yield min(k, other), max(k, other), body.reason
 
 
-def place(
-    scene: Scene, settings: Settings, shared: dict[MeshKey, SharedMesh] | None = None
-) -> Roster:
+class Known:
+    """What a check leaves for others with the same settings, of the same bodies elsewhere.
+
+    meshes: what depends on a mesh alone. placed: by their ids, those that stayed where they are
+    need nothing new. book: what the scene says of its pairs; None: not yet.
+    """
+
+    __slots__ = ("book", "meshes", "placed")
+
+    def __init__(self) -> None:
+        self.meshes: dict[MeshKey, SharedMesh] = {}
+        self.placed: dict[str, PlacedBody] = {}
+        self.book: RuleBook | None = None
+
+    def place(self, body: Body, settings: Settings, bounds: Box | None) -> PlacedBody:
+        """bounds: of its mesh in the world, where known. Raises ValueError or OverflowError where
+        its pose leaves the number range."""
+        earlier = self.placed.get(body.id)
+        if earlier is not None and earlier.body is body:
+            return earlier
+        key = mesh_key(body.file)
+        if key not in self.meshes:
+            self.meshes[key] = SharedMesh(body.file, settings)
+        self.placed[body.id] = PlacedBody(body, self.meshes[key], bounds)
+        return self.placed[body.id]
+
+
+def place(scene: Scene, settings: Settings, known: Known | None = None) -> Roster:
     """Put every body into the world; one whose pose leaves the number range is lost.
 
-    shared: what is known of meshes; those that are new here are added.
+    known: from earlier checks of these bodies; what is new here is added.
     """
-    shared = {} if shared is None else shared
+    known = known or Known()
     placed: dict[int, PlacedBody] = {}
     lost: dict[int, Lost] = {}
     issues: list[Issue] = []
@@ -82,17 +108,13 @@ def place(
             reason = f"unreadable {body.file}: {body.issue.code}"
             lost[index] = Lost(body.id, body.file, reason, body.groups, body.path, body.static)
             continue
-        key = mesh_key(body.file)
-        if key not in shared:
-            shared[key] = SharedMesh(body.file, settings)
-        mesh = shared[key]
         try:
-            placed[index] = PlacedBody(body, mesh, next(bounds))
+            placed[index] = known.place(body, settings, next(bounds))
         except (ValueError, OverflowError) as error:
             reason = f"cannot be placed: {error}"
             lost[index] = Lost(body.id, body.file.path, reason, body.groups, body.path, body.static)
             issues.append(_unplaceable(body, error))
-    book = RuleBook(
+    known.book = known.book or RuleBook(
         [Subject(body.id, body.groups, body.static) for body in members],
         scene.rules,
         scene.ignore_within_groups,
@@ -102,8 +124,8 @@ def place(
         placed=placed,
         lost=lost,
         ids=tuple(body.id for body in members),
-        book=book,
-        issues=(*map(_unused, book.unused()), *issues),
+        book=known.book,
+        issues=(*map(_unused, known.book.unused()), *issues),
     )
 
 

@@ -77,7 +77,8 @@ class RuleBook:
         self._kinds: list[_Kind] = []
         self._bodies: list[list[int]] = []
         self.kind_of: list[int] = []
-        self._terms: dict[tuple[int, int], Terms] = {}
+        self._terms: dict[tuple[int, int], Terms] = {}  # of kinds
+        self._named_terms: dict[tuple[int, int], Terms] = {}
         numbers: dict[_Kind, int] = {}
         for index, (body, sides) in enumerate(zip(subjects, self._sort_rules(), strict=True)):
             kind = _Kind(
@@ -120,9 +121,12 @@ class RuleBook:
         return not self.is_ignored(i, j) and not self.terms(i, j).allows
 
     def terms(self, i: int, j: int) -> Terms:
-        named = self._named.get((i, j) if i < j else (j, i))
+        pair = (i, j) if i < j else (j, i)
+        named = self._named.get(pair)
         if named is not None:
-            return self._merged(sorted((*named, *self._about(i, j))))
+            if pair not in self._named_terms:
+                self._named_terms[pair] = self._merged(sorted((*named, *self._about(i, j))))
+            return self._named_terms[pair]
         key = self.kind_of[i], self.kind_of[j]
         if key not in self._terms:
             self._terms[key] = self._merged(self._about(i, j))

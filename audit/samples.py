@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any, get_args
 
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.placed_body import MeshKey, SharedMesh
 from satcheck.audit.report import (
     OVERLAPS,
     BodyReport,
@@ -21,7 +20,8 @@ from satcheck.audit.report import (
     finding_values,
     rule_values,
 )
-from satcheck.audit.rule_book import RuleBook, Subject
+from satcheck.audit.roster import Known
+from satcheck.audit.rule_book import RuleBook
 from satcheck.audit.settings import Settings
 
 if TYPE_CHECKING:
@@ -162,14 +162,14 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     placed = [posed(scene, pose) for pose in poses]  # all poses are judged before work is done
-    meshes: dict[MeshKey, SharedMesh] = {}
+    known = Known()
     tallies: dict[tuple[str, str], PairTally] = {}
     samples: list[Sample] = []
     common: dict[Issue, None] = {}
     tracebacks: list[str] = []
     report: Report | None = None
     for number, one in enumerate(placed, 1):
-        report = check(one, replace(settings, list_pruned=False), meshes=meshes)
+        report = check(one, replace(settings, list_pruned=False), known=known)
         sample, others = _sample(number, report, one.posture)
         samples.append(sample)
         common |= dict.fromkeys(others)
@@ -180,6 +180,7 @@ def check_poses(
         if progress is not None:
             progress(number, len(placed))
     assert report is not None
+    assert known.book is not None
     return Samples(
         tool=report.tool,
         units=report.units,
@@ -188,7 +189,7 @@ def check_poses(
         exempt=report.exempt,
         rules=report.rules,
         samples=tuple(samples),
-        pairs=_all_pairs(report, tallies),
+        pairs=_all_pairs(report, known.book, tallies),
         issues=tuple(common),
         tracebacks=tuple(tracebacks),
     )
@@ -218,14 +219,10 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
     }
 
 
-def _all_pairs(report: Report, tallies: dict[tuple[str, str], PairTally]) -> tuple[PairTally, ...]:
+def _all_pairs(
+    report: Report, book: RuleBook, tallies: dict[tuple[str, str], PairTally]
+) -> tuple[PairTally, ...]:
     """Of every asked pair, in the order of the bodies."""
-    book = RuleBook(
-        [Subject(body.id, body.groups, body.static) for body in report.bodies],
-        report.rules,
-        frozenset(report.exempt.groups),
-        not report.exempt.static_pairs,
-    )
     pairs = []
     for j, b in enumerate(report.bodies):
         for i, a in enumerate(report.bodies[:j]):

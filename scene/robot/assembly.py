@@ -147,7 +147,8 @@ def _allowed(pair: tuple[str, str], reason: str, file: str) -> Rule:
 
 
 def posed(scene: Scene, pose: Pose) -> Scene:
-    """The scene with its robots in this pose: other transforms, the same meshes.
+    """The scene with its robots in this pose: other transforms, the same meshes. What does not
+    move is the same object.
 
     pose: joint -> values; see `poses.settle` for joints that it does not name and for what is
     refused. The posture, complete, and what there is to say about it are those of the result.
@@ -162,7 +163,9 @@ def posed(scene: Scene, pose: Pose) -> Scene:
     return replace(
         scene,
         bodies=tuple(
-            replace(body, transform=transforms[body.id]) if body.id in transforms else body
+            body
+            if transforms.get(body.id, body.transform) == body.transform
+            else replace(body, transform=transforms[body.id])
             for body in scene.bodies
         ),
         issues=(*(found for found in scene.issues if found not in earlier), *posture.issues),

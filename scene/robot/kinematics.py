@@ -68,13 +68,11 @@ def motion(joint: Joint, values: Sequence[float]) -> Transform:
 
 def compose(a: Transform, b: Transform) -> Transform:
     """a * b: first b, then a."""
+    columns = [(b[j], b[4 + j], b[8 + j], b[12 + j]) for j in range(4)]
     return tuple(
-        a[4 * i] * b[j]
-        + a[4 * i + 1] * b[4 + j]
-        + a[4 * i + 2] * b[8 + j]
-        + a[4 * i + 3] * b[12 + j]
-        for i in range(4)
-        for j in range(4)
+        p * x + q * y + r * z + t * w
+        for p, q, r, t in (a[0:4], a[4:8], a[8:12], a[12:16])
+        for x, y, z, w in columns
     )
 
 

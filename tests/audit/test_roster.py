@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
 import pytest
 
-from satcheck.audit.roster import place
+from satcheck.audit.roster import Known, place
 from satcheck.audit.settings import Settings
 from satcheck.scene import Body, Scene, Unreadable
 from satcheck.scene.issue import issue
@@ -29,6 +30,17 @@ def test_a_pair_is_ignored_when_both_are_in_one_ignored_group(ignored):
     }
     assert set(roster.asked_pairs()) == asked
     assert roster.book.count() == (len(asked), 0)
+
+
+def test_what_stays_where_it_is_is_placed_once():
+    body = Body("a", "", FILE, transform=(1.0, 0, 0, 3.0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0))
+    known = Known()
+    first = place(Scene("", None, (body,)), Settings(), known)
+    again = place(Scene("", None, (body,)), Settings(), known)
+    moved = place(Scene("", None, (replace(body, transform=None),)), Settings(), known)
+    assert again.placed[0] is first.placed[0]
+    assert moved.placed[0].bounds == ((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+    assert moved.placed[0].shared is first.placed[0].shared
 
 
 def test_an_unreadable_body_is_in_its_groups():
