@@ -34,6 +34,7 @@ class Choices:
     seed: int
     depth: bool
     explain: bool
+    allow_outside: bool
 
 
 def run(choices: Choices) -> int:
@@ -54,7 +55,7 @@ def _probe(choices: Choices) -> Stability:
     from satcheck.audit import Settings
     from satcheck.cli.progress import Bar
 
-    scene = load(choices.paths)
+    scene = load(choices.paths, allow_outside=choices.allow_outside)
     if scene.unreadable:
         raise click.ClickException("an input could not be used: there is no pair to ask about")
     from satcheck.audit.stability import probe

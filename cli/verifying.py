@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 MOST_BYTES = 1 << 30
 
 
-def run(report: Path, root: Path, form: str, debug: bool) -> int:
+def run(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -> int:
     """debug is read by the process as a whole."""
     from satcheck.cli.progress import Bar
     from satcheck.cli.report.json import document as json_text
@@ -28,7 +28,7 @@ def run(report: Path, root: Path, form: str, debug: bool) -> int:
     content = _read(report)
     try:
         with Bar() as bar:
-            found = verify(content, root, bar)
+            found = verify(content, root, bar, allow_outside=allow_outside)
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
     text = json_text(_values(found)) if form == "json" else _table(found)

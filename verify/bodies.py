@@ -47,9 +47,9 @@ class Placed:
 class Bodies:
     """Reads each file once."""
 
-    def __init__(self, root: Path) -> None:
+    def __init__(self, root: Path, *, allow_outside: bool = False) -> None:
         self._root = root
-        self._files = MeshFiles()
+        self._files = MeshFiles(allow_outside=allow_outside)
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
     def place(self, entry: Any) -> Placed:

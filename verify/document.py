@@ -56,13 +56,18 @@ class Verification:
 
 
 def verify(
-    document: Any, root: Path, progress: Callable[[int, int], None] | None = None
+    document: Any,
+    root: Path,
+    progress: Callable[[int, int], None] | None = None,
+    *,
+    allow_outside: bool = False,
 ) -> Verification:
     """Re-check a report, parsed from JSON, from the mesh files. Their paths start at root.
 
-    Raises Rejected where it is no report. Everything else that is wrong is a result.
+    allow_outside: the buffers of a glTF file may lie outside of its folder. Raises Rejected where
+    it is no report. Everything else that is wrong is a result.
     """
-    report = _Report(document, root)
+    report = _Report(document, Bodies(root, allow_outside=allow_outside))
     entries = report.findings
     checked = []
     for number_, entry in enumerate(entries):
@@ -93,13 +98,12 @@ def _object(document: Any, key: str) -> dict[str, Any]:
 
 
 class _Report:
-    def __init__(self, document: Any, root: Path) -> None:
+    def __init__(self, document: Any, reader: Bodies) -> None:
         if not isinstance(document, dict) or document.get("schema") != SCHEMA:
             raise Rejected(f'not a report: "schema" is not "{SCHEMA}"')
         self.document = document
         self.findings = _list(document, "findings")
         self.asked = _asked(_object(document, "settings"))
-        reader = Bodies(root)
         placed = [reader.place(entry) for entry in _list(document, "bodies")]
         self.bodies = {body.id: body for body in placed}
         if len(self.bodies) < len(placed):

@@ -12,6 +12,7 @@ from satcheck.cli.commands.options import (
     form_of,
     form_option,
     output_option,
+    outside_option,
     paths_argument,
 )
 
@@ -38,6 +39,7 @@ from satcheck.cli.commands.options import (
 @form_option
 @output_option
 @click.option("--explain", is_flag=True, help="Show every variant, not only what went wrong.")
+@outside_option
 @debug_option
 def command(debug: bool, **options: Any) -> int:
     """Ask the same question in other ways: does the answer stay?

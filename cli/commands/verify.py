@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option
+from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option, outside_option
 
 
 @click.command("verify", context_settings=HELP_NAMES)
@@ -26,8 +26,9 @@ from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option
     show_default=True,
     help="How to report.",
 )
+@outside_option
 @debug_option
-def command(report: Path, root: Path, form: str, debug: bool) -> int:
+def command(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -> int:
     """Re-check the certificates of a report from the mesh files.
 
     REPORT is what satcheck --certificate -o REPORT.json A B wrote. Its verdicts are checked in
@@ -39,4 +40,4 @@ def command(report: Path, root: Path, form: str, debug: bool) -> int:
     """
     from satcheck.cli.verifying import run
 
-    return run(report, root, form, debug)
+    return run(report, root, form, allow_outside, debug)

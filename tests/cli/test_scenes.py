@@ -10,6 +10,7 @@ from pathlib import Path
 from jsonschema import Draft202012Validator
 
 from tests.cli.process import SAMPLES, VALIDATOR, satcheck
+from tests.scene import files
 from tests.scene.format.scenes import BOX, scene_of, toml_document, write
 
 JSON = ("--format", "json", "--no-timings")
@@ -61,3 +62,25 @@ def test_files_outside_of_the_folder_are_read_where_that_is_allowed(tmp_path: Pa
     read = satcheck(*JSON, "--allow-outside", "scenes/cell.json", cwd=tmp_path)
     assert read.code == 1
     assert read.document["bodies"][0]["file"] == "box.obj"
+
+
+def test_buffers_of_gltf_files_too_in_every_command_that_reads_them(tmp_path: Path) -> None:
+    document, data = files.gltf_document()
+    document["buffers"][0]["uri"] = "../cube.bin"
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "cube.bin").write_bytes(data)
+    for name in ("a.gltf", "b.gltf"):
+        (tmp_path / "meshes" / name).write_text(json.dumps(document), encoding="utf-8")
+    pair = ("meshes/a.gltf", "meshes/b.gltf")
+    report = "report.json"
+    calls = {
+        ("--no-depth", "--certificate", "-o", report, *pair): 1,
+        ("verify", report): 0,
+        ("stability", "--samples", "1", "--no-depth", *pair): 0,
+    }
+    for arguments, code in calls.items():
+        assert satcheck(*arguments, "--allow-outside", cwd=tmp_path).code == code, arguments
+        refused = satcheck(*arguments, cwd=tmp_path)
+        assert refused.code != code
+        assert "outside" in refused.out + refused.err
+        satcheck(*arguments, "--allow-outside", cwd=tmp_path)  # the report as it was
