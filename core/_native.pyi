@@ -396,6 +396,7 @@ def least_gap(
     moving_b: Moving,
     *,
     window: float,
+    floor: float,
     pad: float,
     slack: float,
     work: int,

@@ -10,7 +10,7 @@ SLID = 64
 # Questions about one pair: how long it stays free, how large its gap is.
 STEPS = 4096
 # Pairs of boxes and triangles that all these questions may visit: seconds.
-VISITS = 20_000_000
+VISITS = 10_000_000
 # Poses beyond a contact that nothing could be proven about, in which an overlap is looked for.
 PROBES = 64
 # Narrower than this share of the figure, an interval of the deepest or nearest pose is done.

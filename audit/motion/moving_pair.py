@@ -93,15 +93,17 @@ class MovingPair:
         level = -self.tolerance
         return self._shapes(core.safe_time, t, level=level, limit=end - t).value
 
-    def least_gap(self, start: float, end: float) -> tuple[float, float]:
+    def least_gap(self, start: float, end: float, floor: float = 0.0) -> tuple[float, float]:
         """Proven bounds of the signed distance of two convex bodies, of the distance of the
         surfaces of others: at least the first at all times from start to end, which lie in the same
-        pieces; at most the second in the middle."""
+        pieces; at most the second in the middle. floor: below it the first may be anything >= 0."""
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
-        ask = self._shapes if self.convex else self._surfaces
-        found = ask(core.least_gap, middle, window=window)
-        return found.value, found.upper + self.pad
+        if self.convex:
+            found = self._shapes(core.least_gap, middle, window=window)
+            return found.value, found.upper + self.pad
+        found = self._surfaces(core.least_gap, middle, window=window, floor=floor)
+        return max(found.value, 0.0), found.upper + self.pad
 
     def least_hull_gap(self, start: float, end: float) -> float:
         """A lower bound of the signed distance of the hulls; minus it is one of the depth."""

@@ -20,7 +20,9 @@ from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS
 
-Bounds = Callable[[float, float], tuple[float, float]]
+Bounds = Callable[[float, float, float], tuple[float, float]]
+# An interval whose least bound is below this share of the best figure is halved in any case.
+WORTHLESS = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +59,7 @@ def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     except Unanswerable:
         return None
     deepest, _, time = max(found, key=lambda one: one[0])
-    hulls = _least(pair, lambda s, e: (pair.least_hull_gap(s, e), -deepest), None)
+    hulls = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), -deepest), None)
     return hulls and Worst(time, min(hulls.lower, -deepest), -deepest)
 
 
@@ -91,7 +93,8 @@ class _Search:
         heapq.heappush(self._queue, halves[1])
 
     def _look(self, start: float, end: float) -> tuple[float, float, float]:
-        lower, upper = self._bounds(start, end)
+        floor = WORTHLESS * self.best if 0.0 < self.best < math.inf else 0.0
+        lower, upper = self._bounds(start, end, floor)
         if upper < self.best:
             self.best, self.time = upper, 0.5 * (start + end)
         return lower, start, end

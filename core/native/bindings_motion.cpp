@@ -41,9 +41,9 @@ MotionAnswer surfaces_time(const Surface& a, const Moving& moving_a, const Surfa
 }
 
 MotionAnswer surfaces_gap(const Surface& a, const Moving& moving_a, const Surface& b, const Moving& moving_b,
-                          double window, double pad, double slack, std::uint64_t work) {
-  require_lengths(0, window, pad, slack);
-  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::gap(window), {pad, slack}, work);
+                          double window, double floor, double pad, double slack, std::uint64_t work) {
+  require_lengths(floor, window, pad, slack);
+  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::gap(window, floor), {pad, slack}, work);
 }
 
 MotionAnswer shapes_time(const Shape& a, const Moving& moving_a, const Shape& b, const Moving& moving_b, double level,
@@ -77,13 +77,14 @@ infinite where nothing was in the way. triangle_a, triangle_b: what is most in t
   const nb::call_guard<nb::gil_scoped_release> unlocked;
   constexpr const char* time_doc = R"(For how long, up to `limit`, the gap of two moving surfaces, or the signed distance of two convex shapes, stays
 above `level`. pad, slack: what rounding may do to a gap, and to the rate at which it closes. work: boxes and triangles.)";
-  constexpr const char* gap_doc = "The least gap, or signed distance, up to `window` before and after now.";
+  constexpr const char* gap_doc = R"(The least gap, or signed distance, up to `window` before and after now. Of surfaces: minus infinity where it is, or
+may be, below `floor`.)";
   m.def("safe_time", &surfaces_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
         "pad"_a, "slack"_a, "work"_a, unlocked, time_doc);
   m.def("safe_time", &shapes_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
         "pad"_a, "slack"_a, unlocked);
-  m.def("least_gap", &surfaces_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "pad"_a,
-        "slack"_a, "work"_a, unlocked, gap_doc);
+  m.def("least_gap", &surfaces_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "floor"_a,
+        "pad"_a, "slack"_a, "work"_a, unlocked, gap_doc);
   m.def("least_gap", &shapes_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "pad"_a,
         "slack"_a, unlocked);
 }

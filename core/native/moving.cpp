@@ -28,7 +28,7 @@ double least(double gap, const Closing::Speed& speed, double bend, double window
 }  // namespace
 
 double MotionQuestion::answer(const Closing& closing) const {
-  if (std::isnan(closing.gap)) return smallest();
+  if (std::isnan(closing.gap)) return trivial();
   if (time_) return std::fmin(time_until(closing, level_), extent_);
   return std::fmin(least(closing.gap, closing.ahead, closing.bend, extent_),
                    least(closing.gap, closing.back, closing.bend, extent_));

@@ -80,15 +80,19 @@ class MotionQuestion {
  public:
   // For how long the gap stays above the level, at most `limit`.
   static MotionQuestion time(double level, double limit) { return {true, level, limit}; }
-  // The least gap within `window` of now, before and after.
-  static MotionQuestion gap(double window) { return {false, 0, window}; }
+  // The least gap within `window` of now, before and after; how far it is below `floor` does not matter.
+  static MotionQuestion gap(double window, double floor = -INFINITY) { return {false, floor, window}; }
 
   // A lower bound of the answer.
   double answer(const Closing& closing) const;
+  // Whether the answer for a gap as it is now, whatever becomes of it, may be more than a known one.
+  bool may_raise(double gap, double known) const { return time_ ? gap > level_ : gap > known; }
   // No answer is larger.
   double largest() const { return time_ ? extent_ : INFINITY; }
   // No smaller answer is of use.
-  double smallest() const { return time_ ? 0.0 : -INFINITY; }
+  double smallest() const { return time_ ? 0.0 : level_; }
+  // What is true in any case.
+  double trivial() const { return time_ ? 0.0 : -INFINITY; }
 
  private:
   MotionQuestion(bool time, double level, double extent) : time_(time), level_(level), extent_(extent) {}
@@ -127,31 +131,27 @@ void add_closing(const Part& part, const Moving& moving, Vec3 n, bool towards, C
   closing.bend += across * turning;
 }
 
-// n: unit, from A to B.
+// How a gap along a unit axis from A to B goes on in one view.
 template <class PartA, class PartB>
-Closing closing_along(const PartA& a, const Moving& moving_a, const PartB& b, const Moving& moving_b, Vec3 n,
-                      const MotionRounding& rounding) {
-  Closing closing{b.along(n).low - a.along(n).high - rounding.gap, 0, {}, {}};
-  add_closing(a, moving_a, n, true, closing);
-  add_closing(b, moving_b, n, false, closing);
-  for (Closing::Speed* speed : {&closing.ahead, &closing.back}) {
-    speed->rate += rounding.rate;
-    speed->steady += rounding.rate;
-  }
+Closing closing_of(double gap, const PartA& a, const PartB& b, const Views::View& view, Vec3 n, double rounding) {
+  Closing closing{gap, 0, {rounding, rounding}, {rounding, rounding}};
+  add_closing(a, view.a, n, true, closing);
+  add_closing(b, view.b, n, false, closing);
   return closing;
 }
 
-// A lower bound of the answer to a question, by an axis of any length from A to B, in all views.
+// Raises `answer`, a lower bound of the answer to the question, by what an axis of any length from A to B
+// proves in all views.
 template <class PartA, class PartB>
-double answer_along(const PartA& a, const PartB& b, Vec3 axis, const Views& views, const MotionRounding& rounding,
-                    const MotionQuestion& question) {
+void raise_answer(const PartA& a, const PartB& b, Vec3 axis, const Views& views, const MotionRounding& rounding,
+                  const MotionQuestion& question, double& answer) {
   const Vec3 n = unit_along(axis);
-  double answer = question.smallest();
-  if (n == Vec3{}) return answer;
+  if (n == Vec3{}) return;
+  const double gap = b.along(n).low - a.along(n).high - rounding.gap;
+  if (!question.may_raise(gap, answer)) return;
   for (const Views::View& view : views) {
-    answer = std::fmax(answer, question.answer(closing_along(a, view.a, b, view.b, n, rounding)));
+    answer = std::fmax(answer, question.answer(closing_of(gap, a, b, view, n, rounding.rate)));
   }
-  return answer;
 }
 
 }  // namespace satcheck

@@ -43,14 +43,12 @@ MotionAnswer ask_motion(const Shape& a, const Moving& moving_a, const Shape& b, 
   const PairResult now = check_pair(a, moving_a.pose, b, moving_b.pose, Query::depth);
   const PlacedShape part_a(a, moving_a.pose), part_b(b, moving_b.pose);
   MotionAnswer result;
-  result.value = question.smallest();
+  result.value = question.trivial();
   result.visits = 1;
   if (!now.has_distance) return result;
   result.upper = now.upper;
   const Views views(moving_a, moving_b);
-  const auto consider = [&](Vec3 axis) {
-    result.value = std::fmax(result.value, answer_along(part_a, part_b, axis, views, rounding, question));
-  };
+  const auto consider = [&](Vec3 axis) { raise_answer(part_a, part_b, axis, views, rounding, question, result.value); };
   consider(now.normal);
   const Vec3 v = moving_a.velocity_at(now.witness_a) - moving_b.velocity_at(now.witness_b);
   if (norm_squared(v) > 0) consider(now.normal - v * (dot(now.normal, v) / norm_squared(v)));

@@ -87,6 +87,7 @@ class MotionSearch {
         push_two({pair.a, n.first}, {pair.a, n.first + 1}, 2);
       }
     }
+    if (!stack_.empty()) result_.value = question_.trivial();
     return result_;
   }
 
@@ -106,7 +107,7 @@ class MotionSearch {
     ++result_.visits;
     const PlacedBox a(a_.bvh.nodes[pair.first].box, moving_a_.pose), b(b_.bvh.nodes[pair.second].box, moving_b_.pose);
     const Vec3 apart = b.centre - a.centre;
-    double value = question_.smallest();
+    double value = question_.trivial();
     const auto enough = [&](Vec3 axis) { return improve(a, b, axis, value); };
     if (enough(apart) || enough(across_motion(apart, a.centre, b.centre))) return {value, pair.first, pair.second};
     for (int k = 0; k < 3; ++k) {
@@ -126,7 +127,7 @@ class MotionSearch {
 
   void visit(const PlacedTriangle& a, std::uint32_t ta, const PlacedTriangle& b, std::uint32_t tb) {
     ++result_.visits;
-    double value = question_.smallest();
+    double value = question_.trivial();
     const auto enough = [&](Vec3 axis) { return improve(a, b, axis, value); };
     const Vec3 middle = b.centre() - a.centre();
     if (enough(towards(a.normal(), middle)) || enough(towards(b.normal(), middle))) return;
@@ -142,7 +143,7 @@ class MotionSearch {
   // Tries an axis; whether the pair is no more in the way than what is known.
   template <class Part>
   bool improve(const Part& a, const Part& b, Vec3 axis, double& value) const {
-    value = std::fmax(value, answer_along(a, b, axis, views_, rounding_, question_));
+    raise_answer(a, b, axis, views_, rounding_, question_, value);
     return !(value < result_.value);
   }
 

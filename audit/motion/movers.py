@@ -1,0 +1,46 @@
+"""Who moves in a scene, against whom, and where they come by."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from satcheck.audit.boxes import Box
+from satcheck.audit.motion.swept import swept_box
+from satcheck.audit.motion.track import track_of
+from satcheck.audit.report import Issue
+from satcheck.scene.motion import Motion, Path
+
+
+@dataclass(frozen=True, slots=True)
+class Paths:
+    """How the bodies of a pair move; None: not at all. Not both."""
+
+    a: Path | None
+    b: Path | None
+
+
+class Movers:
+    def __init__(self, motions: Sequence[Motion]) -> None:
+        self._motion = {body: motion for motion in motions for body in motion.bodies}
+        self._tracks = {id(motion): track_of(motion.path) for motion in motions}
+
+    def paths(self, a: str, b: str) -> Paths | None:
+        """None where neither moves against the other: both stand, or move as one."""
+        one, other = self._motion.get(a), self._motion.get(b)
+        if one is other:
+            return None
+        return Paths(one and one.path, other and other.path)
+
+    def bounds(self, body: str, placed: Box) -> Box:
+        """The world box of a body over its whole motion, the placement included."""
+        motion = self._motion.get(body)
+        return placed if motion is None else swept_box(placed, self._tracks[id(motion)])
+
+    def issues(self, bodies: Sequence[str]) -> list[Issue]:
+        """Warnings about motions of bodies that are not there."""
+        lost = self._motion.keys() - set(bodies)
+        return [
+            Issue("unknown-body", "warning", None, None, f"a motion names {body!r}: there is none")
+            for body in sorted(lost)
+        ]

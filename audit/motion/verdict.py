@@ -1,0 +1,81 @@
+"""What the sweep of a pair makes of its finding: the graver of what both say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from satcheck.audit.motion.movers import Paths
+from satcheck.audit.motion.sweep import sweep
+from satcheck.audit.motion_report import Sweep
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.report import SEVERITIES, Finding, Severity, Undecided
+from satcheck.audit.severity import CLEARANCE_RULE
+from satcheck.audit.tolerances import EXACT_WIDTH
+
+
+@dataclass(frozen=True, slots=True)
+class _Judgement:
+    severity: Severity
+    rule: str | None = None
+    undecided: Undecided | None = None
+    reason: str | None = None
+
+
+def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Finding:
+    """The finding with the sweep of the pair, its stage in the plan, and a severity that counts
+    both."""
+    found = sweep(pair, paths.a, paths.b)
+    plan.record("sweep", found.relation, _detail(found))
+    judged = _judged(found, pair)
+    if judged.severity == "error" and pair.asked.severity is not None:
+        judged = _Judgement(pair.asked.severity, pair.asked.rule("severity"))
+    graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
+    return replace(
+        finding,
+        motion=found,
+        severity=judged.severity if graver else finding.severity,
+        rule=judged.rule if graver else finding.rule,
+        undecided=finding.undecided or judged.undecided,
+        reason=finding.reason or judged.reason,
+        plan=tuple(plan.stages),
+    )
+
+
+def _judged(found: Sweep, pair: Pair) -> _Judgement:
+    asked = pair.asked
+    if found.relation == "indeterminate":
+        return _Judgement("warning", undecided="motion")
+    if found.relation == "penetrating":
+        return _limited(found, pair) if asked.limited else _Judgement("error")
+    if found.relation == "near" or (found.relation == "touching" and asked.clearance):
+        return _Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
+    if found.reason is not None and not pair.settings.allow_open:
+        return _Judgement("warning", undecided="inside")
+    touches = found.relation == "touching" or found.reason is not None
+    return _Judgement("note" if touches else "none")
+
+
+def _limited(found: Sweep, pair: Pair) -> _Judgement:
+    """Of a pair that may overlap within limits. The volume on the way is not measured."""
+    asked = pair.asked
+    depth = None if found.worst is None else found.worst.depth
+    rule = asked.rule("max_depth") or asked.rule("max_volume")
+    if asked.max_depth is not None and depth is not None:
+        if depth[0] > asked.max_depth:
+            return _Judgement("error", rule)
+        if depth[1] <= asked.max_depth * (1 + EXACT_WIDTH) and asked.max_volume is None:
+            return _Judgement("note", rule)
+    reason = "undecided: whether the overlap on the way is within its limits"
+    return _Judgement("warning", rule, "limit", reason)
+
+
+def _detail(found: Sweep) -> str:
+    steps = f"{found.steps} steps"
+    if found.time_of_impact is not None:
+        return f"first overlap at t = {found.time_of_impact[1]:.6g}, {steps}"
+    if found.reason is not None:
+        return f"{found.reason}, {steps}"
+    if found.worst is not None and found.worst.distance is not None:
+        return f"at least {found.worst.distance[0]:.6g} apart, {steps}"
+    return steps
