@@ -6,21 +6,32 @@ scene exempts, so that exempt pairs are not made where that can be told beforeha
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
 
 from satcheck import core
+from satcheck.audit.boxes import Box
 from satcheck.audit.planner import Planner
 from satcheck.audit.roster import Roster
+
+if TYPE_CHECKING:
+    from satcheck.audit.motion.movers import Movers
 
 IndexPair = tuple[int, int]
 
 
-def close_pairs(roster: Roster, planner: Planner) -> list[IndexPair]:
-    """Asked pairs of placed bodies, sorted, no further apart by their boxes than is asked about."""
+def close_pairs(roster: Roster, planner: Planner, movers: Movers | None = None) -> list[IndexPair]:
+    """Asked pairs of placed bodies, sorted, no further apart by their boxes than is asked about.
+
+    movers: boxes are then those of whole motions.
+    """
     index, book = tuple(roster.placed), roster.book
     place = {body: k for k, body in enumerate(index)}
+    boxes = {k: body.bounds for k, body in roster.placed.items()}
+    if movers is not None:
+        boxes = {k: movers.bounds(roster.ids[k], box) for k, box in boxes.items()}
     close = core.close_pairs(
-        [body.bounds for body in roster.placed.values()],
+        list(boxes.values()),
         planner.reach({k: body.resolution for k, body in roster.placed.items()}),
         [book.kind_of[i] for i in index],
         book.exempt_kinds(),
@@ -30,19 +41,21 @@ def close_pairs(roster: Roster, planner: Planner) -> list[IndexPair]:
     if not book.rules:
         return found
     asked = [pair for pair in found if book.is_asked(*pair)]
-    return _within_own_gaps(roster, planner, asked) if planner.lengths_differ else asked
+    return _within_own_gaps(roster, boxes, planner, asked) if planner.lengths_differ else asked
 
 
 def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]:
     return [(place[i], place[j]) for i, j in pairs if i in place and j in place]
 
 
-def _within_own_gaps(roster: Roster, planner: Planner, pairs: list[IndexPair]) -> list[IndexPair]:
+def _within_own_gaps(
+    roster: Roster, boxes: Mapping[int, Box], planner: Planner, pairs: list[IndexPair]
+) -> list[IndexPair]:
     """A body reaches as far as the furthest that any rule asks of it; each pair is asked less."""
     placed = roster.placed
     return [
         (i, j)
         for i, j in pairs
-        if core.box_gap(placed[i].bounds, placed[j].bounds)
+        if core.box_gap(boxes[i], boxes[j])
         <= planner.asked_gap(i, j, placed[i].resolution + placed[j].resolution)
     ]

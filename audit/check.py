@@ -23,6 +23,7 @@ from satcheck.scene.drawing import DRAWINGS
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
+    from satcheck.audit.motion.movers import Movers
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Scene
 
@@ -60,14 +61,15 @@ def check(
     scene = _loaded(scene, settings)
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
-    if scene.motions:  # a check of the placements alone would read as one of the motion
-        raise SatcheckError("unsupported-feature", "the scene has motions, which are not checked")
     roster = place(scene, settings, known)
     planner = Planner(settings, roster.book, scene.composed)
-    close = close_pairs(roster, planner)
-    examined = _examine_all(roster, close, planner, progress)
+    movers = _movers(scene)
+    close = close_pairs(roster, planner, movers)
+    examined = _examine_all(roster, close, planner, movers, progress)
     findings = _findings(roster, close, examined, planner)
-    issues = issues_of(scene, roster, (issue for one in examined for issue in one.issues))
+    of_motions = () if movers is None else movers.issues(roster.ids)
+    of_pairs = (issue for one in examined for issue in one.issues)
+    issues = issues_of(scene, roster, (*of_motions, *of_pairs))
     counts = count(roster, len(close), findings)
     return Report(
         tool=tool(),
@@ -78,6 +80,7 @@ def check(
         exempt=exempt_of(scene),
         rules=scene.rules,
         effects=effects_of(planner, _with_asked(planner, close, examined), counts),
+        motions=() if movers is None else movers.values(),
         pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
         issues=issues,
@@ -105,8 +108,20 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
     return laid_flat(scene, settings.planar)
 
 
+def _movers(scene: Scene) -> Movers | None:
+    if not scene.motions:
+        return None
+    from satcheck.audit.motion.movers import Movers
+
+    return Movers(scene.motions)
+
+
 def _examine_all(
-    roster: Roster, close: list[tuple[int, int]], planner: Planner, progress: Progress | None
+    roster: Roster,
+    close: list[tuple[int, int]],
+    planner: Planner,
+    movers: Movers | None,
+    progress: Progress | None,
 ) -> list[Examined]:
     done, settings = [], planner.settings
     asked = [planner.asked(i, j) for i, j in close]
@@ -115,7 +130,15 @@ def _examine_all(
         meter = stack.enter_context(_volume_meter(settings)) if measures else None
         peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
         pairs = [
-            Pair(roster.placed[i], roster.placed[j], settings, one, meter, peers)
+            Pair(
+                roster.placed[i],
+                roster.placed[j],
+                settings,
+                one,
+                meter,
+                peers,
+                movers and movers.paths(roster.ids[i], roster.ids[j]),
+            )
             for (i, j), one in zip(close, asked, strict=True)
         ]
         for one in _in_order(pairs, settings.jobs):
@@ -165,6 +188,10 @@ def _examine(pair: Pair) -> Examined:
     plan = Plan()
     try:
         finding = examine(pair, plan)
+        if pair.paths is not None:
+            from satcheck.audit.motion.verdict import with_sweep
+
+            finding = with_sweep(finding, pair, pair.paths, plan)
         if pair.asked.wants("certificate"):
             finding = _with_certificate(pair, finding)
         return Examined(finding, tuple(plan.issues))
@@ -183,6 +210,9 @@ def _with_certificate(pair: Pair, finding: Finding) -> Finding:
     from satcheck.audit.certify import certified
 
     plan = Plan()
+    if finding.motion is not None:
+        plan.record("certificate", "none", "a sweep of moving bodies leaves no evidence")
+        return replace(finding, plan=(*finding.plan, *plan.stages))
     try:
         found = certified(pair, finding)
     except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence

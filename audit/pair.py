@@ -13,17 +13,21 @@ from satcheck.audit.tolerances import TOUCH_FRACTION
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
+    from satcheck.audit.motion.movers import Paths
     from satcheck.core.overlap_volume import VolumeMeter
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
+    """paths: how the bodies move against each other; None: they do not."""
+
     a: PlacedBody
     b: PlacedBody
     settings: Settings
     asked: Asked
     meter: VolumeMeter | None = None
     peers: Peers | None = None
+    paths: Paths | None = None
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""

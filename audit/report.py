@@ -10,13 +10,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from satcheck.audit.contact_report import Contacts
 from satcheck.audit.contact_report import Vector as Vector
 from satcheck.scene.rules import SEVERITIES as SEVERITIES
 from satcheck.scene.rules import Rule
 from satcheck.scene.rules import Severity as Severity
+
+if TYPE_CHECKING:
+    from satcheck.audit.motion_report import Sweep
 
 SCHEMA = "satcheck.report/1"
 
@@ -33,7 +36,7 @@ Relation = Literal[
 Quality = Literal["exact", "bounded", "estimate"]
 # What was asked of a pair and could not be decided: how the bodies relate, whether one lies in the
 # other, whether an overlap is within its limits.
-Undecided = Literal["relation", "inside", "limit"]
+Undecided = Literal["relation", "inside", "limit", "motion"]
 Verdict = Literal["pass", "fail", "incomplete"]
 Effect = Literal["overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate"]
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
@@ -72,6 +75,7 @@ class Summary:
     surfaces_only: of those, the decided pairs of which one body may lie inside the other, but the
     other has no inside to check (none with Settings.allow_open). limits_undecided: the overlaps of
     which it could not be decided whether they are within the limits of their rules.
+    sweeps_undecided: the pairs of which it could not be decided whether they hit while they move.
     """
 
     verdict: Verdict
@@ -79,6 +83,7 @@ class Summary:
     by_relation: Mapping[Relation, int]
     surfaces_only: int = 0
     limits_undecided: int = 0
+    sweeps_undecided: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +155,8 @@ class Finding:
     volume is exactly 0.0). Neither weakens the quality.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
     as it had to be for the moved mesh to be verified free. certificate: JSON values that prove it
-    (Settings.certificate), see the schema.
+    (Settings.certificate), see the schema. motion: None where neither body moves against the other,
+    or their boxes stay apart; severity and undecided count it, everything else is as placed.
     """
 
     id: str
@@ -174,6 +180,7 @@ class Finding:
     volume: float | None = None
     volume_error: float | None = None
     contacts: Contacts | None = None
+    motion: Sweep | None = None
     certificate: Mapping[str, Any] | None = None
     reason: str | None = None
     plan: tuple[Stage, ...]
@@ -217,7 +224,8 @@ class Exempt:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """pose: of the robots, joint -> value; None without robots.
+    """pose: of the robots, joint -> value; None without robots. motions: those of
+    the scene, as JSON values.
 
     `tracebacks` is for --debug and never leaves the program in a document.
     """
@@ -233,6 +241,7 @@ class Report:
     rules: tuple[Rule, ...] = ()
     effects: tuple[EffectReport, ...] = ()
     pose: Mapping[str, float | list[float]] | None = None
+    motions: tuple[Mapping[str, Any], ...] = ()
     truncated: None = None
     tracebacks: tuple[str, ...] = field(default=())
 
@@ -245,6 +254,7 @@ class Report:
             "settings": dict(self.settings),
             "summary": _summary(self.summary),
             **({} if self.pose is None else {"pose": dict(self.pose)}),
+            **({"motions": [dict(motion) for motion in self.motions]} if self.motions else {}),
             "bodies": [_body(body) for body in self.bodies],
             "exempt": {
                 "groups": list(self.exempt.groups),
@@ -285,6 +295,7 @@ def _summary(summary: Summary) -> dict[str, Any]:
         "by_relation": {name: summary.by_relation.get(name, 0) for name in RELATIONS},
         "surfaces_only": summary.surfaces_only,
         "limits_undecided": summary.limits_undecided,
+        **({"sweeps_undecided": undecided} if (undecided := summary.sweeps_undecided) else {}),
     }
 
 
@@ -359,6 +370,7 @@ def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
         "volume": _number(finding.volume),
         "volume_error": _number(finding.volume_error),
         "contacts": finding.contacts and finding.contacts.to_dict(),
+        **({} if finding.motion is None else {"motion": finding.motion.to_dict()}),
         "certificate": finding.certificate,
         "reason": finding.reason,
         "plan": [_stage(stage, timings) for stage in finding.plan],

@@ -67,6 +67,7 @@ def summarise(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) 
         by_relation=by_relation,
         surfaces_only=undecided["inside"],
         limits_undecided=undecided["limit"],
+        sweeps_undecided=undecided["motion"],
     )
 
 

@@ -16,6 +16,12 @@ from satcheck.verify.findings import Proven, check_finding, default_tolerance, n
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
 
 SCHEMA = "satcheck.report/1"
+# Counts of the summary, and what was left undecided of the findings that they count.
+UNDECIDED = (
+    ("surfaces_only", "inside"),
+    ("limits_undecided", "limit"),
+    ("sweeps_undecided", "motion"),
+)
 CERTAINLY = 1 + 1e-12  # far more than a difference of two numbers can be off by
 Outcome = Literal["accepted", "rejected", "not certified", "open"]
 
@@ -115,6 +121,8 @@ class _Report:
         self.faults = [
             f"{body.id}: {body.reason}" for body in placed if body.claims and body.reason
         ]
+        if document.get("motions"):
+            self.faults.append("bodies move: what happens on the way is not certified")
 
     def check(self, entry: Any) -> Checked:
         if not isinstance(entry, dict):
@@ -140,6 +148,8 @@ class _Report:
         if self.order[a.id] >= self.order[b.id] or frozenset(names) in self.listed:
             raise Rejected("every pair is listed once, in the order of the bodies")
         self.listed.add(frozenset((a.id, b.id)))
+        if entry.get("motion") is not None:
+            raise Rejected("what happens while bodies move is not certified")
         asked = self.asked_of(a, b)
         self.listed_apart += _boxes_apart(a, b, asked)
         if entry.get("relation") == "indeterminate":
@@ -188,8 +198,8 @@ class _Report:
         if {k: v for k, v in by_relation.items() if v} != {k: v for k, v in relations.items() if v}:
             raise Rejected("the summary's counts by relation are not those of the findings")
         undecided = Counter(str(f.get("undecided")) for f in self.findings)
-        for key, kind in (("surfaces_only", "inside"), ("limits_undecided", "limit")):
-            if summary.get(key) != undecided[kind]:
+        for key, kind in UNDECIDED:
+            if summary.get(key, 0) != undecided[kind]:
                 raise Rejected(f"the summary's {key} is not {undecided[kind]}")
         fail_on = _object(self.document, "settings").get("fail_on")
         if fail_on not in SEVERITIES[1:]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from satcheck.audit.boxes import Box
 from satcheck.audit.motion.swept import swept_box
 from satcheck.audit.motion.track import track_of
 from satcheck.audit.report import Issue
-from satcheck.scene.motion import Motion, Path
+from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,8 +21,13 @@ class Paths:
     b: Path | None
 
 
+# How a report calls the kinds of paths.
+KINDS = {Translation: "translation", Rotation: "rotation", PosePath: "path"}
+
+
 class Movers:
     def __init__(self, motions: Sequence[Motion]) -> None:
+        self._motions = tuple(motions)
         self._motion = {body: motion for motion in motions for body in motion.bodies}
         self._tracks = {id(motion): track_of(motion.path) for motion in motions}
 
@@ -36,6 +42,13 @@ class Movers:
         """The world box of a body over its whole motion, the placement included."""
         motion = self._motion.get(body)
         return placed if motion is None else swept_box(placed, self._tracks[id(motion)])
+
+    def values(self) -> tuple[dict[str, Any], ...]:
+        """The motions as JSON values: the kind of the path, and what it is made of."""
+        return tuple(
+            {"bodies": list(one.bodies), "kind": KINDS[type(one.path)], **asdict(one.path)}
+            for one in self._motions
+        )
 
     def issues(self, bodies: Sequence[str]) -> list[Issue]:
         """Warnings about motions of bodies that are not there."""

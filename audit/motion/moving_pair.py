@@ -14,6 +14,7 @@ from satcheck.audit.motion.track import ORIGIN, Track
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
+from satcheck.audit.planner import ALWAYS, Asked
 from satcheck.audit.tolerances import TOUCH_FRACTION
 
 if TYPE_CHECKING:
@@ -114,16 +115,6 @@ class MovingPair:
     def placed(self, t: float) -> Pair:
         """The pair as it stands at t, with the touch band of the sweep and no question but how the
         bodies relate."""
-        settings = replace(
-            self.pair.settings,
-            depth=False,
-            volume=False,
-            contacts=False,
-            clearance=None,
-            cross_check=False,
-            certificate=False,
-            tolerance=self.tolerance,
-        )
         try:
             a, b = _placed(self.pair.a, self.track_a, t), _placed(self.pair.b, self.track_b, t)
         except (ValueError, OverflowError) as error:
@@ -132,9 +123,10 @@ class MovingPair:
             self.pair,
             a=a,
             b=b,
-            settings=settings,
+            asked=Asked({"overlap": ALWAYS}, tolerance=self.tolerance),
             meter=None,
             peers=None,
+            paths=None,
         )
 
     def found_at(self, t: float) -> Finding:

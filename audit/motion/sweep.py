@@ -18,6 +18,9 @@ def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
     against the other: that is no question for a sweep.
     """
     tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
+    if not pair.may("hull"):
+        reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
+        return Sweep("indeterminate", pair.tolerance, 0.0, reason=reason)
     try:
         moving = MovingPair(pair, *tracks)
     except Unanswerable as why:

@@ -18,6 +18,7 @@ from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.plan import Plan
+from satcheck.audit.planner import ALWAYS
 from satcheck.audit.report import OVERLAPS
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
@@ -118,8 +119,9 @@ def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | No
 def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     """Proven bounds of the depth; 0.0 where they do not overlap."""
     placed = pair.placed(t)
-    settings = replace(placed.settings, depth=True, depth_budget=budget)
-    finding = examine(replace(placed, settings=settings), Plan())
+    asked = replace(placed.asked, by={**placed.asked.by, "depth": ALWAYS})
+    settings = replace(placed.settings, depth_budget=budget)
+    finding = examine(replace(placed, settings=settings, asked=asked), Plan())
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0
     return finding.depth_bounds

@@ -15,7 +15,7 @@ from rich.cells import cell_len, chop_cells
 
 from satcheck.audit.report import OVERLAPS
 from satcheck.cli.report.numbers import duration, number, vector
-from satcheck.cli.report.words import contacts, depth
+from satcheck.cli.report.words import contacts, depth, in_motion
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -85,6 +85,7 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column(f"move A by{unit}", _mtv, folds=True),
         column(f"volume ({known}^3)" if known else "volume", _volume, right=True),
         column("contact", contacts, folds=True),
+        column("in motion", in_motion, folds=True),
         column("quality", lambda finding: finding.quality or ""),
     ]
     if timings:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from satcheck.cli.report.numbers import number
-from satcheck.cli.report.words import by_surfaces, counted, issue_line
+from satcheck.cli.report.numbers import bounds, number
+from satcheck.cli.report.words import by_surfaces, counted, issue_line, place
 
 if TYPE_CHECKING:
     from satcheck.audit.report import BodyReport, Finding, Report
@@ -21,7 +21,12 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
     lines = [
         Text(line)
         for finding in shown
-        for line in (*_band(finding), *_undecided(finding, report), *_ruled(finding, report))
+        for line in (
+            *_band(finding),
+            *_undecided(finding, report),
+            *_ruled(finding, report),
+            *_moving(finding),
+        )
     ]
     lines += [Text(line) for body in report.bodies for line in _body(body, report)]
     for issue in report.issues:
@@ -63,6 +68,19 @@ def _ruled(finding: Finding, report: Report) -> list[str]:
         return []
     why = f" ({reasons[finding.rule]})" if reasons[finding.rule] else ""
     return [f"{pair}: {finding.severity} by {finding.rule}{why}"]
+
+
+def _moving(finding: Finding) -> list[str]:
+    """The worst pose of bodies that hit while they move, and what a sweep left open."""
+    swept, pair = finding.motion, f"{finding.a} and {finding.b}"
+    if swept is None:
+        return []
+    if swept.reason is not None:
+        return [f"{pair}, while they move: {swept.reason}"]
+    if swept.worst is None or swept.worst.depth is None:
+        return []
+    where = ", ".join(place(one) for one in swept.worst.at)
+    return [f"{pair}, while they move: deepest at {where}, {bounds(*swept.worst.depth)}"]
 
 
 def _body(body: BodyReport, report: Report) -> list[str]:

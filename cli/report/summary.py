@@ -28,7 +28,14 @@ def summary_line(report: Report) -> str:
         found.append(f"{pairs.allowed:,} allowed by the scene")
     line = f"{bodies}, {counted(pairs.total, 'pair')}: {', '.join(found)}."
     return " ".join(
-        [line, *_worst(report), *_left_open(report), *_cross_check(report), *_errors(report)]
+        [
+            line,
+            *_hits(report),
+            *_worst(report),
+            *_left_open(report),
+            *_cross_check(report),
+            *_errors(report),
+        ]
     )
 
 
@@ -46,6 +53,17 @@ def _found(report: Report) -> list[str]:
         if unproven:
             found.append(f"{unproven:,} possibly {word}{why}")
     return found
+
+
+def _hits(report: Report) -> list[str]:
+    """Of pairs that do not overlap as they are placed."""
+    hits = sum(
+        f.motion is not None and f.motion.relation == "penetrating" and f.relation not in OVERLAPS
+        for f in report.findings
+    )
+    return (
+        [f"{counted(hits, 'pair')} {'hits' if hits == 1 else 'hit'} while moving."] if hits else []
+    )
 
 
 def _worst(report: Report) -> list[str]:
@@ -74,6 +92,8 @@ def _left_open(report: Report) -> list[str]:
     if unsure := report.summary.limits_undecided:
         whose = "its" if unsure == 1 else "their"
         limits.append(f"{counted(unsure, 'pair')} may exceed {whose} limits")
+    if moving := report.summary.sweeps_undecided:
+        limits.append(f"{counted(moving, 'pair')} may hit while moving")
     if report.summary.verdict == "fail":
         return [f"{limit}." for limit in limits]
     if undecided := report.summary.pairs.indeterminate:

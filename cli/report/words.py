@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from satcheck.cli.report.numbers import at_most, bounds, number
 
 if TYPE_CHECKING:
+    from satcheck.audit.motion_report import Place
     from satcheck.audit.report import Finding, Issue
     from satcheck.scene import Issue as InputIssue
 
@@ -61,3 +62,25 @@ def contacts(finding: Finding) -> str:
 def by_surfaces(finding: Finding) -> bool:
     """Whether one body may lie inside the other, which has no inside to check."""
     return any((stage.stage, stage.result) == UNSEEN for stage in finding.plan)
+
+
+def in_motion(finding: Finding) -> str:
+    """`hits at 60 deg`, `0.25 apart`, `touches`, `undecided from t = 0.4`; empty where neither
+    body moves."""
+    swept = finding.motion
+    if swept is None:
+        return ""
+    if swept.relation == "penetrating":
+        return f"hits at {', '.join(place(one) for one in swept.at)}"
+    if swept.relation == "indeterminate":
+        return f"undecided from t = {number(swept.reached)}"
+    if swept.relation == "touching":
+        return "touches"
+    distance = swept.worst and swept.worst.distance
+    return f"{bounds(*distance)} apart" if distance else "apart"
+
+
+def place(one: Place) -> str:
+    """`60 deg`, `2.5 moved`, `t = 0.3`."""
+    value = number(one.value)
+    return {"degrees": f"{value} deg", "length": f"{value} moved", "t": f"t = {value}"}[one.term]

@@ -1,0 +1,168 @@
+"""Scenes whose bodies move: which pairs are swept, and what that makes of the report."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from satcheck.audit import Settings, check
+from satcheck.cli.output import Page
+from satcheck.cli.report import table
+from satcheck.cli.report.schema import text as schema_text
+from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
+from satcheck.scene.rules import Rule, Selector
+from satcheck.verify import verify
+from tests.audit.shapes import box, bracket, moved, scene_of, unit_box
+
+RIGHT = Translation((5.0, 0.0, 0.0))
+
+
+def checked(folder, motions, rules=(), settings=None, **meshes):
+    scene = replace(scene_of(folder, **meshes), motions=tuple(motions), rules=tuple(rules))
+    report = check(scene, settings or Settings())
+    jsonschema.validate(json.loads(json.dumps(report.to_dict())), json.loads(schema_text()))
+    return report
+
+
+def test_what_hits_on_the_way_fails(tmp_path: Path) -> None:
+    report = checked(tmp_path, [Motion(("a",), RIGHT)], a=unit_box(), b=unit_box(3.0))
+    (finding,) = report.findings
+    assert (finding.relation, finding.severity) == ("separated", "error")
+    assert finding.motion.relation == "penetrating"
+    assert finding.plan[-1].stage == "sweep"
+    assert report.summary.verdict == "fail"
+    assert report.summary.pairs.pruned == 0
+
+
+def test_what_passes_passes(tmp_path: Path) -> None:
+    report = checked(tmp_path, [Motion(("a",), RIGHT)], a=unit_box(), b=unit_box(3.0, 0, 1.5))
+    (finding,) = report.findings
+    assert finding.severity == "none"
+    assert report.summary.verdict == "pass"
+
+
+def test_far_pairs_are_not_swept(tmp_path: Path) -> None:
+    report = checked(tmp_path, [Motion(("a",), RIGHT)], a=unit_box(), b=unit_box(3.0, 9.0))
+    (finding,) = report.findings
+    assert finding.motion is None
+    assert report.summary.pairs.pruned == 1
+
+
+def test_bodies_of_one_motion_stand_still_against_each_other(tmp_path: Path) -> None:
+    turn = Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 90.0)
+    report = checked(
+        tmp_path,
+        [Motion(("a", "b"), turn)],
+        a=unit_box(1.0),
+        b=unit_box(1.5),
+        c=box((1.8, 1.8, 0), (2.2, 2.2, 1)),
+    )
+    found = {(f.a, f.b): f for f in report.findings}
+    assert found["a", "b"].motion is None
+    assert found["a", "b"].relation == "penetrating"
+    assert found["a", "c"].motion.relation == "separated"
+
+
+def test_two_motions_meet(tmp_path: Path) -> None:
+    left = Translation((-5.0, 0.0, 0.0))
+    report = checked(
+        tmp_path,
+        [Motion(("a",), RIGHT), Motion(("b",), left)],
+        a=unit_box(),
+        b=unit_box(6.0),
+        settings=Settings(tolerance=0.0),
+    )
+    (finding,) = report.findings
+    low, high = finding.motion.time_of_impact
+    assert low <= 0.5 <= high
+    assert [(p.body, round(p.value, 6)) for p in finding.motion.at] == [("a", 2.5), ("b", 2.5)]
+
+
+def test_an_allowed_pair_is_not_swept(tmp_path: Path) -> None:
+    allowed = Rule(a=Selector("a"), b=Selector("b"), allowed=True)
+    meshes = {"a": unit_box(), "b": unit_box(3.0)}
+    report = checked(tmp_path, [Motion(("a",), RIGHT)], [allowed], **meshes)
+    assert report.findings == ()
+    assert report.summary.pairs.allowed == 1
+
+
+@pytest.mark.parametrize(
+    ("limit", "severity", "undecided"),
+    [(2.0, "note", None), (0.5, "error", None), (1.0, "warning", "limit")],
+)
+def test_limits_hold_on_the_way(tmp_path: Path, limit, severity, undecided) -> None:
+    """The box goes through the other one, 1 deep; that it is not deeper is known to 1 %."""
+    rule = Rule(a=Selector("a"), b=Selector("b"), max_depth=limit)
+    meshes = {"a": unit_box(), "b": unit_box(3.0)}
+    report = checked(tmp_path, [Motion(("a",), RIGHT)], [rule], **meshes)
+    (finding,) = report.findings
+    assert (finding.severity, finding.undecided) == (severity, undecided)
+
+
+def test_the_clearance_of_a_rule_holds_on_the_way(tmp_path: Path) -> None:
+    rule = Rule(a=Selector("a"), b=Selector("b"), clearance=0.75)
+    meshes = {"a": unit_box(), "b": unit_box(3.0, 1.5)}
+    report = checked(tmp_path, [Motion(("a",), RIGHT)], [rule], **meshes)
+    (finding,) = report.findings
+    assert (finding.relation, finding.motion.relation) == ("separated", "near")
+    assert (finding.severity, finding.rule) == ("error", rule.name)
+
+
+def test_what_stays_open_is_incomplete(tmp_path: Path) -> None:
+    far = Motion(("a",), Translation((1e30, 0.0, 0.0)))
+    report = checked(tmp_path, [far], a=unit_box(), b=unit_box(3.0))
+    (finding,) = report.findings
+    assert (finding.severity, finding.undecided) == ("warning", "motion")
+    assert (report.summary.verdict, report.summary.sweeps_undecided) == ("incomplete", 1)
+
+
+def test_a_motion_of_nobody_is_said(tmp_path: Path) -> None:
+    report = checked(tmp_path, [Motion(("c",), RIGHT)], a=unit_box(), b=unit_box(3.0))
+    assert [issue.code for issue in report.issues] == ["unknown-body"]
+
+
+def test_a_path_may_leave_its_placement_at_once(tmp_path: Path) -> None:
+    """The pair is near as placed and far on its way: both count."""
+    far = PosePath((Waypoint(0.0, (0.0, 50.0, 0.0)), Waypoint(1.0, (0.0, 60.0, 0.0))))
+    report = checked(tmp_path, [Motion(("a",), far)], a=unit_box(), b=unit_box(0.5))
+    (finding,) = report.findings
+    assert (finding.relation, finding.motion.relation) == ("penetrating", "separated")
+    assert finding.severity == "error"
+
+
+def test_no_motion_no_sweep(tmp_path: Path) -> None:
+    for name in [name for name in sys.modules if name.startswith("satcheck.audit.motion")]:
+        del sys.modules[name]
+    report = checked(tmp_path, [], a=unit_box(), b=unit_box(0.5))
+    assert not {name for name in sys.modules if name.startswith("satcheck.audit.motion")}
+    assert "motions" not in report.to_dict()
+    assert "motion" not in report.to_dict()["findings"][0]
+
+
+def test_the_table_tells(tmp_path: Path) -> None:
+    turn = Motion(("a",), Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 180.0))
+    blade = box((1, -0.5, 0), (3, 0, 1))
+    wall, post = box((-0.5, 1, 0), (0, 3, 1)), unit_box(-6.0)
+    report = checked(tmp_path, [turn], a=blade, b=wall, c=moved(bracket(), 0, 9, 0), d=post)
+    page = Page(width=120, unicode=False, colour=False)
+    text = table.render(report, page, explain=False, timings=False)
+    assert "hits at 90" in text
+    assert "1 pair hits while moving." in text
+    assert "a and b, while they move: deepest at" in text
+
+
+def test_a_sweep_is_not_certified(tmp_path: Path) -> None:
+    meshes = {"a": unit_box(), "b": unit_box(3.0)}
+    report = checked(
+        tmp_path, [Motion(("a",), RIGHT)], settings=Settings(certificate=True), **meshes
+    )
+    (finding,) = report.findings
+    assert finding.certificate is None
+    verification = verify(json.loads(json.dumps(report.to_dict())), tmp_path)
+    assert [one.outcome for one in verification.findings] == ["not certified"]
+    assert any("not certified" in fault for fault in verification.faults)
