@@ -96,8 +96,9 @@ class _Scan:
                 self.met = self.t
 
     def _in_contact(self, end: float) -> float:
-        if self._pair.convex:
-            return self._pair.shallow(self.t, end)
+        on = self._pair.shallow(self.t, end)
+        if on >= SHORTEST_STEP or self._pair.convex or not self._pair.has_surfaces:
+            return on
         return self._nudges.safe_time(self.t, end)
 
     def impact(self) -> Impact:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.boxes import diagonal
+from satcheck.audit.curved.shape import rows_of
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
-from satcheck.audit.motion.track import ORIGIN, Track
+from satcheck.audit.motion.track import ORIGIN, WORLD, Frame, Track
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
@@ -55,6 +56,7 @@ class MovingPair:
         self.track_a = track_a
         self.track_b = track_b
         self.pad = track_a.pad(pair.a.bounds) + track_b.pad(pair.b.bounds)
+        self.pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
         rounding = PADS_IN_BAND * self.pad
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
         if not rounding <= max(pair.tolerance, TOUCH_FRACTION * size):
@@ -63,7 +65,7 @@ class MovingPair:
             )
         self.tolerance = max(pair.tolerance, rounding)
         self.times = sorted({*track_a.times, *track_b.times})
-        self.convex = pair.both_convex
+        self.convex = all(body.curved is not None or body.convex for body in (pair.a, pair.b))
         self.hulls_apart = True
         self.steps = 0
         self.visits = 0
@@ -71,6 +73,11 @@ class MovingPair:
     def end_of_piece(self, t: float) -> float:
         """Up to there both bodies go on as they do at t < 1."""
         return next(time for time in self.times if time > t)
+
+    @property
+    def has_surfaces(self) -> bool:
+        """The triangles may be asked, and say everything: of a curved shape they do not."""
+        return self.pair.may("exact") and not self.pair.curved
 
     def fastest(self, t: float) -> float:
         """Per unit of t: no point of A moves faster against one of B in the piece of t."""
@@ -82,7 +89,7 @@ class MovingPair:
         """For how long after t, up to `end`, the surfaces have no common point, A being moved by
         `nudge`. end: in the same pieces as t."""
         hulls = self._shapes(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
-        if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
+        if self.convex or hulls.value >= end - t or not self.has_surfaces:
             return Obstacle(hulls.value)
         self.hulls_apart = False
         found = self._surfaces(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
@@ -141,10 +148,11 @@ class MovingPair:
         nudge: Vector = ORIGIN,
         **bounds: float,
     ) -> core.MotionAnswer:
-        a, b, slack = self._moving(t, nudge)
-        shapes = self.pair.a.hull_shape(), self.pair.b.hull_shape()
+        (a, frame_a), (b, frame_b) = _shape_of(self.pair.a), _shape_of(self.pair.b)
+        moving_a = self.track_a.moving_at(t, nudge, frame_a)
+        moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
         self._count()
-        return ask(shapes[0], a, shapes[1], b, pad=self.pad, slack=slack, **bounds)
+        return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
 
     def _surfaces(
         self,
@@ -154,25 +162,32 @@ class MovingPair:
         nudge: Vector = ORIGIN,
         **bounds: float,
     ) -> core.MotionAnswer:
-        a, b, slack = self._moving(t, nudge)
-        surfaces = self.pair.a.surface(), self.pair.b.surface()
+        a, b = self.pair.a.surface(), self.pair.b.surface()
+        moving_a, moving_b = self.track_a.moving_at(t, nudge), self.track_b.moving_at(t)
         self._count()
-        work = VISITS - self.visits
-        found = ask(surfaces[0], a, surfaces[1], b, pad=self.pad, slack=slack, work=work, **bounds)
+        work, slack = VISITS - self.visits, self._slack(t)
+        found = ask(a, moving_a, b, moving_b, pad=self.pad, slack=slack, work=work, **bounds)
         self.visits += found.visits
         return found
 
-    def _moving(self, t: float, nudge: Vector) -> tuple[core.Moving, core.Moving, float]:
-        slack = sum(
+    def _slack(self, t: float) -> float:
+        return sum(
             track.slack(track.piece_at(t), body.bounds)
             for track, body in ((self.track_a, self.pair.a), (self.track_b, self.pair.b))
         )
-        return self.track_a.moving_at(t, nudge), self.track_b.moving_at(t), slack
 
     def _count(self) -> None:
         self.steps += 1
         if self.steps > STEPS or self.visits >= VISITS:
             raise BudgetSpent
+
+
+def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
+    """The hull of a body, or the curved shape that it is, with the frame that places it."""
+    if body.curved is None:
+        return body.hull_shape(), WORLD
+    x, y, z = rows_of(body.curved.pose[3:])
+    return body.curved.shape, ((x, y, z), body.curved.centre)
 
 
 def _placed(body: PlacedBody, track: Track, t: float) -> PlacedBody:

@@ -86,6 +86,8 @@ class _Answer:
 
     def _nearest(self) -> Worst:
         pair, contact = self._pair, self._impact.contact
+        if not pair.convex and not pair.has_surfaces:
+            return Worst(contact or 0.0, 0.0, math.inf)
         if contact is None or pair.convex:
             worst = least_distance(pair, pair.pair.asked.clearance)
             return Worst(0.0, 0.0, math.inf) if worst is None else worst

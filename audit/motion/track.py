@@ -28,7 +28,9 @@ from satcheck.audit.tolerances import UNIT_ROUNDOFF
 from satcheck.scene.motion import Path, Rotation, Translation
 
 Vector = tuple[float, float, float]
+Frame = tuple[Matrix, Vector]
 ORIGIN: Vector = (0.0, 0.0, 0.0)
+WORLD: Frame = (STILL, ORIGIN)
 
 # Roundings, in roundoffs of the reach of a body (its largest distance from the pivot, the pivot's
 # and the centre's from the origin, added up). A pose: the sine and cosine 4, the axis 4, the nine
@@ -103,10 +105,13 @@ class Track:
         rows = [(*row, s) for row, s in zip(turn, shift, strict=True)]
         return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
 
-    def moving_at(self, t: float, nudge: Vector = ORIGIN) -> core.Moving:
-        """Where the body is and how it goes on, moved by `nudge`."""
+    def moving_at(self, t: float, nudge: Vector = ORIGIN, frame: Frame = WORLD) -> core.Moving:
+        """Where the body is and how it goes on, moved by `nudge`. frame: rotation and translation
+        that place it before it moves."""
         piece = self.piece_at(t)
         turn, shift = _pose(piece, t)
+        if frame != WORLD:
+            turn, shift = product(turn, frame[0]), _sum(shift, applied(turn, frame[1]))
         centre = piece.centre_at(t)
         return core.Moving(
             turn, _sum(shift, nudge), _sum(centre, nudge), piece.velocity, piece.spin
