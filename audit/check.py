@@ -137,7 +137,7 @@ def _examine_all(
                 one,
                 meter,
                 peers,
-                movers and movers.paths(roster.ids[i], roster.ids[j]),
+                None if movers is None else movers.paths(roster.ids[i], roster.ids[j]),
             )
             for (i, j), one in zip(close, asked, strict=True)
         ]

@@ -36,7 +36,7 @@ class Movers:
         one, other = self._motion.get(a), self._motion.get(b)
         if one is other:
             return None
-        return Paths(one and one.path, other and other.path)
+        return Paths(None if one is None else one.path, None if other is None else other.path)
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""

@@ -1,0 +1,79 @@
+"""Curved shapes on the move, from scene files: against closed forms."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from satcheck.audit import Settings, check
+from satcheck.audit.motion.limits import SHORTEST_STEP
+from tests.audit.shapes import bracket, write
+
+
+def swept(folder: Path, bodies: str, motion: str, tolerance: float | None = 0.0):
+    path = folder / "scene.toml"
+    text = f'schema = "satcheck.scene/1"\nbodies = [{bodies}]\n[[motion]]\nbodies = "a"\n{motion}\n'
+    path.write_text(text, encoding="utf-8")
+    (finding,) = check([path], Settings(tolerance=tolerance)).findings
+    return finding.motion
+
+
+BALL = '{id = "a", shape = {type = "sphere", radius = 1}}'
+
+
+def test_balls_meet(tmp_path: Path) -> None:
+    """Centres at (0, 0), moved along x, and (5, 1.2): they are 2 apart at x = 5 - 1.6."""
+    other = '{id = "b", shape = {type = "sphere", radius = 1}, position = [5, 1.2, 0]}'
+    found = swept(tmp_path, f"{BALL}, {other}", "translation = [6.8, 0, 0]")
+    low, high = found.time_of_impact
+    assert low <= 0.5 <= high
+    # They sink in at 1.6 / 2 of the speed.
+    assert high - low <= 2 * SHORTEST_STEP + 2 * found.tolerance / (6.8 * 0.8)
+
+
+def test_balls_pass(tmp_path: Path) -> None:
+    other = '{id = "b", shape = {type = "sphere", radius = 1}, position = [5, 1.5, 2]}'
+    found = swept(tmp_path, f"{BALL}, {other}", "translation = [10, 0, 0]")
+    assert found.relation == "separated"
+    assert found.worst.distance[0] <= 0.5 <= found.worst.distance[1]
+
+
+def test_a_ball_rolls_on_the_floor(tmp_path: Path) -> None:
+    """It slides, that is: a ball does not see its own turning."""
+    floor = '{id = "b", shape = {type = "box", size = [50, 50, 2]}, position = [0, 0, -2]}'
+    found = swept(tmp_path, f"{BALL}, {floor}", "translation = [10, 3, 0]")
+    assert found.relation == "touching"
+
+
+@pytest.mark.parametrize("degrees", [90, -90])
+def test_a_rod_swings_against_a_ball(tmp_path: Path, degrees: int) -> None:
+    """A capsule from the origin along x; the ball at 60 degrees, 3 away, radius 0.5: they meet
+    when the axis comes to within 1 of the centre."""
+    rod = (
+        '{id = "a", shape = {type = "capsule", radius = 0.5, length = 4}, position = [2, 0, 0],'
+        " euler = [0, 90, 0]}"
+    )
+    x, y = 3 * math.cos(math.radians(60)), 3 * math.sin(math.radians(60))
+    side = math.copysign(1, degrees)
+    ball = (
+        f'{{id = "b", shape = {{type = "sphere", radius = 0.5}}, position = [{x}, {side * y}, 0]}}'
+    )
+    motion = f"rotation = {{axis = [0, 0, 1], degrees = {degrees}}}"
+    found = swept(tmp_path, f"{rod}, {ball}", motion, tolerance=1e-9)
+    truth = (60 - math.degrees(math.asin(1 / 3))) / 90
+    assert found.time_of_impact[0] <= truth <= found.time_of_impact[1]
+    assert found.time_of_impact[1] - found.time_of_impact[0] <= 1e-8
+
+
+def test_a_ball_in_the_notch_of_an_l(tmp_path: Path) -> None:
+    """Not both convex: the hull of the L is in the way, and nothing more is known of it."""
+    write(tmp_path, l=bracket())
+    notch = '{id = "b", mesh = "l.obj", position = [-4, -4, -2]}'
+    found = swept(tmp_path, f"{BALL}, {notch}", "translation = [0, 0, 9]")
+    assert found.relation == "indeterminate"
+    into = swept(tmp_path, f"{BALL}, {notch}", "translation = [-3, 0, 0]")
+    assert into.relation == "penetrating"
+    away = swept(tmp_path, f"{BALL}, {notch}", "translation = [0, 0, 0.001]")
+    assert away.relation in ("separated", "indeterminate")
