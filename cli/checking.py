@@ -65,7 +65,7 @@ class Choices:
 
 def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
-    refuse_early(choices.paths, choices.output)
+    refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     document = Document()
     scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside)
     if len(scene.bodies) > SMALL_BODIES or any(
@@ -95,21 +95,21 @@ def run(choices: Choices) -> int:
     return exit_codes.of_report(report, exit_zero=choices.exit_zero)
 
 
-def refuse_early(paths: tuple[str, ...], output: Path | None) -> None:
-    """What can be seen to fail before any work is done."""
+def refuse_early(paths: tuple[str, ...], output: Path | None, others: tuple[str, ...] = ()) -> None:
+    """What can be seen to fail before any work is done. others: more files that are read."""
     if not paths:
         raise click.UsageError("give two or more mesh files, or a scene file")
     if output and not output.absolute().parent.is_dir():
         raise CannotWrite(str(output), "its folder does not exist")
-    if output is not None and _is_an_input(output, paths):
+    if output is not None and any(_is_an_input(output, path) for path in (*paths, *others)):
         raise click.UsageError(f"-o {output} would overwrite an input")
 
 
-def _is_an_input(output: Path, paths: tuple[str, ...]) -> bool:
+def _is_an_input(output: Path, path: str) -> bool:
     try:
-        return any(output.samefile(path) for path in paths)
+        return output.samefile(path)
     except OSError:  # one of them is not there yet
-        return any(output.absolute() == Path(path).absolute() for path in paths)
+        return output.absolute() == Path(path).absolute()
 
 
 def load(

@@ -133,6 +133,15 @@ def test_packages_by_option(tmp_path: Path) -> None:
     assert ran.code == 0, ran.err
 
 
+def test_a_mesh_outside_needs_leave(tmp_path: Path) -> None:
+    urdf = (SAMPLES / "arm.urdf").read_text().replace('filename="', f'filename="{SAMPLES}/')
+    (tmp_path / "arm.urdf").write_text(urdf)
+    ran = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf")
+    assert ran.code == 2
+    assert "[outside-path]" in ran.err
+    assert satcheck(str(tmp_path / "arm.urdf"), "arm.srdf", "--allow-outside").code == 0
+
+
 def test_a_missing_mesh_is_one_body_of_many(tmp_path: Path) -> None:
     urdf = (SAMPLES / "arm.urdf").read_text().replace("arm_finger.obj", "gone.obj")
     (tmp_path / "arm.urdf").write_text(urdf)
@@ -161,6 +170,7 @@ def test_a_missing_mesh_is_one_body_of_many(tmp_path: Path) -> None:
         ((*ARM, "--sample", "2", "--explain"), "--explain is about one pose"),
         ((*ARM, "--package", "arm"), "should be NAME=DIR"),
         ((*ARM, "--package", "arm=gone"), "'gone' is no folder"),
+        ((*ARM, "--pose", "arm_poses.json", "-o", "arm_poses.json"), "overwrite an input"),
         (("arm.srdf", "box.obj"), "about robot 'arm', which is not here"),
     ],
 )
