@@ -62,8 +62,8 @@ def check(
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
     roster = place(scene, settings, known)
-    planner = Planner(settings, roster.book, scene.composed)
     movers = _movers(scene)
+    planner = Planner(settings, roster.book, scene.composed, moving=movers is not None)
     close = close_pairs(roster, planner, movers)
     examined = _examine_all(roster, close, planner, movers, progress)
     findings = _findings(roster, close, examined, planner)
@@ -152,7 +152,8 @@ def _with_asked(
     planner: Planner, close: list[tuple[int, int]], examined: list[Examined]
 ) -> Iterator[tuple[Asked, Finding]]:
     for pair, one in zip(close, examined, strict=True):
-        yield planner.asked(*pair), one.finding
+        asked = planner.asked(*pair)
+        yield (asked if one.finding.motion is None else asked.swept()), one.finding
 
 
 def _volume_meter(settings: Settings) -> VolumeMeter:

@@ -26,6 +26,7 @@ _EFFECT_OF_STAGE: dict[str, Effect] = {
     "contacts": "contacts",
     "cross-check": "cross-check",
     "certificate": "certificate",
+    "sweep": "sweep",
 }
 NOT_ASKED = "not asked"
 PRUNED = "boxes apart"
@@ -41,7 +42,8 @@ def effects_of(
     planner: Planner, close: Iterable[tuple[Asked, Finding]], counts: PairCounts
 ) -> tuple[EffectReport, ...]:
     """close: the pairs that the broad phase left over. The pairs of each effect, and those on which
-    it did not run, are together all pairs."""
+    it did not run, are together all pairs. A sweep is left out where nothing moves."""
+    effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
     ran: Counter[Effect] = Counter()
     time: dict[Effect, float] = dict.fromkeys(EFFECTS, 0.0)
     spared: dict[Effect, Counter[str]] = {effect: Counter() for effect in EFFECTS}
@@ -56,7 +58,7 @@ def effects_of(
             done.add(effect)
             time[effect] += stage.microseconds
         ran.update(done)
-        for effect in EFFECTS:
+        for effect in effects:
             if effect not in done:
                 spared[effect][_why_not(effect, asked, finding)] += 1
     unreadable = counts.total - counts.allowed - counts.pruned - looked_at
@@ -68,7 +70,7 @@ def effects_of(
             _reasons(planner, effect, spared[effect], counts, unreadable),
             time[effect],
         )
-        for effect in EFFECTS
+        for effect in effects
     )
 
 

@@ -6,7 +6,7 @@ The stages look here, and nowhere else, whether they are called for.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from satcheck.audit.report import Effect
 from satcheck.audit.rule_book import NO_TERMS, RuleBook, Terms
@@ -20,6 +20,7 @@ ASKING_KEYS: dict[Effect, str] = {
     "volume": "max_volume",
 }
 ALWAYS = "always"
+MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
 
 
@@ -44,6 +45,10 @@ class Asked:
     def wants(self, effect: Effect) -> bool:
         return effect in self.by
 
+    def swept(self) -> Asked:
+        """The same of a pair of which one body moves against the other."""
+        return replace(self, by={**self.by, "sweep": MOTIONS})
+
     @property
     def limited(self) -> bool:
         """The pair may overlap, within limits."""
@@ -58,11 +63,14 @@ class Planner:
     """What is asked about the pairs of a scene.
 
     composed: the scene places its bodies, in a file of its own. Depth is then no default: a scene
-    has many pairs, and rules to ask for the depth of some.
+    has many pairs, and rules to ask for the depth of some. moving: some of its bodies move.
     """
 
-    def __init__(self, settings: Settings, book: RuleBook, composed: bool = False) -> None:
+    def __init__(
+        self, settings: Settings, book: RuleBook, composed: bool = False, moving: bool = False
+    ) -> None:
         self.settings = settings
+        self.moving = moving
         self._book = book
         self._composed = composed
         self._asked: dict[tuple[int, ...], Asked] = {}
@@ -76,6 +84,8 @@ class Planner:
 
     def who_asks(self, effect: Effect) -> tuple[str, ...]:
         """The flag, and the rules that ask for the effect; empty: nobody does."""
+        if effect == "sweep":
+            return (MOTIONS,) if self.moving else ()
         flag = asked_by(self.settings, composed=self._composed).by.get(effect)
         key = ASKING_KEYS.get(effect)
         rules = (rule.name for rule in self._book.rules if key and getattr(rule, key))

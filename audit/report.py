@@ -38,7 +38,9 @@ Quality = Literal["exact", "bounded", "estimate"]
 # other, whether an overlap is within its limits.
 Undecided = Literal["relation", "inside", "limit", "motion"]
 Verdict = Literal["pass", "fail", "incomplete"]
-Effect = Literal["overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate"]
+Effect = Literal[
+    "overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate", "sweep"
+]
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".

@@ -72,6 +72,8 @@ def _limited(found: Sweep, pair: Pair) -> _Judgement:
 
 def _detail(found: Sweep) -> str:
     steps = f"{found.steps} steps"
+    if found.relation == "touching" and found.contact is not None:
+        return f"contact from t = {found.contact:.6g}, {steps}"
     if found.time_of_impact is not None:
         return f"first overlap at t = {found.time_of_impact[1]:.6g}, {steps}"
     if found.reason is not None:

@@ -37,6 +37,8 @@ def test_what_hits_on_the_way_fails(tmp_path: Path) -> None:
     assert finding.plan[-1].stage == "sweep"
     assert report.summary.verdict == "fail"
     assert report.summary.pairs.pruned == 0
+    (effect,) = (one for one in report.effects if one.effect == "sweep")
+    assert (effect.asked_by, effect.pairs) == (("the motions of the scene",), 1)
 
 
 def test_what_passes_passes(tmp_path: Path) -> None:
@@ -141,6 +143,7 @@ def test_no_motion_no_sweep(tmp_path: Path) -> None:
     report = checked(tmp_path, [], a=unit_box(), b=unit_box(0.5))
     assert not {name for name in sys.modules if name.startswith("satcheck.audit.motion")}
     assert "motions" not in report.to_dict()
+    assert all(one.effect != "sweep" for one in report.effects)
     assert "motion" not in report.to_dict()["findings"][0]
 
 
