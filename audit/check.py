@@ -234,7 +234,7 @@ def _findings(
     settings = planner.settings
     listed = settings.list_pruned
     if len(roster.ids) <= LIST_PRUNED_BODIES if listed is None else listed:
-        for i, j in roster.asked_pairs():
+        for i, j in roster.book.asked_pairs():
             if (i, j) not in found:
                 pair = Pair(roster.placed[i], roster.placed[j], settings, planner.asked(i, j))
                 finding = apart_by_boxes(pair)

@@ -47,13 +47,6 @@ class Roster:
     book: RuleBook
     issues: tuple[Issue, ...]
 
-    def asked_pairs(self) -> Iterator[tuple[int, int]]:
-        """All asked pairs, lost bodies included: quadratic, for few bodies."""
-        for j in range(len(self.ids)):
-            for i in range(j):
-                if self.book.is_asked(i, j):
-                    yield i, j
-
     def unreadable_pairs(self) -> Iterator[tuple[int, int, str]]:
         """Asked pairs of which one body is lost, with the reason."""
         for k, body in self.lost.items():

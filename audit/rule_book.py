@@ -120,6 +120,13 @@ class RuleBook:
     def is_asked(self, i: int, j: int) -> bool:
         return not self.is_ignored(i, j) and not self.terms(i, j).allows
 
+    def asked_pairs(self) -> Iterator[tuple[int, int]]:
+        """All of them, i < j, in the order of the second: quadratic, for few bodies."""
+        for j in range(self._count):
+            for i in range(j):
+                if self.is_asked(i, j):
+                    yield i, j
+
     def terms(self, i: int, j: int) -> Terms:
         pair = (i, j) if i < j else (j, i)
         named = self._named.get(pair)

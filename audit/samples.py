@@ -223,9 +223,6 @@ def _all_pairs(
     report: Report, book: RuleBook, tallies: dict[tuple[str, str], PairTally]
 ) -> tuple[PairTally, ...]:
     """Of every asked pair, in the order of the bodies."""
-    pairs = []
-    for j, b in enumerate(report.bodies):
-        for i, a in enumerate(report.bodies[:j]):
-            if book.is_asked(i, j):
-                pairs.append(tallies.get((a.id, b.id)) or PairTally(a.id, b.id))
-    return tuple(pairs)
+    ids = [body.id for body in report.bodies]
+    asked = ((ids[i], ids[j]) for i, j in book.asked_pairs())
+    return tuple(tallies.get(pair) or PairTally(*pair) for pair in asked)

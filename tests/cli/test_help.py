@@ -26,6 +26,7 @@ def test_help_advertises_what_exists() -> None:
         "--accuracy",
         "Exit codes",
         "satcheck stability",
+        "satcheck suggest",
         "satcheck verify",
         "_SATCHECK_COMPLETE",
     ):

@@ -1,0 +1,193 @@
+"""Pairs that a scene may want to allow, each with its evidence. Whether to allow them is a person's
+to say: a contact that is meant and one that is a fault look the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import TYPE_CHECKING, Any, Literal
+
+from satcheck.audit.check import DEFAULT_SETTINGS, check
+from satcheck.audit.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
+from satcheck.audit.roster import Known
+
+if TYPE_CHECKING:
+    from satcheck.audit.samples import PairTally, Samples
+    from satcheck.audit.settings import Settings
+    from satcheck.scene import Scene
+    from satcheck.scene.robot import Pose
+
+SCHEMA = "satcheck.suggestions/1"
+# adjacent: a joint connects their links. contact: they meet as they are placed. always, never: in
+# so many random poses.
+Why = Literal["adjacent", "always", "contact", "never"]
+Names = tuple[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Suggestion:
+    """One pair that no rule allows, ids in the order of the bodies.
+
+    links: that carry them; None: not of one robot. relation: as placed; None: "never" needs none.
+    depth_bounds: of an overlap as placed. contacts: in how many of the poses they overlap or touch.
+    """
+
+    a: str
+    b: str
+    why: Why
+    links: Names | None = None
+    relation: Relation | None = None
+    depth_bounds: tuple[float, float] | None = None
+    contacts: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Suggestions:
+    """poses: how many random ones were checked. undecided: pairs of which something was not.
+    may_meet: links of which some bodies met in some of the poses, or may have.
+
+    "never" is said of the poses that were checked, and proves nothing about the others.
+    """
+
+    tool: Tool
+    units: str | None
+    poses: int
+    seed: int | None
+    pairs: tuple[Suggestion, ...]
+    undecided: int
+    may_meet: frozenset[frozenset[str]]
+    issues: tuple[Issue, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON values in the fixed key order of the schema."""
+        return {
+            "schema": SCHEMA,
+            "tool": {"name": self.tool.name, "version": self.tool.version},
+            "units": self.units,
+            "poses": self.poses,
+            "seed": self.seed,
+            "suggestions": [_values(pair) for pair in self.pairs],
+            "undecided": self.undecided,
+        }
+
+
+def suggest(
+    scene: Scene,
+    settings: Settings = DEFAULT_SETTINGS,
+    poses: Sequence[Pose] = (),
+    seed: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Suggestions:
+    """What is in contact where the scene places it, with its depth; links with a joint between
+    them; and in these poses of its robots, drawn with this seed, what always or never meets.
+
+    Raises what `check` and `check_poses` raise.
+    """
+    known = Known()
+    report = check(scene, replace(settings, depth=True, list_pruned=False), known=known)
+    samples = None
+    if poses:
+        from satcheck.audit.samples import check_poses
+
+        samples = check_poses(scene, poses, replace(settings, depth=False), progress)
+    undecided = {(f.a, f.b) for f in report.findings if f.undecided is not None}
+    undecided |= {(one.a, one.b) for one in samples.pairs if one.undecided} if samples else set()
+    assert known.book is not None
+    ids = [body.id for body in report.bodies]
+    asked = [(ids[i], ids[j]) for i, j in known.book.asked_pairs()]
+    pairs, may_meet = _suggestions(scene, report, samples, asked)
+    return Suggestions(
+        tool=report.tool,
+        units=report.units,
+        poses=len(poses),
+        seed=seed if poses else None,
+        pairs=tuple(pairs),
+        undecided=len(undecided),
+        may_meet=may_meet,
+        issues=report.issues,
+    )
+
+
+def _suggestions(
+    scene: Scene, report: Report, samples: Samples | None, asked: list[Names]
+) -> tuple[list[Suggestion], frozenset[frozenset[str]]]:
+    """The pairs, and the links of which other pairs than those that never met."""
+    suggested: list[Suggestion] = []
+    may_meet = set()
+    found = {(f.a, f.b): f for f in report.findings}
+    tallies = {(one.a, one.b): one for one in samples.pairs} if samples else {}
+    links, adjacent = _links(scene), _adjacent(scene)
+    for a, b in asked:
+        finding, tally = found.get((a, b)), tallies.get((a, b))
+        why = _why(finding, tally, samples, frozenset((a, b)) in adjacent)
+        carriers = (links[a], links[b]) if a in links and b in links else None
+        if carriers is not None and why != "never":
+            may_meet.add(frozenset(carriers))
+        if why is not None:
+            suggested.append(
+                Suggestion(
+                    a,
+                    b,
+                    why,
+                    links=carriers,
+                    relation=None if why == "never" else _relation(finding),
+                    depth_bounds=None if finding is None else finding.depth_bounds,
+                    contacts=None if tally is None else tally.contacts,
+                )
+            )
+    return suggested, frozenset(may_meet)
+
+
+def _why(
+    finding: Finding | None, tally: PairTally | None, samples: Samples | None, adjacent: bool
+) -> Why | None:
+    if adjacent:
+        return "adjacent"
+    if tally and samples and tally.contacts == len(samples.samples):
+        return "always"
+    if finding is not None and _in_contact(finding):
+        return "contact"
+    if finding is not None and finding.undecided is not None:
+        return None
+    return "never" if tally and tally.settled else None
+
+
+def _in_contact(finding: Finding) -> bool:
+    """An overlap that no rule limits or excuses, or a touch."""
+    if finding.relation in OVERLAPS:
+        return finding.severity == "error"
+    return finding.relation == "touching"
+
+
+def _relation(finding: Finding | None) -> Relation:
+    return "separated" if finding is None else finding.relation
+
+
+def _links(scene: Scene) -> dict[str, str]:
+    """body -> link, where the scene has one robot: two may call their links the same."""
+    if len(scene.robots) != 1:
+        return {}
+    return {body.id: body.link for body in scene.robots[0].bodies}
+
+
+def _adjacent(scene: Scene) -> set[frozenset[str]]:
+    return {
+        frozenset(pair)
+        for robot in scene.robots
+        for parent, child in robot.neighbours()
+        for pair in product(robot.bodies_of(parent), robot.bodies_of(child))
+    }
+
+
+def _values(pair: Suggestion) -> dict[str, Any]:
+    return {
+        "a": pair.a,
+        "b": pair.b,
+        "why": pair.why,
+        "links": pair.links and list(pair.links),
+        "relation": pair.relation,
+        "depth_bounds": pair.depth_bounds and list(pair.depth_bounds),
+        "contacts": pair.contacts,
+    }

@@ -1,0 +1,116 @@
+"""Suggested permissions, ready to be pasted: rules in TOML, or lines of an SRDF."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+from xml.sax.saxutils import quoteattr
+
+from satcheck.audit.report import OVERLAPS
+from satcheck.cli.report.numbers import number
+from satcheck.cli.report.words import counted
+from satcheck.scene.rules import Selector
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from satcheck.audit.suggest import Suggestion, Suggestions, Why
+
+# As the MoveIt setup assistant calls them.
+_SRDF_REASONS: dict[Why, str] = {
+    "adjacent": "Adjacent",
+    "always": "Always",
+    "contact": "Default",
+    "never": "Never",
+}
+
+
+def chosen(found: Suggestions, *, never: bool) -> list[Suggestion]:
+    """never: also the pairs that did not meet in any pose, which proves nothing."""
+    return [pair for pair in found.pairs if never or pair.why != "never"]
+
+
+def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
+    """`[[rules]]` for a scene file; the reason of each says that it is to be confirmed."""
+    blocks = [
+        "\n".join(
+            (
+                "[[rules]]",
+                f"a = {_quoted(_selector(pair.a))}",
+                f"b = {_quoted(_selector(pair.b))}",
+                "allowed = true",
+                f"reason = {_quoted(f'suggested: {evidence(pair, found)}; confirm')}",
+            )
+        )
+        for pair in pairs
+    ]
+    return "".join(f"{block}\n" for block in "\n\n".join(blocks).splitlines()) if blocks else ""
+
+
+def srdf(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
+    """A line for each two links with a suggested pair of bodies, by the strongest of their reasons;
+    no "Never" where some of their bodies may meet."""
+    lines: dict[frozenset[str], str] = {}
+    for reason, a, b in _links(pairs):
+        if reason == _SRDF_REASONS["never"] and frozenset((a, b)) in found.may_meet:
+            continue
+        attributes = f"link1={quoteattr(a)} link2={quoteattr(b)} reason={quoteattr(reason)}"
+        lines.setdefault(frozenset((a, b)), f"<disable_collisions {attributes}/>")
+    return "".join(f"{line}\n" for line in lines.values())
+
+
+def _links(pairs: Iterable[Suggestion]) -> Iterator[tuple[str, str, str]]:
+    """Reasons that disable most first, so that a link pair gets the strongest of its bodies."""
+    of_robot = [pair for pair in pairs if pair.links is not None]
+    for why, reason in _SRDF_REASONS.items():
+        for pair in of_robot:
+            if pair.why == why and pair.links is not None:
+                yield reason, *pair.links
+
+
+def evidence(pair: Suggestion, found: Suggestions) -> str:
+    """`penetrating by 0.2 mm at the placement`."""
+    said = []
+    if pair.why == "adjacent":
+        said.append("a joint connects them")
+    if pair.relation is not None and pair.relation != "separated":
+        said.append(f"{_contact(pair, unit_of(found.units))} at the placement")
+    if found.poses and pair.contacts is not None:
+        poses = counted(found.poses, "random pose")
+        if pair.why == "never":
+            said.append(f"never in contact in {poses}, which is no proof")
+        else:
+            said.append(f"in contact in {pair.contacts:,} of {poses}")
+    return ", ".join(said)
+
+
+def remark(found: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> str:
+    """One sentence for standard error."""
+    said = counted(len(list(pairs)), "pair") + " suggested: confirm each before you allow it."
+    left = sum(pair.why == "never" for pair in found.pairs)
+    if left and not never:
+        poses = counted(found.poses, "random pose")
+        said += f" {counted(left, 'more pair')} never met in {poses}, which is no proof: --never."
+    if found.undecided:
+        said += f" Of {counted(found.undecided, 'pair')} something could not be decided."
+    return said
+
+
+def _contact(pair: Suggestion, unit: str | None) -> str:
+    if pair.relation not in OVERLAPS or pair.depth_bounds is None:
+        return str(pair.relation)
+    low, high = pair.depth_bounds
+    exactly = number(low) == number(high)
+    figure = number(high) if exactly else f"at most {number(high)}"
+    return f"{pair.relation} by {figure}" + (f" {unit}" if unit else "")
+
+
+def _selector(body: str) -> str:
+    """Bytes of an id that are no text can be matched, but not written."""
+    text = Selector.exactly(body).text
+    return "".join("?" if "\ud800" <= c <= "\udfff" else c for c in text)
+
+
+def _quoted(text: str) -> str:
+    """A basic string of TOML: that of JSON, but for DEL."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

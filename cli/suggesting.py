@@ -1,0 +1,80 @@
+"""`satcheck suggest`: from its options to a document and an exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from satcheck.cli import exit_codes
+from satcheck.cli.checking import load, refuse_early
+from satcheck.cli.output import Document, talk, write_file
+from satcheck.cli.posing import Posing, poses_of
+
+if TYPE_CHECKING:
+    from satcheck.audit.suggest import Suggestions
+    from satcheck.scene import Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Choices:
+    """What the command line asked for."""
+
+    paths: tuple[str, ...]
+    form: str
+    output: Path | None
+    sample: int | None
+    seed: int | None
+    never: bool
+    packages: Mapping[str, Path]
+
+
+def run(choices: Choices) -> int:
+    """Look, write the document, say on stderr what it is worth; returns the exit code."""
+    from satcheck.cli.report.suggest import chosen, remark
+    from satcheck.cli.report.words import issue_line
+
+    refuse_early(choices.paths, choices.output)
+    document = Document()
+    scene = load(choices.paths, choices.packages)
+    if choices.form == "srdf" and len(scene.robots) != 1:
+        raise click.UsageError("SRDF is about one robot: give one URDF")
+    found = _suggest(scene, choices)
+    pairs = chosen(found, never=choices.never)
+    text = _render(found, choices)
+    if choices.output:
+        write_file(choices.output, text)
+    else:
+        document.write(text, utf8=True)
+    for issue in found.issues:
+        if issue.severity == "error" and issue.code not in {known.code for known in scene.issues}:
+            talk(f"satcheck: {issue_line(issue)}")
+    talk(remark(found, pairs, never=choices.never))
+    if any(issue.severity == "error" for issue in found.issues):
+        return exit_codes.ERROR
+    return exit_codes.INCOMPLETE if found.undecided else exit_codes.CLEAN
+
+
+def _suggest(scene: Scene, choices: Choices) -> Suggestions:
+    from satcheck.audit.suggest import suggest
+    from satcheck.cli.progress import Bar
+
+    posing = Posing(sample=choices.sample, seed=choices.seed)
+    poses = poses_of(scene, posing) if posing.given else []
+    assert isinstance(poses, list)  # random poses come as a list
+    with Bar("poses") as bar:
+        return suggest(scene, poses=poses, seed=posing.random_seed, progress=bar)
+
+
+def _render(found: Suggestions, choices: Choices) -> str:
+    from satcheck.cli.report import suggest as texts
+
+    if choices.form == "json":
+        from satcheck.cli.report.json import document
+
+        return document(found.to_dict())
+    pairs = texts.chosen(found, never=choices.never)
+    return texts.srdf(found, pairs) if choices.form == "srdf" else texts.toml(found, pairs)

@@ -1,0 +1,148 @@
+"""`satcheck suggest`: what it writes can be pasted as it is, and says what it is worth."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from satcheck.audit.report import Tool
+from satcheck.audit.suggest import Suggestion, Suggestions
+from satcheck.cli.report.schema import text
+from satcheck.cli.report.suggest import srdf, toml
+from satcheck.scene import Selector
+from tests.cli.process import satcheck
+
+SCENE = """
+schema = "satcheck.scene/1"
+units = "mm"
+[[bodies]]
+id = "plate [1]"
+shape = {type = "box", size = [10, 10, 2]}
+[[bodies]]
+id = "bolt"
+shape = {type = "box", size = [2, 2, 2]}
+position = [0, 0, 1.75]
+"""
+
+
+def tetrahedron(size: int) -> str:
+    """Its corners in OBJ, with the base in the plane z = 0 around the origin."""
+    corners = ((-size, -size, 0), (size, -size, 0), (0, size, 0), (0, 0, size))
+    return "".join(f"v {x} {y} {z}\n" for x, y, z in corners)
+
+
+def suggestions(*pairs: Suggestion, units: str | None = "mm", poses: int = 0) -> Suggestions:
+    return Suggestions(
+        Tool("satcheck", "0"), units, poses, 0 if poses else None, pairs, 0, frozenset(), ()
+    )
+
+
+def test_the_rules_can_be_pasted(tmp_path: Path) -> None:
+    path = tmp_path / "cell.toml"
+    path.write_text(SCENE, encoding="utf-8")
+    assert satcheck(str(path)).code == 1
+    ran = satcheck("suggest", str(path))
+    assert ran.code == 0
+    assert "1 pair suggested: confirm" in ran.err
+    (rule,) = tomllib.loads(ran.out)["rules"]
+    assert rule["reason"] == "suggested: penetrating by 0.25 mm at the placement; confirm"
+    path.write_text(SCENE + ran.out, encoding="utf-8")
+    assert satcheck(str(path)).code == 0
+    assert satcheck("suggest", str(path)).out == ""
+
+
+@pytest.mark.parametrize("body", ['say "hi"', "back\\slash", "a*[b]", "tab\there", "\x7f", "Ø"])
+def test_any_id_survives_toml(body: str) -> None:
+    pair = Suggestion(body, "b", "contact", relation="touching")
+    (rule,) = tomllib.loads(toml(suggestions(pair), [pair]))["rules"]
+    assert Selector(rule["a"]).only == body
+    assert rule["reason"] == "suggested: touching at the placement; confirm"
+
+
+def test_bytes_that_are_no_text_are_matched() -> None:
+    pair = Suggestion("caf\udce9", "b", "contact", relation="touching")
+    (rule,) = tomllib.loads(toml(suggestions(pair), [pair]))["rules"]
+    assert rule["a"] == "caf?"
+    assert Selector(rule["a"]).matches("caf\udce9", ())
+
+
+def test_never_says_that_it_is_no_proof() -> None:
+    pair = Suggestion("a", "b", "never", contacts=0)
+    (rule,) = tomllib.loads(toml(suggestions(pair, poses=1000), [pair]))["rules"]
+    assert "never in contact in 1,000 random poses, which is no proof" in rule["reason"]
+
+
+def test_an_interval_is_called_one() -> None:
+    pair = Suggestion("a", "b", "contact", relation="contains", depth_bounds=(0.5, 0.75))
+    assert "contains by at most 0.75 mm at" in toml(suggestions(pair), [pair])
+
+
+def test_srdf_lines_for_a_robot() -> None:
+    ran = satcheck("suggest", "arm.urdf", "--sample", "30", "--never", "--format", "srdf")
+    assert ran.code == 0, ran.err
+    root = ElementTree.fromstring(f"<robot>{ran.out}</robot>")
+    reasons = {(e.get("link1"), e.get("link2")): e.get("reason") for e in root}
+    assert reasons["base", "turret"] == "Adjacent"
+    assert reasons["left", "right"] == "Default"
+    assert reasons["turret", "left"] == "Never"
+    assert ("base", "upper") not in reasons
+    assert len(reasons) == len(list(root))
+
+
+def test_a_link_pair_that_may_meet_is_not_called_never() -> None:
+    pair = Suggestion("a/1", "b", "never", ("a", "b"), contacts=0)
+    found = suggestions(pair, poses=10)
+    assert "Never" in srdf(found, [pair])
+    met = Suggestions(
+        found.tool, None, 10, 0, found.pairs, 0, frozenset({frozenset(("a", "b"))}), ()
+    )
+    assert srdf(met, [pair]) == ""
+
+
+def test_never_has_to_be_asked_for() -> None:
+    ran = satcheck("suggest", "arm.urdf", "--sample", "30", "--seed", "2")
+    assert "never" not in ran.out
+    assert "never met in 30 random poses, which is no proof: --never" in ran.err
+
+
+def test_json_follows_its_schema() -> None:
+    ran = satcheck("suggest", "arm.urdf", "--sample", "5", "--format", "json")
+    Draft202012Validator(json.loads(text("suggestions"))).validate(ran.document)
+    assert {one["why"] for one in ran.document["suggestions"]} >= {"adjacent", "never"}
+    assert (ran.document["poses"], ran.document["seed"]) == (5, 0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        ((), "give two or more mesh files"),
+        (("cell.toml", "--format", "srdf"), "about one robot"),
+        (("cell.toml", "--sample", "3"), "no robot to pose"),
+        (("arm.urdf", "--seed", "3"), "add --sample"),
+    ],
+)
+def test_wrong_usage(arguments: tuple[str, ...], complaint: str) -> None:
+    ran = satcheck("suggest", *arguments)
+    assert ran.code == 2
+    assert complaint in ran.err
+    assert ran.out == ""
+
+
+def test_an_unreadable_body_is_an_error(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.obj"
+    broken.write_text("v 0 0 nan\nf 1 1 1\n", encoding="utf-8")
+    assert satcheck("suggest", "box.obj", str(broken)).code == 2
+
+
+def test_what_is_undecided_makes_it_incomplete(tmp_path: Path) -> None:
+    """A tetrahedron under a tent that has no floor."""
+    (tmp_path / "tent.obj").write_text(tetrahedron(9) + "f 1 2 4\nf 2 3 4\nf 3 1 4\n")
+    (tmp_path / "seed.obj").write_text(tetrahedron(1) + "f 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n")
+    ran = satcheck("suggest", *(str(tmp_path / name) for name in ("tent.obj", "seed.obj")))
+    assert ran.code == 3
+    assert "Of 1 pair something could not be decided" in ran.err
