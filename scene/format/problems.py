@@ -48,11 +48,11 @@ class Problems:
                 file=path,
                 line=where.line(keys),
             )
-            for keys, wrong in self.found
+            for keys, wrong in self.found[:MOST]
         ]
         errors.sort(key=lambda error: error.line or 0)
-        if left := len(errors[MOST:]):
-            errors[MOST:] = [SceneFileError("bad-scene", f"{left} more errors", file=path)]
+        if left := len(self.found[MOST:]):
+            errors.append(SceneFileError("bad-scene", f"{left} more errors", file=path))
         raise SceneFileError.of_several(errors)
 
 

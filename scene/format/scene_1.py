@@ -63,7 +63,8 @@ class _Reader:
         bodies = self._bodies(top)
         are_sound = not self._problems
         ignored = frozenset(top.read("ignore_within_groups", _texts, []))
-        top.read("description", text, None)
+        for key in ("$schema", "description"):  # for others, and still texts
+            top.read(key, text, None)
         return SceneFile(
             path=self._parsed.path,
             name=top.read("name", text, self._parsed.location.stem),

@@ -110,8 +110,8 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
     try:
         document = json.loads(text, parse_constant=refuse, object_pairs_hook=unique)
     except json.JSONDecodeError as error:
-        reason = f"line {error.lineno}: not well-formed JSON: {error.msg}"
-        raise SceneFileError("bad-scene", reason, file=path) from None
+        message = f"not well-formed JSON: {error.msg}"
+        raise SceneFileError("bad-scene", message, file=path, line=error.lineno) from None
     except (RecursionError, ValueError) as error:  # too deep, or an integer of 10^5 digits
         raise SceneFileError("bad-scene", f"not readable JSON: {error}", file=path) from None
     return document, repeated

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 import re
 import tomllib
 from collections.abc import Iterator
@@ -123,6 +124,35 @@ def test_every_value_of_a_json_document_is_where_it_is_said_to_be(text: str) -> 
         place = positions.place(keys)
         assert json.loads(text[place.start : place.end]) == value, keys
         assert positions.line(keys) == text.count("\n", 0, place.key) + 1
+
+
+def mutant(text: str, chance: random.Random) -> str:
+    """The text with a few characters cut out, put in, or copied from elsewhere."""
+    for _ in range(chance.choice([1, 1, 2, 4])):
+        at, other = chance.randrange(len(text)), chance.randrange(len(text))
+        new = chance.choice(["", *"[]{}\"'\\=.,#\n\t 0x-", text[other : other + 12]])
+        text = text[:at] + new + text[at + chance.randrange(3) :]
+    return text
+
+
+@pytest.mark.parametrize("form", ["toml", "json"])
+def test_whatever_is_still_a_document_has_its_values_where_they_are_said_to_be(form: str) -> None:
+    text, read = (TOML, tomllib.loads) if form == "toml" else (JSON, json.loads)
+    chance, checked = random.Random(5), 0
+    for _ in range(1000):
+        changed = mutant(text, chance)
+        try:
+            found = dict(leaves(read(changed)))
+        except ValueError:
+            continue
+        positions = positions_of(changed, toml=form == "toml")
+        for keys, value in found.items():
+            place = positions.place(keys)
+            written = changed[place.start : place.end]
+            again = tomllib.loads(f"it = {written}")["it"] if form == "toml" else read(written)
+            assert again == value or value != value, (keys, changed)  # nan is not itself
+        checked += 1
+    assert checked > 50
 
 
 def test_line_of_json() -> None:
