@@ -12,6 +12,7 @@ from satcheck.audit.broad_phase import close_pairs
 from satcheck.audit.effects import effects_of
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.pair import Pair
+from satcheck.audit.pair_queue import InTurn
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import Asked, Planner
 from satcheck.audit.report import Finding, Issue, Report
@@ -29,9 +30,6 @@ if TYPE_CHECKING:
 
 DEFAULT_SETTINGS = Settings()
 Progress = Callable[[int, int], None]
-
-# Below this many pairs, starting threads costs more than they save.
-PARALLEL_PAIRS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +63,8 @@ def check(
     movers = _movers(scene)
     planner = Planner(settings, roster.book, scene.composed, moving=movers is not None)
     close = close_pairs(roster, planner, movers)
-    examined = _examine_all(roster, close, planner, movers, progress)
+    turn = InTurn(settings.jobs, keep=known is not None)
+    examined = _examine_all(roster, close, planner, movers, turn, progress)
     findings = _findings(roster, close, examined, planner)
     of_motions = () if movers is None else movers.issues(roster.ids)
     of_pairs = (issue for one in examined for issue in one.issues)
@@ -121,9 +120,11 @@ def _examine_all(
     close: list[tuple[int, int]],
     planner: Planner,
     movers: Movers | None,
+    turn: InTurn,
     progress: Progress | None,
 ) -> list[Examined]:
-    done, settings = [], planner.settings
+    done: dict[int, Examined] = {}
+    settings = planner.settings
     asked = [planner.asked(i, j) for i, j in close]
     with ExitStack() as stack:
         measures = any(one.wants("volume") for one in asked)
@@ -141,11 +142,11 @@ def _examine_all(
             )
             for (i, j), one in zip(close, asked, strict=True)
         ]
-        for one in _in_order(pairs, settings.jobs):
-            done.append(one)
+        for k, one in turn.each(pairs, _examine):
+            done[k] = one
             if progress is not None:
                 progress(len(done), len(pairs))
-    return done
+    return [done[k] for k in range(len(pairs))]
 
 
 def _with_asked(
@@ -166,22 +167,6 @@ def _peers(settings: Settings) -> Peers:
     from satcheck.audit.cross_check.peers import Peers
 
     return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
-
-
-def _in_order(pairs: list[Pair], jobs: int) -> Iterator[Examined]:
-    import os
-
-    threads = min(jobs or os.cpu_count() or 1, len(pairs))
-    if threads <= 1 or len(pairs) < PARALLEL_PAIRS:
-        yield from map(_examine, pairs)
-        return
-    from concurrent.futures import ThreadPoolExecutor
-
-    pool = ThreadPoolExecutor(threads)
-    try:
-        yield from pool.map(_examine, pairs)
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def _examine(pair: Pair) -> Examined:

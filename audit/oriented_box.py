@@ -7,6 +7,7 @@ it does not, the oriented box is the world box, which rung 0 has already tried.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -25,17 +26,28 @@ Transform = tuple[float, ...]
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
 
-def oriented_boxes(a: Body, b: Body, gap: float) -> tuple[PosedBox, PosedBox] | str:
-    """Boxes that hold the bodies (A's padded by `gap`), or why they would say nothing new."""
-    transforms = (a.transform or IDENTITY, b.transform or IDENTITY)
-    if all(_keeps_axes(transform) for transform in transforms):
-        return "neither body is turned: its oriented box is its world box"
-    if not all(_is_orthogonal(transform) for transform in transforms):
+@dataclass(frozen=True, slots=True)
+class OrientedBox:
+    """turned: not along the world's axes. posed: None where the transform shears."""
+
+    turned: bool
+    posed: PosedBox | None
+
+
+def oriented_box(body: Body, pad: float) -> OrientedBox:
+    """A box that holds every point within `pad` of the body."""
+    transform = body.transform or IDENTITY
+    posed = None
+    if _is_orthogonal(transform):
+        posed = _carried(body.file.mesh.bounds, transform, pad)
+    return OrientedBox(not _keeps_axes(transform), posed)
+
+
+def nothing_new(a: OrientedBox, b: OrientedBox) -> str:
+    """Why these boxes say no more than the world boxes, where one shears or none is turned."""
+    if a.turned or b.turned:
         return "a transform shears: the carried box is no box"
-    return (
-        _carried(a.file.mesh.bounds, transforms[0], gap),
-        _carried(b.file.mesh.bounds, transforms[1], 0.0),
-    )
+    return "neither body is turned: its oriented box is its world box"
 
 
 def _column(transform: Transform, axis: int) -> Vector:
@@ -56,7 +68,7 @@ def _is_orthogonal(transform: Transform) -> bool:
     )
 
 
-def _carried(bounds: Box, transform: Transform, gap: float) -> PosedBox:
+def _carried(bounds: Box, transform: Transform, padding: float) -> PosedBox:
     low, high = bounds
     columns = [_column(transform, axis) for axis in range(3)]
     stretch = [math.hypot(*column) for column in columns]
@@ -68,7 +80,7 @@ def _carried(bounds: Box, transform: Transform, gap: float) -> PosedBox:
     ]
     origin = [math.fsum(row) for row in terms]
     reach = max(abs(term) for row in terms for term in row) + math.hypot(*half)
-    pad = gap + rounding_pad(reach) + 4 * ORTHOGONALITY * math.hypot(*half)
+    pad = padding + rounding_pad(reach) + 4 * ORTHOGONALITY * math.hypot(*half)
     units = [tuple(c / stretch[axis] for c in columns[axis]) for axis in range(3)]
     quaternion = _quaternion(units[0], units[1], units[2])
     box = core.Box((half[0] + pad, half[1] + pad, half[2] + pad))

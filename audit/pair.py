@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from satcheck.audit.boxes import diagonal, largest_coordinate
@@ -19,7 +19,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """paths: how the bodies move against each other; None: they do not."""
+    """tolerance: half width of the touch band, world units.
+
+    By default either surface may be off by its own input precision, so the sum of both; but
+    coordinates without decimals, far from the origin, must not swallow a whole body.
+    paths: how the bodies move against each other; None: they do not.
+    """
 
     a: PlacedBody
     b: PlacedBody
@@ -28,22 +33,18 @@ class Pair:
     meter: VolumeMeter | None = None
     peers: Peers | None = None
     paths: Paths | None = None
+    tolerance: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        tolerance = self.asked.tolerance
+        if tolerance is None:
+            size = min(diagonal(self.a.bounds), diagonal(self.b.bounds))
+            tolerance = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
+        object.__setattr__(self, "tolerance", tolerance)
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""
         return ACCURACIES.index(rung) <= ACCURACIES.index(self.settings.accuracy)
-
-    @property
-    def tolerance(self) -> float:
-        """Half width of the touch band, world units.
-
-        By default either surface may be off by its own input precision, so the sum of both; but
-        coordinates without decimals, far from the origin, must not swallow a whole body.
-        """
-        if self.asked.tolerance is not None:
-            return self.asked.tolerance
-        size = min(diagonal(self.a.bounds), diagonal(self.b.bounds))
-        return min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
 
     @property
     def asked_gap(self) -> float:

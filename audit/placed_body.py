@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
 from satcheck.audit.boxes import Box
+from satcheck.audit.oriented_box import OrientedBox, oriented_box
 from satcheck.audit.settings import Settings
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 
@@ -190,7 +191,17 @@ class PlacedBody:
     is asked for, and can be let go again.
     """
 
-    __slots__ = ("_world", "body", "bounds", "curved", "id", "resolution", "shared", "solid")
+    __slots__ = (
+        "_oriented",
+        "_world",
+        "body",
+        "bounds",
+        "curved",
+        "id",
+        "resolution",
+        "shared",
+        "solid",
+    )
 
     def __init__(self, body: Body, shared: SharedMesh, bounds: Box | None = None) -> None:
         """bounds: of the mesh, where known. ValueError, OverflowError when it cannot be placed."""
@@ -204,6 +215,7 @@ class PlacedBody:
         self.resolution = body.resolution_world
         self.solid = body.file.health.solid
         self._world: World | None = None
+        self._oriented: tuple[float, OrientedBox] | None = None
 
     def _made(self) -> World:
         world = self._world
@@ -214,7 +226,14 @@ class PlacedBody:
 
     def let_go(self) -> None:
         """Forget what was made; it is made again should somebody ask."""
-        self._world = None
+        self._world = self._oriented = None
+
+    def oriented_box(self, pad: float) -> OrientedBox:
+        """Kept for the next pair, which as a rule asks for the same pad."""
+        kept = self._oriented
+        if kept is None or kept[0] != pad:
+            kept = self._oriented = (pad, oriented_box(self.body, pad))
+        return kept[1]
 
     @property
     def mesh(self) -> core.Mesh:

@@ -29,6 +29,8 @@ WARNINGS = 5
 # Up to this, a check ends before the garbage collector could pay.
 SMALL_BODIES = 2
 SMALL_TRIANGLES = 1000
+# Objects made between two searches for cycles: of what a check makes almost none is in one.
+COLLECT_AFTER = 50_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +74,7 @@ def run(choices: Choices) -> int:
         body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
         gc.enable()
+        gc.set_threshold(COLLECT_AFTER)
     if len(scene.bodies) < 2 and choices.form == "table":  # every pair would be an empty row
         return exit_codes.ERROR
     if choices.posing.given:

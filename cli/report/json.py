@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from json.encoder import encode_basestring
 from typing import TYPE_CHECKING, Any
 
@@ -26,22 +27,24 @@ def _text(value: Any, indent: str) -> str:
     """Objects and lists of objects take a line per member, plain lists (vectors) one line."""
     if isinstance(value, dict):
         inner = indent + _STEP
-        members = [
-            f"{encode_basestring(key)}: {_member(member, inner)}" for key, member in value.items()
-        ]
+        members = []
+        for key, member in value.items():
+            form = _SCALARS.get(type(member))  # nine in ten are scalars
+            text = _text(member, inner) if form is None else form(member)
+            members.append(_key(key) + text)
         return _block("{", members, "}", indent)
     if isinstance(value, list | tuple):
-        if any(isinstance(member, dict | list | tuple) for member in value):
-            inner = indent + _STEP
-            return _block("[", [_text(member, inner) for member in value], "]", indent)
-        return f"[{', '.join(map(_scalar, value))}]"
+        forms = [_SCALARS.get(type(member)) for member in value]
+        if None not in forms:
+            return f"[{', '.join(map(_scalar, value))}]"
+        inner = indent + _STEP
+        return _block("[", [_text(member, inner) for member in value], "]", indent)
     return _scalar(value)
 
 
-def _member(value: Any, indent: str) -> str:
-    """Nine members in ten are scalars: the short way for those."""
-    form = _SCALARS.get(type(value))
-    return _text(value, indent) if form is None else form(value)
+@lru_cache(maxsize=1024)
+def _key(key: str) -> str:
+    return encode_basestring(key) + ": "
 
 
 def _block(opening: str, members: list[str], closing: str, indent: str) -> str:

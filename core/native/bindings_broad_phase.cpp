@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "broad_phase.hpp"
+#include "bvh.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -45,6 +46,13 @@ std::vector<Pair> find_close_pairs(const std::vector<Box>& boxes, std::vector<do
 void bind_broad_phase(nb::module_& m) {
   m.def("box_gap", [](const Box& a, const Box& b) { return box_gap(to_aabb(a), to_aabb(b)); }, "a"_a, "b"_a,
         "A proven lower bound of the distance of two closed boxes ((x, y, z), (x, y, z)): 0.0 exactly when they meet.");
+  m.def("order_along_curve",
+        [](const std::vector<Box>& boxes) {
+          std::vector<Aabb> aabbs;
+          for (const Box& box : boxes) aabbs.push_back(to_aabb(box));
+          return order_along_curve(aabbs);
+        },
+        "boxes"_a, "The numbers of the boxes along a curve on which neighbours are close: that of Morton, through their centres.");
   m.def("close_pairs", &find_close_pairs, "boxes"_a, "reach"_a, "kinds"_a, "exempt_kinds"_a = std::vector<IndexPair>{},
         "exempt"_a = std::vector<IndexPair>{},
         R"(Pairs (i, j), i < j, sorted, of boxes that are close: box_gap(boxes[i], boxes[j]) <= reach[i] + reach[j].

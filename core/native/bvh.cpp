@@ -207,6 +207,18 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads) {
   return build(boxes, std::move(items), threads);
 }
 
+std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes) {
+  Aabb bounds;
+  for (const Aabb& box : boxes) bounds.include(box);
+  const MortonCurve curve(bounds);
+  std::vector<Item> items;
+  for (const Aabb& box : boxes) items.push_back({curve.code(centre(box)), static_cast<std::uint32_t>(items.size())});
+  sort(items);
+  std::vector<std::uint32_t> order;
+  for (const Item& item : items) order.push_back(item.number);
+  return order;
+}
+
 void refit(Bvh& bvh, const Mesh& mesh) {
   for (std::size_t k = 0; k < bvh.order.size(); ++k) bvh.boxes[k] = triangle_box(mesh, bvh.order[k]);
   for (BvhNode& node : bvh.nodes) node.box = Aabb{};

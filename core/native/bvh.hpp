@@ -29,6 +29,9 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
 // whose boxes would be as large as the scaffold.
 Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads = 0);
 
+// The numbers of the boxes along a curve on which neighbours are close to each other.
+std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes);
+
 // Fits the boxes to the triangles where they are now, in linear time. The tree keeps its form, which is as
 // good as a new one while neighbours stay neighbours, as under an affine map.
 void refit(Bvh& bvh, const Mesh& mesh);

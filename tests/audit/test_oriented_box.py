@@ -74,7 +74,7 @@ def into_frame(pose, point):
 @pytest.mark.parametrize("shift", [(0, 0, 0), (1e6, -3, 5)])
 def test_carried_corners_lie_in_the_box_and_fill_it(mirror, scale, shift):
     matrix = transform(scale, shift, mirror)
-    (box, pose), _ = oriented_box.oriented_boxes(FakeBody(matrix), FakeBody(None), 0.0)
+    box, pose = oriented_box.oriented_box(FakeBody(matrix), 0.0).posed
     low, high = FakeMesh().bounds
     corners = [
         into_frame(pose, apply(matrix, corner))
@@ -86,21 +86,24 @@ def test_carried_corners_lie_in_the_box_and_fill_it(mirror, scale, shift):
         assert reach <= box.half[axis] + 1e-16 * math.hypot(*shift)
 
 
-def test_gap_pads_one_box():
+def test_the_box_is_padded():
     matrix = transform((1, 1, 1), (0, 0, 0))
     plain, padded = (
-        oriented_box.oriented_boxes(FakeBody(matrix), FakeBody(None), gap)[0][0].half
-        for gap in (0.0, 0.5)
+        oriented_box.oriented_box(FakeBody(matrix), pad).posed[0].half for pad in (0.0, 0.5)
     )
     assert [q - p for p, q in zip(plain, padded, strict=True)] == pytest.approx([0.5] * 3)
 
 
-def test_unturned_bodies_have_nothing_to_gain():
-    moved = (1.0, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1)
-    why = oriented_box.oriented_boxes(FakeBody(moved), FakeBody(None), 0.0)
-    assert "neither body is turned" in why
+STILL = oriented_box.IDENTITY
+MOVED = (1.0, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7, 0, 0, 0, 1)
+SHEAR = (1.0, 0.5, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
 
 
-def test_a_sheared_box_is_no_box():
-    shear = (1.0, 0.5, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
-    assert "shears" in oriented_box.oriented_boxes(FakeBody(shear), FakeBody(None), 0.0)
+@pytest.mark.parametrize(
+    ("matrix", "why"), [(STILL, "neither body is turned"), (MOVED, "neither"), (SHEAR, "shears")]
+)
+def test_some_boxes_say_nothing_new(matrix, why):
+    one = oriented_box.oriented_box(FakeBody(matrix), 0.0)
+    other = oriented_box.oriented_box(FakeBody(None), 0.0)
+    assert (one.posed is None) == (why == "shears")
+    assert why in oriented_box.nothing_new(one, other)

@@ -8,6 +8,7 @@ import pytest
 
 from satcheck.audit.check import check
 from satcheck.audit.placed_body import PlacedBody, SharedMesh, world_bounds
+from satcheck.audit.roster import Known
 from satcheck.audit.settings import Settings
 from satcheck.scene import Body, Scene, load_scene
 from tests.audit import shapes
@@ -34,9 +35,9 @@ def crowd(file, count, step):
 
 
 def work_of(scene, settings=QUICK):
-    meshes = {}
-    report = check(scene, settings, meshes=meshes)
-    (mesh,) = meshes.values()
+    known = Known()
+    report = check(scene, settings, known=known)
+    (mesh,) = known.meshes.values()
     return report, mesh.work
 
 
