@@ -90,6 +90,8 @@ def place(scene: Scene, settings: Settings, known: Known | None = None) -> Roste
     known: from earlier checks of these bodies; what is new here is added.
     """
     known = known or Known()
+    if settings.planar is not None:
+        known.meshes.clear()  # an outline is that of one placement
     placed: dict[int, PlacedBody] = {}
     lost: dict[int, Lost] = {}
     issues: list[Issue] = []

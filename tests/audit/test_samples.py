@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import combinations
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from satcheck.audit.samples import Samples, check_poses
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 from satcheck.scene.robot import Pose, joint_samples, posed, read_poses
+from tests.scene.robot.robots import joint, link, robot_of
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_meshes"
 ARM = load_scene([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"])
@@ -41,6 +43,39 @@ def test_each_pose_has_the_verdict_of_a_check_of_its_own() -> None:
             (one.a, one.b, one.relation) for one in report.findings if one.relation != "separated"
         ]
         assert sample.posture.joints.items() >= pose.items()
+
+
+def test_in_a_plane_each_pose_has_outlines_of_its_own() -> None:
+    flat = Settings(depth=False, planar="xz")
+    drawn = joint_samples(ROBOTS, 12, 3, {"turn": (0.0,)})
+    found = check_poses(ARM, drawn, flat)
+    for sample, pose in zip(found.samples, drawn, strict=True):
+        findings = check(posed(ARM, pose), flat).findings
+        assert [(one.a, one.b, one.relation) for one in sample.findings] == [
+            (one.a, one.b, one.relation) for one in findings if one.relation != "separated"
+        ]
+
+
+def test_a_ball_on_a_rod_that_turns_in_closed_form(tmp_path: Path) -> None:
+    """Its centre at cos t along x, and a wall there from 1 on: an overlap where cos t > 3/4."""
+    wall = '<origin xyz="1.5 0 0"/><geometry><box size="1 4 1"/></geometry>'
+    ball = '<origin xyz="1 0 0"/><geometry><sphere radius="0.25"/></geometry>'
+    turn = joint("t", "wall", "ball", "continuous", '<axis xyz="0 0 1"/>')
+    links = [
+        link(name, f"<collision>{shape}</collision>")
+        for name, shape in (("wall", wall), ("ball", ball))
+    ]
+    (tmp_path / "r.urdf").write_text(robot_of(*links, turn))
+    angles = [k * math.pi / 50 for k in range(101)]
+    scene = load_scene([tmp_path / "r.urdf"])
+    found = check_poses(scene, [{"t": (angle,)} for angle in angles], Settings(depth=True))
+    for sample, angle in zip(found.samples, angles, strict=True):
+        depth = math.cos(angle) - 0.75
+        assert abs(depth) > 1e-3  # no sample where rounding could decide
+        assert (sample.verdict == "fail") == (depth > 0)
+        if depth > 0:
+            low, high = sample.findings[0].depth_bounds or (0.0, 0.0)
+            assert low - 1e-12 <= depth <= high + 1e-12
 
 
 def test_the_sample_poses() -> None:
