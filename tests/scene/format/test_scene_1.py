@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -11,6 +12,7 @@ from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.motion import PosePath, Rotation, Translation
 from satcheck.scene.primitives import Box, Capsule
 from satcheck.scene.rules import Rule, Selector
+from tests.scene import files
 from tests.scene.format.scenes import BOX, errors, full, read, scene_of, write
 
 FORMS = ["json", "toml"]
@@ -368,3 +370,12 @@ def test_nothing_of_a_file_outside_is_told(tmp_path):
 def test_the_error_is_one_of_the_scene(tmp_path):
     with pytest.raises(SceneFileError):
         read(tmp_path, scene_of(3))
+
+
+def test_the_example_of_the_documentation_is_one(tmp_path):
+    text = (Path(__file__).parents[3] / "docs" / "scenes.md").read_text(encoding="utf-8")
+    example = text.partition("```toml\n")[2].partition("```")[0]
+    (tmp_path / "finger.obj").write_bytes(files.obj())
+    scene = read(tmp_path, example, "toml")
+    assert (len(scene.bodies), len(scene.rules), len(scene.motions)) == (3, 1, 1)
+    assert scene.issues == ()
