@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -18,7 +17,7 @@ from satcheck.audit.plan import Plan
 from satcheck.audit.planner import Planner
 from satcheck.audit.report import OVERLAPS, Finding, Vector
 from satcheck.audit.resolve.resolution import is_objected
-from satcheck.audit.resolve.separation import nudge
+from satcheck.audit.resolve.separation import longer, nudge, way_outside
 from satcheck.audit.resolve.wall import BodyPair
 from satcheck.audit.roster import place
 from satcheck.audit.settings import Settings
@@ -39,13 +38,15 @@ IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
 class Opinion:
     """What a pair says where it is.
 
-    push: of an overlap, or of a gap below the clearance, a translation of the first body that ends
-    it; None: none was found. flush: they overlap, but nobody objects: within the touch band, say.
+    unseen: a body that was moved may lie in another one, which has no inside to check. push: of an
+    overlap, of a gap below the clearance, out of an inside that nobody can see: a translation of
+    the first body that ends it; None: none was found. excused: nobody objects to what they do where
+    the scene has them, overlap within the touch band, for instance.
     """
 
-    kind: Literal["free", "overlap", "near", "undecided"]
+    kind: Literal["free", "overlap", "near", "unseen", "undecided"]
     push: Vector | None = None
-    flush: bool = False
+    excused: bool = False
 
 
 class Crowd:
@@ -75,7 +76,7 @@ class Crowd:
         self.placed = list(self.home)
         self.movable = frozenset(i for i, body in enumerate(self.home) if body.id not in staying)
         self.offsets = [ORIGIN] * len(self.home)
-        self._flush: set[BodyPair] = set()
+        self._excused: set[BodyPair] = set()
         self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, Opinion]] = {}
 
     def move(self, offsets: dict[int, Vector]) -> None:
@@ -124,10 +125,10 @@ class Crowd:
         unknown = [pair for pair in pairs if not self._is_known(pair)]
         for pair, opinion in zip(unknown, self._in_parallel(unknown), strict=True):
             self._known[pair] = (self.placed[pair[0]], self.placed[pair[1]], opinion)
-            if opinion.flush:
-                self._flush.add(pair)
+            if opinion.excused:
+                self._excused.add(pair)
             else:
-                self._flush.discard(pair)
+                self._excused.discard(pair)
         return {pair: self._known[pair][2] for pair in pairs}
 
     def _is_known(self, pair: BodyPair) -> bool:
@@ -142,27 +143,32 @@ class Crowd:
             return list(pool.map(self._opinion, pairs))
 
     def _opinion(self, pair: BodyPair) -> Opinion:
-        """At home, and of flush pairs, by the touch band of a check; elsewhere without one: what is
-        moved is moved until it is free."""
+        """At home, and of excused pairs, by the touch band of a check; elsewhere without one: what
+        is moved is moved until it is free."""
         at_home = pair not in self._known and all(self.offsets[i] == ORIGIN for i in pair)
         strict = self.pair(pair)
-        if at_home or pair in self._flush:
+        if at_home or pair in self._excused:
             asked = self._planner.asked(*self._members(pair))
-            return self._said(strict, examine(replace(strict, asked=asked), Plan()))
-        return self._said(strict, examine(strict, Plan()))
+            found = examine(replace(strict, asked=asked), Plan())
+            if not is_objected(found) and found.relation != "indeterminate":
+                overlap = found.exact_relation in OVERLAPS
+                return Opinion("free", excused=overlap or found.undecided is not None)
+            return _said(strict, found)
+        return _said(strict, examine(strict, Plan()))
 
-    def _said(self, pair: Pair, found: Finding) -> Opinion:
-        """What a check does not object to stays as it is."""
-        clearance = pair.asked.clearance or 0.0
-        if found.relation == "indeterminate":
-            return Opinion("undecided")
-        if not is_objected(found):
-            return Opinion("free", flush=found.exact_relation in OVERLAPS)
-        if found.relation in OVERLAPS:
-            return Opinion("overlap", found.mtv and longer(found.mtv, clearance))
-        if found.normal is None:
-            return Opinion("near", nudge(pair, clearance))
-        return Opinion("near", scaled(found.normal, (found.distance or 0.0) - clearance))
+
+def _said(pair: Pair, found: Finding) -> Opinion:
+    clearance = pair.asked.clearance or 0.0
+    if found.relation == "indeterminate":
+        return Opinion("undecided")
+    if not is_objected(found):
+        push = way_outside(pair) if found.severity == "warning" else None
+        return Opinion("free" if push is None else "unseen", push)
+    if found.relation in OVERLAPS:
+        return Opinion("overlap", found.mtv and longer(found.mtv, clearance))
+    if found.normal is None:
+        return Opinion("near", nudge(pair, clearance))
+    return Opinion("near", scaled(found.normal, (found.distance or 0.0) - clearance))
 
 
 def translated(body: Body, offset: Vector) -> Body:
@@ -171,8 +177,3 @@ def translated(body: Body, offset: Vector) -> Body:
     for row in range(3):
         transform[4 * row + 3] += offset[row]
     return replace(body, transform=tuple(transform))
-
-
-def longer(way: Vector, by: float) -> Vector:
-    length = math.hypot(*way)
-    return scaled(way, (length + by) / length) if by and length else way

@@ -22,8 +22,8 @@ from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, dot, scaled
 
 STEPS = 8
-HALVINGS = 4
-# A step that gains less of the sum of squares than this share is not worth the next one.
+HALVINGS = 2
+# A step that gains less of the sum of squares than this share is not worth it.
 LEAST_GAIN = 1e-3
 
 Offsets = dict[int, Vector]
@@ -94,7 +94,7 @@ def _between(start: Vector, end: Vector, share: float) -> Vector:
 
 
 def _groups(crowd: Crowd, left: Collection[BodyPair]) -> list[Offsets]:
-    """Where the bodies would go, those together that share walls; bodies that stay left out."""
+    """Where the bodies would go, those together that share walls, and that it is worth it for."""
     walls, held = _walls(crowd, left)
     free = crowd.movable - held.keys()
     found: list[Offsets] = []
@@ -104,9 +104,12 @@ def _groups(crowd: Crowd, left: Collection[BodyPair]) -> list[Offsets]:
             found.append(moved.offsets)
     walled_in = {body for wall in walls for body in (wall.a, wall.b)}
     found += [{body: ORIGIN} for body in sorted(free - walled_in)]
-    return [
-        group for group in found if any(crowd.offsets[body] != end for body, end in group.items())
-    ]
+    return [group for group in found if _is_worth_it(crowd, group)]
+
+
+def _is_worth_it(crowd: Crowd, group: Offsets) -> bool:
+    before = math.fsum(dot(crowd.offsets[body], crowd.offsets[body]) for body in group)
+    return math.fsum(dot(t, t) for t in group.values()) < (1 - LEAST_GAIN) * before
 
 
 def _walls(crowd: Crowd, left: Collection[BodyPair]) -> tuple[list[Wall], Offsets]:

@@ -11,9 +11,6 @@ from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
 
 SCHEMA = "satcheck.resolution/1"
 
-# Severities of what is to be resolved.
-OBJECTIONS = frozenset({"error", "warning"})
-
 Verdict = Literal["resolved", "unresolved", "incomplete"]
 _VERDICTS: dict[str, Verdict] = {
     "pass": "resolved",
@@ -24,8 +21,8 @@ _VERDICTS: dict[str, Verdict] = {
 
 def is_objected(finding: Finding) -> bool:
     """Whether a check finds fault with what the pair is known to be."""
-    overlaps = finding.relation in OVERLAPS
-    return finding.severity in OBJECTIONS and (overlaps or finding.undecided is None)
+    known = finding.relation in OVERLAPS or finding.undecided is None
+    return finding.severity == "error" or (finding.severity == "warning" and known)
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,13 +17,13 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 
 from satcheck.audit.boxes import largest_coordinate
-from satcheck.audit.cheap_bounds import way_out_of_hulls
 from satcheck.audit.report import Vector
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd, Opinion, longer
+from satcheck.audit.resolve.crowd import ORIGIN, Crowd, Opinion
 from satcheck.audit.resolve.free_slot import Slots
 from satcheck.audit.resolve.islands import islands
 from satcheck.audit.resolve.least_motion import least_motion
 from satcheck.audit.resolve.pull_back import swept, walled
+from satcheck.audit.resolve.separation import longer, out_of_hull
 from satcheck.audit.resolve.wall import BodyPair, Wall
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, dot, scaled, unit
@@ -92,7 +92,8 @@ class Rounds:
                 if pair not in self.left and not crowd.movable.isdisjoint(pair)
             ]
         )
-        return {pair: said for pair, said in found.items() if said.kind in ("overlap", "near")}
+        asking = ("overlap", "near", "unseen")
+        return {pair: said for pair, said in found.items() if said.kind in asking}
 
     def _push_apart(self, overlaps: dict[BodyPair, Opinion]) -> None:
         stuck = [pair for pair, opinion in overlaps.items() if not self._add_wall(pair, opinion)]
@@ -175,7 +176,7 @@ class Rounds:
         if pair in self._locked:
             self._lock(pair, push)
         elif opposed or self._seen[pair] > LOCAL_WALLS:
-            hull = self._out_of_hull(pair)
+            hull = out_of_hull(self._crowd.pair(pair))
             if math.hypot(*hull) <= MUCH_LONGER * max([length, *(wall.least for wall in walls)]):
                 self._walls[pair] = [self._wall(pair, hull)]
             else:
@@ -199,13 +200,6 @@ class Rounds:
             for axis in AXES
             for side in (1.0, -1.0)
         ]
-
-    def _out_of_hull(self, pair: BodyPair) -> Vector:
-        """The shortest push that parts the hulls and leaves the clearance between them."""
-        found, size = way_out_of_hulls(self._crowd.pair(pair)), self._size(pair)
-        return scaled(
-            found.normal, -(found.upper + self._crowd.clearance(pair) + rounding_pad(size))
-        )
 
     def _size(self, pair: BodyPair) -> float:
         return largest_coordinate(*(self._crowd.placed[i].bounds for i in pair))

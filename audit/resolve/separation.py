@@ -6,8 +6,11 @@ import math
 from itertools import product
 
 from satcheck import core
+from satcheck.audit.boxes import diagonal
+from satcheck.audit.cheap_bounds import way_out_of_hulls
 from satcheck.audit.pair import Pair
 from satcheck.audit.report import Vector
+from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import scaled, unit
 
 
@@ -44,3 +47,23 @@ def nudge(pair: Pair, length: float) -> Vector | None:
         if gap > best:
             best, way = gap, step
     return way
+
+
+def out_of_hull(pair: Pair) -> Vector:
+    """The shortest translation of A that parts the hulls and leaves the clearance between them."""
+    found = way_out_of_hulls(pair)
+    more = (pair.asked.clearance or 0.0) + rounding_pad(pair.largest_coordinate)
+    return scaled(found.normal, -(found.upper + more))
+
+
+def way_outside(pair: Pair) -> Vector | None:
+    """The same, if it is no longer than the smaller body: a spoon leaves its cup, but a chair does
+    not leave the room."""
+    way = out_of_hull(pair)
+    small = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
+    return way if math.hypot(*way) <= small else None
+
+
+def longer(way: Vector, by: float) -> Vector:
+    length = math.hypot(*way)
+    return scaled(way, (length + by) / length) if by and length else way
