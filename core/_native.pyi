@@ -381,6 +381,19 @@ def safe_time(
 def safe_time(
     a: Shape,
     moving_a: Moving,
+    b: Surface,
+    moving_b: Moving,
+    *,
+    level: float,
+    limit: float,
+    pad: float,
+    slack: float,
+    work: int,
+) -> MotionAnswer: ...
+@overload
+def safe_time(
+    a: Shape,
+    moving_a: Moving,
     b: Shape,
     moving_b: Moving,
     *,
@@ -392,6 +405,19 @@ def safe_time(
 @overload
 def least_gap(
     a: Surface,
+    moving_a: Moving,
+    b: Surface,
+    moving_b: Moving,
+    *,
+    window: float,
+    floor: float,
+    pad: float,
+    slack: float,
+    work: int,
+) -> MotionAnswer: ...
+@overload
+def least_gap(
+    a: Shape,
     moving_a: Moving,
     b: Surface,
     moving_b: Moving,

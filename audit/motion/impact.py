@@ -97,7 +97,7 @@ class _Scan:
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)
-        if on >= SHORTEST_STEP or self._pair.convex or not self._pair.has_surfaces:
+        if on >= SHORTEST_STEP or self._pair.convex or not self._pair.pair.may("exact"):
             return on
         return self._nudges.safe_time(self.t, end)
 

@@ -74,11 +74,6 @@ class MovingPair:
         """Up to there both bodies go on as they do at t < 1."""
         return next(time for time in self.times if time > t)
 
-    @property
-    def has_surfaces(self) -> bool:
-        """The triangles may be asked, and say everything: of a curved shape they do not."""
-        return self.pair.may("exact") and not self.pair.curved
-
     def fastest(self, t: float) -> float:
         """Per unit of t: no point of A moves faster against one of B in the piece of t."""
         return self.track_a.fastest(t, self.pair.a.bounds) + self.track_b.fastest(
@@ -89,7 +84,7 @@ class MovingPair:
         """For how long after t, up to `end`, the surfaces have no common point, A being moved by
         `nudge`. end: in the same pieces as t."""
         hulls = self._shapes(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
-        if self.convex or hulls.value >= end - t or not self.has_surfaces:
+        if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return Obstacle(hulls.value)
         self.hulls_apart = False
         found = self._surfaces(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
@@ -162,13 +157,24 @@ class MovingPair:
         nudge: Vector = ORIGIN,
         **bounds: float,
     ) -> core.MotionAnswer:
-        a, b = self.pair.a.surface(), self.pair.b.surface()
-        moving_a, moving_b = self.track_a.moving_at(t, nudge), self.track_b.moving_at(t)
+        one = self._side(self.pair.a, self.track_a, t, nudge)
+        other = self._side(self.pair.b, self.track_b, t, ORIGIN)
+        if self.pair.b.curved is not None:  # the shape comes first
+            one, other = other, one
         self._count()
         work, slack = VISITS - self.visits, self._slack(t)
-        found = ask(a, moving_a, b, moving_b, pad=self.pad, slack=slack, work=work, **bounds)
+        found = ask(*one, *other, pad=self.pad, slack=slack, work=work, **bounds)
         self.visits += found.visits
         return found
+
+    @staticmethod
+    def _side(
+        body: PlacedBody, track: Track, t: float, nudge: Vector
+    ) -> tuple[core.Surface | core.Shape, core.Moving]:
+        if body.curved is None:
+            return body.surface(), track.moving_at(t, nudge)
+        shape, frame = _shape_of(body)
+        return shape, track.moving_at(t, nudge, frame)
 
     def _slack(self, t: float) -> float:
         return sum(

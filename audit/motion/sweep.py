@@ -86,7 +86,7 @@ class _Answer:
 
     def _nearest(self) -> Worst:
         pair, contact = self._pair, self._impact.contact
-        if not pair.convex and not pair.has_surfaces:
+        if not pair.convex and not pair.pair.may("exact"):
             return Worst(contact or 0.0, 0.0, math.inf)
         if contact is None or pair.convex:
             worst = least_distance(pair, pair.pair.asked.clearance)

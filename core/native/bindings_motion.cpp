@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "moving_mixed.hpp"
 #include "moving_shapes.hpp"
 #include "moving_surfaces.hpp"
 
@@ -58,6 +59,18 @@ MotionAnswer shapes_gap(const Shape& a, const Moving& moving_a, const Shape& b, 
   return ask_motion(a, moving_a, b, moving_b, MotionQuestion::gap(window), {pad, slack});
 }
 
+MotionAnswer mixed_time(const Shape& a, const Moving& moving_a, const Surface& b, const Moving& moving_b, double level,
+                        double limit, double pad, double slack, std::uint64_t work) {
+  require_lengths(level, limit, pad, slack);
+  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::time(level, limit), {pad, slack}, work);
+}
+
+MotionAnswer mixed_gap(const Shape& a, const Moving& moving_a, const Surface& b, const Moving& moving_b, double window,
+                       double floor, double pad, double slack, std::uint64_t work) {
+  require_lengths(floor, window, pad, slack);
+  return ask_motion(a, moving_a, b, moving_b, MotionQuestion::gap(window, floor), {pad, slack}, work);
+}
+
 std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNoTriangle ? -1 : std::int64_t{triangle}; }
 
 }  // namespace
@@ -75,16 +88,20 @@ infinite where nothing was in the way. triangle_a, triangle_b: what is most in t
       .def_prop_ro("triangle_a", [](const MotionAnswer& r) { return index_or_minus_one(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MotionAnswer& r) { return index_or_minus_one(r.triangle_b); });
   const nb::call_guard<nb::gil_scoped_release> unlocked;
-  constexpr const char* time_doc = R"(For how long, up to `limit`, the gap of two moving surfaces, or the signed distance of two convex shapes, stays
+  constexpr const char* time_doc = R"(For how long, up to `limit`, the gap of two moving surfaces, or of a shape and one, or the signed distance of two shapes, stays
 above `level`. pad, slack: what rounding may do to a gap, and to the rate at which it closes. work: boxes and triangles.)";
   constexpr const char* gap_doc = R"(The least gap, or signed distance, up to `window` before and after now. Of surfaces: minus infinity where it is, or
 may be, below `floor`.)";
   m.def("safe_time", &surfaces_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
         "pad"_a, "slack"_a, "work"_a, unlocked, time_doc);
+  m.def("safe_time", &mixed_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
+        "pad"_a, "slack"_a, "work"_a, unlocked);
   m.def("safe_time", &shapes_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
         "pad"_a, "slack"_a, unlocked);
   m.def("least_gap", &surfaces_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "floor"_a,
         "pad"_a, "slack"_a, "work"_a, unlocked, gap_doc);
+  m.def("least_gap", &mixed_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "floor"_a,
+        "pad"_a, "slack"_a, "work"_a, unlocked);
   m.def("least_gap", &shapes_gap, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "window"_a, "pad"_a,
         "slack"_a, unlocked);
 }

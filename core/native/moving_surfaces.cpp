@@ -4,55 +4,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include "moving_parts.hpp"
 #include "triangle_distance.hpp"
 
 namespace satcheck {
 namespace {
-
-// A box of the tree, placed.
-struct PlacedBox {
-  const Mat3& rotation;
-  Vec3 centre, half;  // world; along the axes of the body
-  double radius;
-
-  PlacedBox(const Aabb& box, const Pose& pose)
-      : rotation(pose.rotation),
-        centre(pose * (box.min * 0.5 + box.max * 0.5)),
-        half(box.max * 0.5 - box.min * 0.5),
-        radius(norm(half)) {}
-
-  Interval along(Vec3 n) const {
-    const Vec3 m = transpose_times(rotation, n);
-    const double middle = dot(n, centre);
-    const double reach = std::fabs(m.x) * half.x + std::fabs(m.y) * half.y + std::fabs(m.z) * half.z;
-    return {middle - reach, middle + reach};
-  }
-  double turning(const Moving& moving) const {
-    return norm(cross(moving.spin, centre - moving.centre)) + norm(moving.spin) * radius;
-  }
-  Vec3 axis(int k) const { return {rotation.row[0][k], rotation.row[1][k], rotation.row[2][k]}; }
-};
-
-struct PlacedTriangle {
-  Corners corners;
-
-  PlacedTriangle(const Surface& surface, std::uint32_t triangle, const Pose& pose)
-      : corners(satcheck::corners(surface.mesh, triangle)) {
-    for (Vec3& p : corners) p = pose * p;
-  }
-
-  Interval along(Vec3 n) const {
-    const double x = dot(n, corners[0]), y = dot(n, corners[1]), z = dot(n, corners[2]);
-    return {std::fmin(x, std::fmin(y, z)), std::fmax(x, std::fmax(y, z))};
-  }
-  double turning(const Moving& moving) const {
-    double largest = 0;
-    for (const Vec3& p : corners) largest = std::fmax(largest, norm(cross(moving.spin, p - moving.centre)));
-    return largest;
-  }
-  Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) * (1.0 / 3); }
-  Vec3 normal() const { return cross(corners[1] - corners[0], corners[2] - corners[0]); }
-};
 
 struct NodePair {
   double value;
@@ -109,7 +65,7 @@ class MotionSearch {
     const Vec3 apart = b.centre - a.centre;
     double value = question_.trivial();
     const auto enough = [&](Vec3 axis) { return improve(a, b, axis, value); };
-    if (enough(apart) || enough(across_motion(apart, a.centre, b.centre))) return {value, pair.first, pair.second};
+    if (enough(apart) || enough(across_motion(apart, views_, a.centre, b.centre))) return {value, pair.first, pair.second};
     for (int k = 0; k < 3; ++k) {
       if (enough(towards(a.axis(k), apart)) || enough(towards(b.axis(k), apart))) break;
     }
@@ -133,7 +89,7 @@ class MotionSearch {
     if (enough(towards(a.normal(), middle)) || enough(towards(b.normal(), middle))) return;
     const Witnesses nearest = triangle_distance(a.corners, b.corners);
     const Vec3 apart = nearest.b - nearest.a;
-    if (enough(apart) || enough(across_motion(apart, nearest.a, nearest.b))) return;
+    if (enough(apart) || enough(across_motion(apart, views_, nearest.a, nearest.b))) return;
     result_.value = value;
     result_.upper = std::fmin(result_.upper, std::sqrt(nearest.distance_squared));
     result_.triangle_a = ta;
@@ -148,13 +104,6 @@ class MotionSearch {
   }
 
   static Vec3 towards(Vec3 axis, Vec3 direction) { return dot(axis, direction) < 0 ? -axis : axis; }
-
-  // What is left of the direction across the relative motion of the two points.
-  Vec3 across_motion(Vec3 direction, Vec3 on_a, Vec3 on_b) const {
-    const Vec3 v = views_.world().a.velocity_at(on_a) - views_.world().b.velocity_at(on_b);
-    const double squared = norm_squared(v);
-    return squared > 0 ? direction - v * (dot(direction, v) / squared) : Vec3{};
-  }
 
   const Surface& a_;
   const Surface& b_;

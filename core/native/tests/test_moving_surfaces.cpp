@@ -5,6 +5,7 @@
 
 #include "check.hpp"
 #include "mesh_distance.hpp"
+#include "moving_mixed.hpp"
 #include "moving_shapes.hpp"
 #include "narrow_phase.hpp"
 #include "shapes.hpp"
@@ -171,6 +172,33 @@ void shapes_keep_their_promises() {
   CHECK(overlapping > 20);
 }
 
+// A ball, and the hull of a box, against a surface: as the distance of the surfaces.
+void a_shape_and_a_surface_keep_theirs() {
+  const Mesh ball_mesh = box({-0.3, -0.4, -0.5}, {0.3, 0.4, 0.5});
+  const Shape shape = make_hull(ball_mesh.vertices);
+  const Surface a = make_surface(ball_mesh, true), b = make_surface(uv_sphere(4), true);
+  int moments = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Two two = random_two(3, i);
+    const double now = distance(a, two.a, b, two.b, 0);
+    if (now == 0 || check_pair(shape, two.a.pose, make_hull(b.mesh.vertices), two.b.pose, Query::overlap).outcome !=
+                        Outcome::separated) {
+      continue;
+    }
+    ++moments;
+    const double level = uniform(0, 0.5) * now, window = uniform(0, 0.1);
+    const MotionAnswer time = ask_motion(shape, two.a, b, two.b, MotionQuestion::time(level, 1), {}, kNoLimit);
+    const MotionAnswer gap = ask_motion(shape, two.a, b, two.b, MotionQuestion::gap(window), {}, kNoLimit);
+    CHECK(time.value > 0);
+    for (int k = 0; k <= 20; ++k) CHECK(distance(a, two.a, b, two.b, time.value * k / 20) >= level - kRounding);
+    for (int k = -10; k <= 10; ++k) CHECK(distance(a, two.a, b, two.b, window * k / 10) >= gap.value - kRounding);
+    const MotionAnswer instant = ask_motion(shape, two.a, b, two.b, MotionQuestion::gap(0), {}, kNoLimit);
+    CHECK(std::fabs(instant.value - now) <= kRounding);
+    CHECK(std::fabs(instant.upper - now) <= kRounding);
+  }
+  CHECK(moments > 50);
+}
+
 }  // namespace
 
 int main() {
@@ -179,5 +207,6 @@ int main() {
   sliding_is_not_slowed_down();
   an_opening_door_is_not_held();
   shapes_keep_their_promises();
+  a_shape_and_a_surface_keep_theirs();
   return exit_status();
 }

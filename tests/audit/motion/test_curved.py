@@ -68,12 +68,38 @@ def test_a_rod_swings_against_a_ball(tmp_path: Path, degrees: int) -> None:
 
 
 def test_a_ball_in_the_notch_of_an_l(tmp_path: Path) -> None:
-    """Not both convex: the hull of the L is in the way, and nothing more is known of it."""
+    """The hull of the L holds the ball, whose centre is 2 away from the walls."""
     write(tmp_path, l=bracket())
     notch = '{id = "b", mesh = "l.obj", position = [-4, -4, -2]}'
-    found = swept(tmp_path, f"{BALL}, {notch}", "translation = [0, 0, 9]")
-    assert found.relation == "indeterminate"
+    up = swept(tmp_path, f"{BALL}, {notch}", "translation = [0, 0, 9]")
+    assert up.relation == "separated"
+    assert up.worst.distance[0] <= 1.0 <= up.worst.distance[1]
     into = swept(tmp_path, f"{BALL}, {notch}", "translation = [-3, 0, 0]")
-    assert into.relation == "penetrating"
-    away = swept(tmp_path, f"{BALL}, {notch}", "translation = [0, 0, 0.001]")
-    assert away.relation in ("separated", "indeterminate")
+    assert into.time_of_impact[0] <= 1 / 3 <= into.time_of_impact[1]
+    assert into.time_of_impact[1] - into.time_of_impact[0] <= 1e-8
+    slides = f"{BALL}, {notch.replace('-4, -4', '-3, -3')}"
+    assert swept(tmp_path, slides, "translation = [0, 0, 9]").relation == "touching"
+    other = '{id = "b", shape = {type = "sphere", radius = 1}, position = [0, 0, 0]}'
+    swapped = swept(tmp_path, notch.replace('"b"', '"a"') + ", " + other, "translation = [3, 0, 0]")
+    assert swapped.time_of_impact[0] <= 1 / 3 <= swapped.time_of_impact[1]
+
+
+@pytest.mark.parametrize("kind", ["cylinder", "cone", "ellipsoid", "capsule"])
+def test_any_curved_shape_turns_in_front_of_a_wall(tmp_path: Path, kind: str) -> None:
+    """Its end, 1.5 from the middle, reaches 1.5 sideways after a quarter of a turn about x."""
+    sizes = {
+        "cylinder": "radius = 0.001, height = 3",
+        "cone": "radius = 0.001, height = 3",
+        "ellipsoid": "radii = [0.001, 0.001, 1.5]",
+        "capsule": "radius = 0.001, length = 2.998",
+    }
+    write(tmp_path, l=bracket())
+    body = f'{{id = "a", shape = {{type = "{kind}", {sizes[kind]}}}}}'
+    turn = "rotation = {axis = [1, 0, 0], degrees = 180}"
+    far = '{id = "b", mesh = "l.obj", position = [-3, 1.51, -2]}'
+    assert swept(tmp_path, f"{body}, {far}", turn).relation == "separated"
+    close = '{id = "b", mesh = "l.obj", position = [-3, 1.4, -2]}'
+    found = swept(tmp_path, f"{body}, {close}", turn)
+    truth = math.asin(1.4 / 1.5) / math.pi  # of a thin one; its width of 0.001 is worth 0.001 rad
+    assert found.relation == "penetrating"
+    assert abs(found.time_of_impact[0] - truth) <= 0.002 / math.cos(math.pi * truth)
