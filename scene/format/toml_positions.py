@@ -19,6 +19,13 @@ _STRING = re.compile(
     r"|'[^'\n]*'",
     re.DOTALL,
 )
+# Most of the lines of a large scene at one go: a bare key, and a value without any nesting.
+_FLAT_LIST = re.compile(r"""\[[^][{}"'#\n]*\]""")
+_LINE = re.compile(
+    r"([A-Za-z0-9_-]+)[ \t]*=[ \t]*"
+    rf"""("[^"\\\n]*"(?!")|{_FLAT_LIST.pattern}|[^][{{}}"'#\r\n]*[^][{{}}"'#\r\n \t])"""
+    r"[ \t]*(?:#[^\n]*|\r?(?=\n)|\Z)"
+)
 _SCALAR = re.compile(r"[^,\]}#\r\n]*[^,\]}# \t\r\n]")
 
 
@@ -44,6 +51,8 @@ class TomlPositions:
         return bisect_right(self._line_starts, at)
 
     def place(self, keys: Keys) -> Place:
+        if keys not in self._places and keys[:-1] in self._places:
+            self._items(self._places[keys[:-1]].start, keys[:-1], self._places)
         return self._places[keys]
 
     def _scan(self) -> dict[Keys, Place]:
@@ -51,7 +60,11 @@ class TomlPositions:
         text, table, at = self._text, (), self._blank(0)
         owner: Keys = table
         while at < len(text):
-            if text[at] == "[":
+            line = _LINE.match(text, at)
+            if line is not None:
+                places[*owner, line[1]] = Place(at, *line.span(2))
+                end = line.end()
+            elif text[at] == "[":
                 owner, end = self._header(at)
                 for length in range(1, len(owner) + 1):  # [a.b] stands for [a], too
                     places.setdefault(owner[:length], Place(at, end, end))
@@ -94,14 +107,21 @@ class TomlPositions:
                 at = self._after_comma(self._pair(at, keys, places))
             return at + 1
         if text[at] == "[":
-            at, number = self._blank(at + 1), 0
-            while text[at] != "]":
-                end = self._value(at, (*keys, number), places)
-                places[*keys, number] = Place(at, at, end)
-                at, number = self._after_comma(end), number + 1
-            return at + 1
+            flat = _FLAT_LIST.match(text, at)
+            return self._items(at, keys, places) if flat is None else flat.end()
         match = _STRING.match(text, at) or _SCALAR.match(text, at)
         return at if match is None else match.end()
+
+    def _items(self, at: int, keys: Keys, places: dict[Keys, Place]) -> int:
+        """Those of a list. A list without any nesting waits until somebody asks for an item."""
+        if not self._text.startswith("[", at):
+            return at
+        at, number = self._blank(at + 1), 0
+        while self._text[at] != "]":
+            end = self._value(at, (*keys, number), places)
+            places[*keys, number] = Place(at, at, end)
+            at, number = self._after_comma(end), number + 1
+        return at + 1
 
     def _dotted_key(self, at: int) -> tuple[list[Key], int]:
         """(its parts, where the bracket or the equals sign after it stands)."""
