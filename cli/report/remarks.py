@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from rich.text import Text
@@ -28,7 +29,7 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
             *_moving(finding),
         )
     ]
-    lines += [Text(line) for body in report.bodies for line in _body(body, report)]
+    lines += [Text(line) for line in _of_bodies(report)]
     for issue in report.issues:
         if issue.severity != "error":
             lines.append(Text(issue_line(issue), style=_ISSUE_COLOURS[issue.severity]))
@@ -83,15 +84,23 @@ def _moving(finding: Finding) -> list[str]:
     return [f"{pair}, while they move: deepest at {where}, {bounds(*swept.worst.depth)}"]
 
 
-def _body(body: BodyReport, report: Report) -> list[str]:
-    asked = [finding for finding in report.findings if body.id in (finding.a, finding.b)]
+def _of_bodies(report: Report) -> Iterator[str]:
+    """A line for each body that something was left out for."""
+    pairs: Counter[str] = Counter()
+    surfaces: Counter[str] = Counter()
+    for finding in report.findings:
+        for id_ in (finding.a, finding.b):
+            pairs[id_] += 1
+            surfaces[id_] += by_surfaces(finding)
+    for body in report.bodies:
+        yield from _body(body, pairs[body.id], surfaces[body.id])
+
+
+def _body(body: BodyReport, pairs: int, surfaces: int) -> list[str]:
     if is_lost(body):
-        return [f"{body.id}: could not be used, its {counted(len(asked), 'pair')} not checked"]
-    if body.health is None or body.health.get("solid", True):
+        return [f"{body.id}: could not be used, its {counted(pairs, 'pair')} not checked"]
+    if body.health is None or body.health.get("solid", True) or not surfaces:
         return []
     what = "no solid" if body.health.get("closed") else "not closed"
-    surfaces = sum(by_surfaces(finding) for finding in asked)
-    if not surfaces:
-        return []
     verb = "was" if surfaces == 1 else "were"
     return [f"{body.id} is {what}: {counted(surfaces, 'pair')} {verb} checked by surfaces only"]
