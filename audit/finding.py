@@ -72,7 +72,8 @@ def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> 
         from satcheck.audit.cross_check.opinions import say
 
         say(pair, contact, pair.peers, plan)
-    return replace(finding, plan=tuple(plan.stages))
+    late = len(plan.stages) > len(finding.plan)
+    return replace(finding, plan=tuple(plan.stages)) if late else finding
 
 
 def apart_by_boxes(pair: Pair) -> Finding:

@@ -37,13 +37,12 @@ def judged(finding: Finding, pair: Pair, gap: float, unseen: bool) -> Finding:
         found = replace(found, severity=asked.severity, rule=asked.rule("severity"))
     if unseen:
         found = _left_open(found, pair.settings.allow_open)
-    return replace(
-        finding,
-        severity=found.severity,
-        rule=found.rule,
-        undecided=found.undecided,
-        reason=finding.reason or found.reason,
-    )
+    reason = finding.reason or found.reason
+    judgement = (found.severity, found.rule, found.undecided, reason)
+    if judgement == (finding.severity, finding.rule, finding.undecided, finding.reason):
+        return finding
+    severity, rule, undecided, reason = judgement
+    return replace(finding, severity=severity, rule=rule, undecided=undecided, reason=reason)
 
 
 def _found(finding: Finding, asked: Asked, gap: float) -> _Judgement:
