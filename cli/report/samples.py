@@ -120,14 +120,15 @@ def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bo
     shown = [name for name in counts if any(getattr(pair, name) for pair in pairs)]
     for name in shown:
         table.add_column(name, justify="right")
-    table.add_column("the first overlap", overflow="fold")
+    if "overlaps" in shown:
+        table.add_column("the first overlap", overflow="fold")
     for pair in pairs:
         first = pair.first_overlap
         table.add_row(
             pair.a,
             pair.b,
             *(_share(getattr(pair, name), len(samples)) for name in shown),
-            "" if first is None else _pose(samples[first - 1]),
+            *([] if first is None else [_pose(samples[first - 1])]),
         )
     return table
 

@@ -92,6 +92,15 @@ def test_of_many_poses_the_pairs_are_listed_with_a_pose_to_paste() -> None:
     assert "100 random poses (seed 4), 7 bodies, 12 pairs:" in ran.out
 
 
+def test_where_nothing_overlaps_there_is_no_example() -> None:
+    given = ("--sample", "21", "--pose", '{"shoulder": 0, "elbow": 0, "grip": 0}')
+    ran = satcheck(*ARM, *given)
+    assert ran.code == 0, ran.err
+    assert "21 (100 %)" in ran.out
+    assert "the first overlap" not in ran.out
+    assert ran.out.endswith("12 pairs: 21 pass. No collision.\n")
+
+
 def test_samples_hold_on_to_what_is_given() -> None:
     given = ("--sample", "3", "--state", "open", "--pose", '{"turn": 0.5}')
     samples = satcheck(*ARM, *given, *JSON).document["samples"]
