@@ -10,10 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from satcheck.audit.pair_rows import A, B, Kind, PairRows, ones
 from satcheck.scene.rules import KEYS, Rule, Selector
 
-# Which side of a rule a body is on; it may be on both.
-_A, _B = 1, 2
 # More pairs of kinds than this are not listed.
 _MOST_KINDS = 1_000_000
 
@@ -46,15 +45,6 @@ class Subject:
     static: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class _Kind:
-    """sides: number of a rule -> on which sides of it the bodies are, in the order of the rules."""
-
-    sides: tuple[tuple[int, int], ...]
-    ignored_groups: frozenset[str]
-    fixed: bool
-
-
 class RuleBook:
     """rules: in the order in which they count. Pairs within an ignored group are not asked about,
     nor are pairs of static bodies unless check_static.
@@ -74,38 +64,45 @@ class RuleBook:
         members = _Members(subjects)
         self._sides = [(members.of(rule.a), members.of(rule.b)) for rule in self.rules]
         self._named: dict[tuple[int, int], list[int]] = {}
-        self._kinds: list[_Kind] = []
+        self._kinds: list[Kind] = []
         self._bodies: list[list[int]] = []
         self.kind_of: list[int] = []
         self._terms: dict[tuple[int, int], Terms] = {}  # of kinds
         self._named_terms: dict[tuple[int, int], Terms] = {}
-        numbers: dict[_Kind, int] = {}
-        for index, (body, sides) in enumerate(zip(subjects, self._sort_rules(), strict=True)):
-            kind = _Kind(
-                tuple(sides.items()),
-                ignored_groups.intersection(body.groups),
-                body.static and not check_static,
-            )
-            number = numbers.setdefault(kind, len(self._kinds))
+        chosen_by, about = self._sort_rules()
+        numbers: dict[tuple[object, ...], int] = {}
+        for index, body in enumerate(subjects):
+            ignored = ignored_groups.intersection(body.groups)
+            fixed = body.static and not check_static
+            alike = (tuple(chosen_by[index]), ignored, fixed)
+            number = numbers.setdefault(alike, len(self._kinds))
             if number == len(self._kinds):
-                self._kinds.append(kind)
+                sides = _sides_of(chosen_by[index], about)
+                self._kinds.append(Kind(sides, ignored, fixed))
                 self._bodies.append([])
             self._bodies[number].append(index)
             self.kind_of.append(number)
 
-    def _sort_rules(self) -> list[dict[int, int]]:
-        """Names the pairs of some rules; of the others, for each body, the sides it is on."""
-        found: list[dict[int, int]] = [{} for _ in range(self._count)]
-        for number, (a, b) in enumerate(self._sides):
+    def _sort_rules(self) -> tuple[list[list[int]], list[list[tuple[int, int]]]]:
+        """Names the pairs of some rules. Of the others: for each body the numbers of the sets that
+        it is in, and for each of these sets the rules and the sides of which it is the members."""
+        chosen_by: list[list[int]] = [[] for _ in range(self._count)]
+        about: list[list[tuple[int, int]]] = []
+        numbers: dict[frozenset[int], int] = {}
+        for rule, (a, b) in enumerate(self._sides):
             if len(a) == len(b) == 1:
                 i, j = sorted((*a, *b))
                 if i != j:
-                    self._named.setdefault((i, j), []).append(number)
+                    self._named.setdefault((i, j), []).append(rule)
                 continue
-            for side, members in ((_A, a), (_B, b)):
-                for body in members:
-                    found[body][number] = found[body].get(number, 0) | side
-        return found
+            for side, members in ((A, a), (B, b)):
+                number = numbers.setdefault(members, len(about))
+                if number == len(about):
+                    about.append([])
+                    for body in members:
+                        chosen_by[body].append(number)
+                about[number].append((rule, side))
+        return chosen_by, about
 
     def key(self, i: int, j: int) -> tuple[int, ...]:
         """The same for pairs of which the book says the same, as far as it knows at once."""
@@ -148,8 +145,8 @@ class RuleBook:
         return [
             number
             for number, sides in a
-            if (sides & _A and others.get(number, 0) & _B)
-            or (sides & _B and others.get(number, 0) & _A)
+            if (sides & A and others.get(number, 0) & B)
+            or (sides & B and others.get(number, 0) & A)
         ]
 
     def _merged(self, numbers: Iterable[int]) -> Terms:
@@ -184,11 +181,11 @@ class RuleBook:
         """How many pairs are not ignored, and how many of these are allowed."""
         total = allowed = 0
         everyone = (1 << self._count) - 1
-        rows = _Rows(self._kinds, self.rules, self._sides, self._bodies)
+        rows = PairRows(self._kinds, self.rules, self._sides, self._bodies)
         for kind, bodies in zip(self._kinds, self._bodies, strict=True):
             asked = everyone & ~rows.ignored(kind)
-            total += _ones(asked, bodies)
-            allowed += _ones(asked & rows.allowed(kind), bodies)
+            total += ones(asked, bodies)
+            allowed += ones(asked & rows.allowed(kind), bodies)
         total, allowed = total // 2, allowed // 2
         for i, j in self._named:
             if not self.is_ignored(i, j):
@@ -203,11 +200,10 @@ class RuleBook:
         """Pairs of kinds, the lower first, of which no pair of bodies is asked about. Where there
         are very many, some of them."""
         alone = [frozenset((k,)) for k in range(len(self._kinds))]
-        sides = [
-            tuple(frozenset(self.kind_of[k] for k in members) for members in pair)
-            for pair in self._sides
-        ]
-        rows = _Rows(self._kinds, self.rules, sides, alone)
+        kinds_in = dict.fromkeys(members for pair in self._sides for members in pair)
+        known = {members: frozenset(map(self.kind_of.__getitem__, members)) for members in kinds_in}
+        sides = [(known[a], known[b]) for a, b in self._sides]
+        rows = PairRows(self._kinds, self.rules, sides, alone)
         taken_back = {
             tuple(sorted((self.kind_of[i], self.kind_of[j])))
             for i, j in self._named
@@ -225,78 +221,23 @@ class RuleBook:
         return found
 
 
-class _Rows:
-    """Rows of the matrix of pairs of members, bodies or kinds, as the bits of a number each.
-
-    sides: the members on either side of each rule. of_kinds: those of each kind.
-    """
-
-    def __init__(
-        self,
-        kinds: Sequence[_Kind],
-        rules: Sequence[Rule],
-        sides: Sequence[tuple[frozenset[int], ...]],
-        of_kinds: Sequence[Iterable[int]],
-    ) -> None:
-        self._rules, self._sides = rules, sides
-        self._known: dict[tuple[int, int], int] = {}
-        together: dict[str | None, list[int]] = {}
-        for kind, members in zip(kinds, of_kinds, strict=True):
-            for one in (*kind.ignored_groups, *([None] if kind.fixed else [])):
-                together.setdefault(one, []).extend(members)
-        self._together = {one: _row(members) for one, members in together.items()}
-
-    def ignored(self, kind: _Kind) -> int:
-        row = self._together[None] if kind.fixed else 0
-        for group in kind.ignored_groups:
-            row |= self._together[group]
-        return row
-
-    def allowed(self, kind: _Kind) -> int:
-        row = 0
-        for number, sides in kind.sides:
-            allowed = self._rules[number].allowed
-            if allowed is None:
-                continue
-            others = (self._side(number, 1) if sides & _A else 0) | (
-                self._side(number, 0) if sides & _B else 0
-            )
-            row = row | others if allowed else row & ~others
-        return row
-
-    def _side(self, number: int, side: int) -> int:
-        """Remembered where it is long to make; those of single members would fill the memory."""
-        members = self._sides[number][side]
-        if len(members) == 1:
-            return _row(members)
-        if (number, side) not in self._known:
-            self._known[number, side] = _row(members)
-        return self._known[number, side]
-
-
-def _row(members: Iterable[int]) -> int:
-    """The number with these bits."""
-    members = tuple(members)
-    if len(members) == 1:
-        return 1 << members[0]
-    octets = bytearray(max(members, default=0) // 8 + 1)
-    for k in members:
-        octets[k >> 3] |= 1 << (k & 7)
-    return int.from_bytes(octets, "little")
-
-
-def _ones(row: int, bodies: Sequence[int]) -> int:
-    """Over all these bodies, the ones in the row but for the body itself."""
-    return len(bodies) * row.bit_count() - (row & _row(bodies)).bit_count()
+def _sides_of(
+    sets: Iterable[int], about: Sequence[Sequence[tuple[int, int]]]
+) -> tuple[tuple[int, int], ...]:
+    """Of a body that is in these sets: number of a rule -> its sides, in the order of the rules."""
+    sides: dict[int, int] = {}
+    for number in sets:
+        for rule, side in about[number]:
+            sides[rule] = sides.get(rule, 0) | side
+    return tuple(sorted(sides.items()))
 
 
 class _Members:
     """Bodies by selector; a selector that names one id or group is looked up, not matched."""
 
     def __init__(self, subjects: Sequence[Subject]) -> None:
-        self._subjects = subjects
         self._found: dict[Selector, frozenset[int]] = {}
-        self._by_id = {body.id: k for k, body in enumerate(subjects)}
+        self._by_id: dict[str, list[int]] = {body.id: [k] for k, body in enumerate(subjects)}
         self._by_group: dict[str, list[int]] = {}
         for k, body in enumerate(subjects):
             for group in dict.fromkeys(body.groups):
@@ -308,10 +249,9 @@ class _Members:
         return self._found[selector]
 
     def _choose(self, selector: Selector) -> Iterable[int]:
+        known = self._by_group if selector.of_groups else self._by_id
         only = selector.only
-        if only is None:
-            everyone = enumerate(self._subjects)
-            return (k for k, body in everyone if selector.matches(body.id, body.groups))
-        if selector.of_groups:
-            return self._by_group.get(only, ())
-        return (self._by_id[only],) if only in self._by_id else ()
+        if only is not None:
+            return known.get(only, ())
+        matches = selector.pattern().match
+        return (k for name, bodies in known.items() if matches(name) for k in bodies)

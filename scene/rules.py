@@ -61,11 +61,15 @@ class Selector:
         """The one id or group that the glob can match; None if it may be several."""
         return _BRACKETED.sub(r"\1", self.glob) if _LITERAL.fullmatch(self.glob) else None
 
-    def matches(self, body: str, groups: Iterable[str]) -> bool:
-        from fnmatch import fnmatchcase
+    def pattern(self) -> re.Pattern[str]:
+        """Matches a name, of a body or of a group, from its beginning to its end."""
+        from fnmatch import translate
 
+        return re.compile(translate(self.glob))
+
+    def matches(self, body: str, groups: Iterable[str]) -> bool:
         names = groups if self.of_groups else (body,)
-        return any(fnmatchcase(name, self.glob) for name in names)
+        return any(map(self.pattern().match, names))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
