@@ -5,9 +5,10 @@ velocities: constraints are found where the bodies are, satisfied by projections
 Unlike there every projection starts at home and keeps the walls of earlier rounds, so that what
 comes out is a least motion and not the sum of many small ones.
 
-A wall is a half space of translations. The pair of bodies behind it is not convex as a rule, so a
-wall may be in the way: of another wall, or of a body that stays. Then one body of the pair is taken
-out to a free slot, its walls are made anew there, and the rounds go on.
+A wall is a half space of translations. The translations that free a pair are no half space as a
+rule, so a wall may be in the way of another one. Of one pair a wall between the hulls then takes
+the place of both, or the bodies are locked to each other. Of several pairs one body is taken out to
+a free slot, its walls are made anew there, and the rounds go on.
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ from satcheck.audit.vectors import added, dot, scaled, unit
 LOCAL_WALLS = 3
 MUCH_LONGER = 2.0
 PATIENCE = 8
-# How often in a round walls that exclude each other may cost a body its place, and how many of the
-# walls that push hardest name the bodies to choose from.
+# How often in a round walls that exclude each other may cost a body its place, and how many of
+# those that are to blame name the bodies to choose from.
 CONFLICTS = 12
 CANDIDATES = 2
 # An overlap below this share of the coordinates is a remainder: of rounding, or of a wall that is
@@ -68,19 +69,19 @@ class Rounds:
     def walls(self) -> list[Wall]:
         return [wall for pair in sorted(self._walls) for wall in self._walls[pair]]
 
-    def run(self, most: int, progress: Progress | None = None) -> bool:
-        """Whether nothing is left to push apart, after `most` rounds of pushing at most and, where
-        these do not suffice, taking out what still overlaps."""
+    def run(self, most: int, progress: Progress | None = None) -> None:
+        """Push until nothing overlaps that is not left, or for `most` rounds; then take out what
+        still does."""
         started = 0
-        for self.count in range(most):
-            overlaps = self.overlaps()
+        while overlaps := self.overlaps():
             started = max(started, len(overlaps))
             if progress is not None:
                 progress(started - len(overlaps), started)
-            if not overlaps:
-                return True
+            if self.count == most:
+                self._take_out_all()
+                return
             self._push_apart(overlaps)
-        return self._take_out_all()
+            self.count += 1
 
     def overlaps(self) -> dict[BodyPair, Opinion]:
         """Pairs of which one body at least can be moved, in a fixed order."""
@@ -241,11 +242,13 @@ class Rounds:
                 if wall is not None:
                     self._walls[pair] = [wall]
 
-    def _take_out_all(self) -> bool:
-        """Without another push: each body that still overlaps goes to a slot that is free of all
+    def _take_out_all(self) -> None:
+        """Without another push: a body that still overlaps goes to a slot that is free of all
         others, wherever these are now, so that the number of overlaps only falls."""
+        taken: set[int] = set()
         while overlaps := self.overlaps():
             pair = next(iter(overlaps))
-            if not self._take_out(pair):
+            out = self._take_out([i for i in pair if i not in taken])
+            taken.update(out)
+            if not out:
                 self._give_up(pair)
-        return True

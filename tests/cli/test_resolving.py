@@ -115,3 +115,23 @@ def test_wrong_usage(arguments: tuple[str, ...], said: str) -> None:
     ran = satcheck("resolve", *arguments)
     assert ran.code == 2
     assert said in ran.err
+
+
+def test_a_scene_in_toml_keeps_its_comments_and_its_pins(tmp_path: Path) -> None:
+    (tmp_path / "box.obj").write_text(BOX)
+    text = """\
+schema = "satcheck.scene/1"  # two boxes
+[[bodies]]
+id = "a"
+mesh = "box.obj"
+pinned = true
+[[bodies]]
+id = "b"
+mesh = "box.obj"
+position = [0.75, 0.0, 0.0]  # too close
+"""
+    scene, moved = tmp_path / "scene.toml", tmp_path / "moved.toml"
+    scene.write_text(text)
+    ran = satcheck("resolve", str(scene), "-o", str(moved))
+    assert ran.code == 0, ran.err
+    assert moved.read_text() == text.replace("0.75", "1.0")

@@ -276,3 +276,52 @@ def test_without_rounds_bodies_are_taken_out(tmp_path) -> None:
     found = resolve(scene, iterations=0)
     assert found.verdict == "resolved"
     assert not overlapping(after(scene, found))
+
+
+def test_rounds_are_counted(tmp_path) -> None:
+    scene = boxes_scene(tmp_path, {f"box{k}": unit_at(0.5 * k) for k in range(4)})
+    found = resolve(scene, iterations=1)
+    assert found.rounds == 1
+    assert found.verdict == "resolved"
+
+
+def test_a_pair_that_fails_does_not_take_the_others_with_it(tmp_path, monkeypatch) -> None:
+    from satcheck.audit.resolve import crowd
+
+    examine = crowd.examine
+
+    def broken(pair, plan):
+        if "c" in (pair.a.id, pair.b.id):
+            raise RuntimeError("a fault")
+        return examine(pair, plan)
+
+    monkeypatch.setattr(crowd, "examine", broken)
+    scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(-0.5)})
+    found = resolve(scene)
+    assert {move.body for move in found.moves} == {"a", "b"}
+    assert found.verdict == "unresolved"  # a and c were not looked at while b was pushed
+    assert [(one.a, one.b) for one in found.left] == [("a", "c")]
+
+
+def test_a_moved_body_does_not_end_inside_an_open_one(tmp_path) -> None:
+    """The box could come to lie in the tray, which has no lid and so no inside."""
+    scene = scene_of(tmp_path, tray=open_box(), box=unit_box(1.5, 1.5, -0.875))
+    assert resolve(scene, pins=["tray"]).verdict == "resolved"
+
+
+def test_rules_decide_what_is_resolved(tmp_path) -> None:
+    from dataclasses import replace
+
+    from satcheck.scene import Rule, Selector
+
+    scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.75), "c": unit_at(5)})
+
+    def with_rule(**keys):
+        rule = Rule(a=Selector("a"), b=Selector("*"), **keys)
+        return replace(scene, rules=(rule,))
+
+    assert resolve(with_rule(max_depth=0.5)).moves == ()
+    assert resolve(with_rule(severity="note")).moves == ()
+    assert len(resolve(with_rule(max_depth=0.1)).moves) == 2
+    apart = resolve(with_rule(clearance=0.5))
+    assert moves(apart)["b"] == pytest.approx((0.375, 0, 0), abs=1e-12)
