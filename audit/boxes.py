@@ -14,8 +14,8 @@ def largest_coordinate(*boxes: Box) -> float:
     return max(abs(c) for box in boxes for corner in box for c in corner)
 
 
-def diagonal(box: Box) -> float:
-    return math.dist(box[0], box[1])
+def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
+    return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
 
 
 def holds(outer: Box, inner: Box) -> bool:

@@ -10,6 +10,7 @@ from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.planner import Asked
 from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.tolerances import TOUCH_FRACTION
+from satcheck.core.conventions import axes_of
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
@@ -22,7 +23,8 @@ class Pair:
     """tolerance: half width of the touch band, world units.
 
     By default either surface may be off by its own input precision, so the sum of both; but
-    coordinates without decimals, far from the origin, must not swallow a whole body.
+    coordinates without decimals, far from the origin, must not swallow a whole body. Never less
+    than what polygons may be off the curves that they stand for.
     paths: how the bodies move against each other; None: they do not.
     """
 
@@ -38,9 +40,15 @@ class Pair:
     def __post_init__(self) -> None:
         tolerance = self.asked.tolerance
         if tolerance is None:
-            size = min(diagonal(self.a.bounds), diagonal(self.b.bounds))
-            tolerance = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
+            tolerance = self._precision()
         object.__setattr__(self, "tolerance", tolerance)
+
+    def _precision(self) -> float:
+        plane = self.settings.planar
+        axes = (0, 1, 2) if plane is None else axes_of(plane)
+        size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
+        written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
+        return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""

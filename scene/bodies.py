@@ -32,6 +32,8 @@ class MeshFile:
     coordinates; None: all of the file, where it places it. outline: the corners, counter-clockwise,
     of the convex polygon over which the mesh is a prism, in a check in a plane. placement_step: how
     finely its placement in the world is known, relative to the coordinates that it makes.
+    deviation: how far curves may be off the polygons that stand for them, in file units; part of
+    the resolution.
     """
 
     path: str
@@ -46,6 +48,7 @@ class MeshFile:
     part: str | None = None
     outline: tuple[tuple[float, float], ...] | None = None
     placement_step: float = FLOAT64_ROUNDING
+    deviation: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

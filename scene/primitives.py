@@ -145,6 +145,22 @@ def mesh_of(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
     )
 
 
+def sag_of(shape: Primitive, segments: int) -> float:
+    """No point of the shape is farther than this from `mesh_of` it with so many segments.
+
+    A facet between two rings and two meridians of the unit ball is no nearer to its centre than
+    cos(pi / segments) squared; the other shapes are stretched or drawn out from balls and discs.
+    """
+    match shape:
+        case Box():
+            return 0.0
+        case Ellipsoid(radii):
+            radius = max(radii)
+        case _:
+            radius = shape.radius
+    return radius * (math.cos(math.pi / segments) ** -2 - 1.0)
+
+
 def _surface_points(shape: Primitive, segments: int) -> Iterator[Point]:
     match shape:
         case Box(size):

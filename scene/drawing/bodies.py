@@ -100,4 +100,5 @@ def _sheet_file(source: Source, found: dict[str, Any], sheet: dict[str, Any]) ->
         health=examined.health,
         issues=tuple(issue(code, words, file=source.path) for code, words in warnings),
         part=sheet["name"],
+        deviation=sheet["deviation"],
     )

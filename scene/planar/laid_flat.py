@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
 from satcheck.core import Mesh
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
+from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable, largest_stretch
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
@@ -20,34 +21,40 @@ from satcheck.scene.planar.prism import prism
 from satcheck.scene.planar.region import (
     Region,
     convex_corners,
+    convex_region,
     drawn_region,
     fan_of,
     region_of,
 )
 from satcheck.scene.planar.turns import Floats
+from satcheck.scene.primitives import Primitive, is_curved, mesh_of, sag_of
 
 # How many times the widest body the prisms are high: nothing that separates two bodies in the
 # plane is longer than both are wide together.
 _HEIGHT = 4.0
+# Wider than this, the prisms would be higher than what is decided exactly.
+_WIDEST = 1e44
+# Of the polygon of a ball: it is off the disc by about 1/13000 of its width.
+_SEGMENTS = 256
 
 
 def laid_flat(scene: Scene, plane: Plane) -> Scene:
     """The bodies as they are placed, as prisms across the plane; answers lie in the plane.
 
-    A body without an outline (all its triangles are seen edge on) is unreadable from then on.
+    A body without an outline (all its triangles are seen edge on) is unreadable from then on, and
+    so is one that cannot be placed. A curved shape becomes a polygon, its corners on the outline.
     Raises SatcheckError (`planar-motion`): bodies that move leave the plane.
     """
     if scene.motions:
         raise SatcheckError("planar-motion", "a scene with motions is not checked in a plane")
-    regions = {body.id: _region(body, plane) for body in scene.bodies}
-    height = _height([region.points for region in regions.values()])
-    bodies, lost = [], []
+    placed, lost = [], []
     for body in scene.bodies:
         try:
-            bodies.append(_flat(body, regions[body.id], plane, height))
+            placed.append((body, _region(body, plane)))
         except MeshFileError as error:
-            found = issue(error.code, error.message, body=body.id, file=body.file.path)
-            lost.append(Unreadable(body.id, body.file.path, found, body.groups))
+            lost.append(_lost(body, error))
+    height = _height([region.points for _, region in placed])
+    bodies = [_flat(body, region, plane, height) for body, region in placed]
     return replace(
         scene,
         bodies=tuple(bodies),
@@ -58,9 +65,45 @@ def laid_flat(scene: Scene, plane: Plane) -> Scene:
 
 
 def _region(body: Body, plane: Plane) -> Region:
+    """Raises MeshFileError for a body without an outline, or beyond what is decided exactly."""
+    try:
+        region = _outline(body, plane)
+    except OverflowError as error:
+        raise MeshFileError("out-of-range", str(error)) from None
+    except ValueError as error:
+        raise MeshFileError("singular-transform", str(error)) from None
+    if not len(region.triangles):
+        raise MeshFileError("no-outline", f"no outline in the plane {plane}: it is seen edge on")
+    if np.ptp(region.points, axis=0).max() > _WIDEST:
+        raise MeshFileError("out-of-range", f"wider than {_WIDEST:g} in the plane {plane}")
+    return region
+
+
+def _outline(body: Body, plane: Plane) -> Region:
+    if body.shape is not None and is_curved(body.shape):
+        fine = replace(body.file, mesh=_fine_mesh(body.shape))
+        return convex_region(replace(body, file=fine).world_mesh(), plane)
     if body.file.format in DRAWINGS.values():
         return drawn_region(body.world_mesh())
     return region_of(body.world_mesh(), body.file.health.solid, plane)
+
+
+@lru_cache(maxsize=64)
+def _fine_mesh(shape: Primitive) -> Mesh:
+    return mesh_of(shape, _SEGMENTS)
+
+
+def _deviation(body: Body) -> float:
+    """How far the body may be off its outline's polygon, world units."""
+    if body.shape is None:
+        return body.file.deviation
+    stretch = 1.0 if body.transform is None else largest_stretch(body.transform)
+    return sag_of(body.shape, _SEGMENTS) * stretch
+
+
+def _lost(body: Body, error: MeshFileError) -> Unreadable:
+    found = issue(error.code, error.message, body=body.id, file=body.file.path)
+    return Unreadable(body.id, body.file.path, found, body.groups, body.path, body.static)
 
 
 def _height(outlines: Sequence[Floats]) -> float:
@@ -70,8 +113,6 @@ def _height(outlines: Sequence[Floats]) -> float:
 
 
 def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
-    if not len(region.triangles):
-        raise MeshFileError("no-outline", f"no outline in the plane {plane}: it is seen edge on")
     corners = convex_corners(region)
     if corners is None:
         mesh = prism(region.points, region.triangles, height)
@@ -81,7 +122,8 @@ def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
     file: MeshFile = replace(
         body.file,
         part=f"outline {plane} of {body.id}",
-        resolution=body.resolution_world,
+        resolution=body.resolution_world + (_deviation(body) if body.shape else 0.0),
+        deviation=_deviation(body),
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,

@@ -56,11 +56,26 @@ def convex_corners(region: Region) -> Floats | None:
     mesh = prism(region.points, region.triangles, 1.0).welded()
     if not mesh.topology().solid or mesh.convexity_defect(0.0) != 0.0:
         return None
-    flat = np.column_stack((region.points, np.zeros(len(region.points))))
-    hull = Mesh(flat, region.triangles.astype(np.uint32)).convex_hull()
+    return _outermost(region.points)
+
+
+def convex_region(mesh: Mesh, plane: Plane) -> Region:
+    """The outline of a mesh that is convex: the polygon of its outermost corners."""
+    points = np.unique(np.asarray(mesh.vertices)[:, axes_of(plane)] + 0.0, axis=0)
+    corners = _outermost(points)
+    if corners is None:
+        return Region(points, fan_of(0))
+    return Region(corners, fan_of(len(corners)))
+
+
+def _outermost(points: Floats) -> Floats | None:
+    """The corners of the convex hull, counter-clockwise; None for points on a line."""
+    flat = np.column_stack((points, np.zeros(len(points))))
+    hull = Mesh(flat, np.array([(0, 0, 0)], dtype=np.uint32)).convex_hull()
     corners = np.array(hull.vertices)[:, :2]
-    fan = fan_of(len(corners))
-    signs = turns(corners, fan)
+    signs = turns(corners, fan_of(len(corners)))
+    if not len(signs):
+        return None
     if (signs < 0).all():
         return corners[::-1].copy()
     return corners if (signs > 0).all() else None

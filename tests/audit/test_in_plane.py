@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -12,8 +13,9 @@ import pytest
 from satcheck.audit import Finding, Settings, check
 from satcheck.core import Mesh, sat_polygons
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import Scene
-from satcheck.scene.primitives import Box, mesh_of
+from satcheck.scene import Body, Scene
+from satcheck.scene.primitives import Box, Sphere, mesh_of
+from satcheck.scene.shape_file import shape_file
 from tests.scene.planar.flat import Corners, scene, sheet
 
 # Comparing lengths that two methods got from coordinates below 8: an ulp of 8 for each operation of
@@ -202,3 +204,69 @@ def test_seen_edge_on_is_unreadable() -> None:
 def test_what_is_about_space_is_refused(asked: str) -> None:
     with pytest.raises(SatcheckError, match="planar"):
         Settings(planar="xy", **{asked: True})  # type: ignore[arg-type]
+
+
+def ball(id_: str, radius: float, transform: tuple[float, ...]) -> Body:
+    shape = Sphere(radius)
+    return Body(id_, id_, shape_file(shape, "scene.toml"), transform, shape=shape)
+
+
+def moved(x: float, y: float, scale: float = 1.0) -> tuple[float, ...]:
+    return (scale, 0, 0, x, 0, scale, 0, y, 0, 0, scale, 0, 0, 0, 0, 1)
+
+
+@pytest.mark.parametrize("overlap", [1e-3, 1e-4, 1e-5])
+def test_no_ball_is_apart_by_its_polygon_alone(overlap: float) -> None:
+    """Between two corners the polygons leave a gap where the discs overlap."""
+    step = math.pi / 256
+    apart = 2.0 - overlap
+    bodies = (
+        ball("a", 1.0, moved(0.0, 0.0)),
+        ball("b", 1.0, moved(apart * math.cos(step), apart * math.sin(step))),
+    )
+    (found,) = check(Scene("discs", None, bodies), Settings(planar="xy")).findings
+    assert found.relation in ("penetrating", "touching")
+    assert overlap <= found.tolerance or found.relation == "penetrating"
+    assert found.tolerance < 1e-3
+
+
+def test_a_distant_body_widens_no_touch_band() -> None:
+    """It makes all prisms higher, which says nothing of the size of the others."""
+    corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+    right = [(x + 0.98, y) for x, y in corners]
+    far = [(x * 1e4, y * 1e4 + 100) for x, y in corners]
+    two, three = scene(sheet(corners), sheet(right)), scene(*map(sheet, (corners, right, far)))
+    found = [
+        check(_written_coarsely(one), Settings(planar="xy")).findings[0] for one in (two, three)
+    ]
+    assert [one.relation for one in found] == ["penetrating", "penetrating"]
+    assert found[0].tolerance == found[1].tolerance == 1e-3 * math.sqrt(2)
+
+
+def _written_coarsely(flat: Scene) -> Scene:
+    coarse = [replace(body, file=replace(body.file, resolution=0.01)) for body in flat.bodies]
+    return replace(flat, bodies=tuple(coarse))
+
+
+@pytest.mark.parametrize("scale", [1e60, 1e-200])
+def test_a_body_that_cannot_be_placed_costs_its_own_pairs(scale: float) -> None:
+    bodies = (
+        ball("a", 1.0, moved(0.0, 0.0)),
+        ball("b", 1.0, moved(0.0, 0.0, scale)),
+        replace(ball("c", 1.0, moved(1.0, 0.0)), static=True),
+    )
+    report = check(Scene("discs", None, bodies), Settings(planar="xy"))
+    relations = {(one.a, one.b): one.relation for one in report.findings}
+    assert relations == {
+        ("a", "b"): "indeterminate",
+        ("a", "c"): "penetrating",
+        ("b", "c"): "indeterminate",
+    }
+
+
+def test_a_static_body_without_outline_stays_static() -> None:
+    on_edge = sheet([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (1.0, 1.0)], [(0, 1, 3), (1, 2, 3)])
+    flat = scene(on_edge, on_edge, on_edge)
+    bodies = tuple(replace(body, static=body.id != "a") for body in flat.bodies)
+    report = check(replace(flat, bodies=bodies, check_static=False), Settings(planar="yz"))
+    assert [(one.a, one.b) for one in report.findings] == [("a", "b"), ("a", "c")]

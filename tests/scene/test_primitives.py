@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
+from satcheck.audit.curved.shape import support
 from satcheck.core import Surface
 from satcheck.scene.health import examine
 from satcheck.scene.primitives import (
@@ -14,10 +16,12 @@ from satcheck.scene.primitives import (
     Cone,
     Cylinder,
     Ellipsoid,
+    Primitive,
     Sphere,
     is_curved,
     mesh_of,
     primitive_of,
+    sag_of,
     values_of,
 )
 
@@ -134,3 +138,24 @@ def test_what_states_no_shape_is_refused(name):
     values, message = WRONG[name]
     with pytest.raises(ValueError, match=message):
         primitive_of(values)
+
+
+@pytest.mark.parametrize("segments", [8, 16, 64])
+@pytest.mark.parametrize(
+    "shape",
+    [
+        Sphere(2.0),
+        Capsule(0.5, 3.0),
+        Cylinder(1.5, 4.0),
+        Cone(2.0, 1.0),
+        Ellipsoid((3.0, 1.0, 0.2)),
+    ],
+)
+def test_the_sag_bounds_how_far_a_shape_is_off_its_mesh(shape: Primitive, segments: int) -> None:
+    """Convex bodies one in the other are as far apart as their supports, where that is the most."""
+    vertices = np.asarray(mesh_of(shape, segments).vertices)
+    directions = np.random.default_rng(1).normal(size=(2000, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    around = np.array([support(shape, tuple(d)) for d in directions.tolist()])
+    off = around - (directions @ vertices.T).max(axis=1)
+    assert 0.25 * sag_of(shape, segments) < off.max() <= sag_of(shape, segments)
