@@ -55,7 +55,7 @@ def _convex_depth(pair: Pair, result: core.PairResult | Signed, plan: Plan) -> D
         raise AssertionError("a penetrating pair has a signed distance and a normal")
     value = max(-result.distance, 0.0)
     escape = verified_escape(pair, value, result.normal, plan)
-    lower = value if result.upper is None else min(max(-result.upper, 0.0), value)
+    lower = value if result.upper is None else min(max(0.0, -result.upper), value)
     upper = escape.bound if result.lower is None else min(-result.lower, escape.bound)
     witness = None
     if result.witness_a is not None and result.witness_b is not None:

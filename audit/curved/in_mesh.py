@@ -35,6 +35,9 @@ def settle_mesh(pair: Pair, plan: Plan) -> Contact:
         reason = "a curved shape meets only faces that bound no material"
         return Contact("penetrating", False, reason=reason)
     if not _is_outside(mesh, curved.centre):
+        if seen.nearest is not None and seen.nearest.outcome != "separated":
+            plan.record(STAGE, "penetrating", f"within, and close to triangle {seen.triangle}")
+            return Contact("penetrating", False, reason=TOO_CLOSE)
         relation: Relation = "inside" if sign > 0 else "contains"
         plan.record(STAGE, relation, "no triangle meets the shape, and its middle lies inside")
         return Contact(relation, True)

@@ -151,3 +151,13 @@ def test_random_poses_against_the_meshes_inside_and_around(primitive: Primitive)
             assert found in ("penetrating", "inside")
         seen.add(found)
     assert {"separated", "penetrating"} <= seen
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_shape_that_touches_a_wall_from_within_is_not_said_to_be_inside(swapped: bool) -> None:
+    """It lies between the two walls of the hollow box, tangent to both."""
+    pair = shape("ball", Sphere(0.5), moved(1.5, 0, 0)), hollow_box()
+    found = ask(*(pair[::-1] if swapped else pair))
+    assert found.relation == "penetrating"
+    assert found.exact_relation is None
+    assert found.severity == "error"
