@@ -36,6 +36,7 @@ NO_OVERLAP = "no overlap"
 OVERLAP = "overlap"
 FAR = "further apart than asked about"
 FAILED = "not decided"
+NO_ANSWER = "no answer"
 
 
 def effects_of(
@@ -57,10 +58,13 @@ def effects_of(
             effect = _effect(stage, asked)
             done.add(effect)
             time[effect] += stage.microseconds
+        unanswered = done & _unanswered(finding)
+        done -= unanswered
         ran.update(done)
         for effect in effects:
             if effect not in done:
-                spared[effect][_why_not(effect, asked, finding)] += 1
+                why = NO_ANSWER if effect in unanswered else _why_not(effect, asked, finding)
+                spared[effect][why] += 1
     unreadable = counts.total - counts.allowed - counts.pruned - looked_at
     return tuple(
         EffectReport(
@@ -72,6 +76,16 @@ def effects_of(
         )
         for effect in effects
     )
+
+
+def _unanswered(finding: Finding) -> set[Effect]:
+    """What has nothing to show for its stage, because it was refused, for instance."""
+    answers: dict[Effect, object] = {
+        "volume": finding.volume,
+        "contacts": finding.contacts,
+        "certificate": finding.certificate,
+    }
+    return {effect for effect, answer in answers.items() if answer is None}
 
 
 def _effect(stage: Stage, asked: Asked) -> Effect:

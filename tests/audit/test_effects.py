@@ -14,7 +14,16 @@ import pytest
 from satcheck import core, decompose
 from satcheck.audit import Report, Settings, check
 from satcheck.scene import Rule, Scene, Selector, load_scene
-from tests.audit.shapes import bracket, moved, placed_scene, pose, scene_of, unit_box, write
+from tests.audit.shapes import (
+    bracket,
+    moved,
+    open_box,
+    placed_scene,
+    pose,
+    scene_of,
+    unit_box,
+    write,
+)
 
 
 def rule(a: str = "*", b: str = "*", **keys: Any) -> Rule:
@@ -163,6 +172,15 @@ def test_all_pairs_of_every_effect(tmp_path, settings):
     report = check(scene, settings)
     for one in report.effects:
         assert one.pairs + sum(one.not_run.values()) == report.summary.pairs.total
+
+
+def test_what_was_refused_did_not_run(tmp_path):
+    scene = scene_of(tmp_path, a=open_box(), b=unit_box(3.5))
+    (volume,) = (
+        one for one in check(scene, Settings(volume=True)).effects if one.effect == "volume"
+    )
+    assert (volume.pairs, volume.not_run) == (0, {"no answer": 1})
+    assert volume.microseconds > 0
 
 
 def test_no_timings_no_microseconds(tmp_path):
