@@ -20,6 +20,7 @@ from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.nudges import Nudges
 from satcheck.audit.report import OVERLAPS, Finding
+from satcheck.audit.verify import FREE
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +54,7 @@ def first_impact(pair: MovingPair) -> Impact:
     if start.exact_relation is None:
         reason = f"undecided where the motion starts: {start.reason}"
         return Impact(0.0, None, 0.0, 0.0, reason)
-    scan = _Scan(pair)
+    scan = _Scan(pair, outside=start.exact_relation in FREE)
     try:
         scan.run()
     except Unanswerable as why:
@@ -68,10 +69,13 @@ def overlaps(found: Finding) -> bool:
 
 class _Scan:
     """t: free, or within the touch band, up to there. met: where the contact at t began; it is no
-    later than t, and a tidier end of the interval of the impact."""
+    later than t, and a tidier end of the interval of the impact. outside: known to have no common
+    interior at t. Surfaces that are apart prove nothing about a body, smaller than the touch band,
+    that has slipped into the other one."""
 
-    def __init__(self, pair: MovingPair) -> None:
+    def __init__(self, pair: MovingPair, outside: bool) -> None:
         self.t = 0.0
+        self._outside = outside
         self.met = 0.0
         self.contact: float | None = None
         self.reason: str | None = None
@@ -81,12 +85,12 @@ class _Scan:
     def run(self) -> None:
         while self.t < 1.0 and self.reason is None:
             end = self._pair.end_of_piece(self.t)
-            if self._advance(self._pair.apart(self.t, end).time, end):
+            if self._advance(self._apart(end), end):
                 self.met = self.t
                 continue
             if self.contact is None:
                 self.contact = self.t
-            since = self.t
+            since, self._outside = self.t, False
             if not self._advance(self._in_contact(end), end):
                 self.reason = (
                     f"in contact at t = {self.t:.6g}, and nothing proves that the contact stays "
@@ -94,6 +98,14 @@ class _Scan:
                 )
             elif (self.t - since) * self._pair.fastest(since) > SLID * self._pair.tolerance:
                 self.met = self.t
+
+    def _apart(self, end: float) -> float:
+        """For how long the bodies are proven to stay apart."""
+        time = self._pair.apart(self.t, end).time
+        if time > 0.0 and not self._outside and not self._pair.convex:
+            self._outside = self._pair.found_at(self.t).exact_relation in FREE
+            return time if self._outside else 0.0
+        return time
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)

@@ -90,6 +90,17 @@ def test_into_the_wall_of_a_corner():
     assert further.lower <= 0.5 <= further.upper <= 0.5 + 2e-6
 
 
+@pytest.mark.parametrize("into", [0.0, -0.05])
+def test_a_body_that_is_smaller_than_the_band_is_not_lost_in_the_other(into):
+    """A speck at an arm of the L, or within the band in it, goes on into the arm: no surface is in
+    its way any more."""
+    speck = box((4, 2 + into, 1), (4.001, 2.001 + into, 1.001))
+    impact = impact_of(speck, Translation((0.0, -1.0, 0.0)), bracket(), tolerance=0.1)
+    assert impact.lower <= 0.1 + into <= impact.upper
+    along = impact_of(speck, Translation((1.0, 0.0, 0.0)), bracket(), tolerance=0.1)
+    assert along.upper is None
+
+
 def test_where_nothing_is_proven_the_answer_is_open():
     """A slider that fits its slot exactly has nowhere to be nudged to. It never overlaps."""
     slot = _slot()
