@@ -78,6 +78,7 @@ class Crowd:
         self.offsets = [ORIGIN] * len(self.home)
         self._excused: set[BodyPair] = set()
         self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, Opinion]] = {}
+        self.settle()
 
     def move(self, offsets: dict[int, Vector]) -> None:
         """Put these bodies at these translations from home."""
@@ -90,6 +91,15 @@ class Crowd:
                     if offset == ORIGIN
                     else PlacedBody(translated(home.body, offset), home.shared)
                 )
+
+    def settle(self) -> None:
+        """What is known is what `restart` comes back to."""
+        self._start = dict(self._known), set(self._excused)
+
+    def restart(self) -> None:
+        """All bodies to where the scene has them."""
+        self.placed, self.offsets = list(self.home), [ORIGIN] * len(self.home)
+        self._known, self._excused = dict(self._start[0]), set(self._start[1])
 
     def offset(self, pair: BodyPair) -> Vector:
         """t_a - t_b."""

@@ -52,11 +52,15 @@ Progress = Callable[[int, int], None]
 
 
 class Rounds:
-    """left: pairs that are not to be resolved any more, with the reason. count: rounds so far."""
+    """deepest_first: a round makes one wall for a body at most, of its deepest overlap: shallow
+    ones often end with the deep ones. left: pairs that are not to be resolved any more, with the
+    reason. count: rounds so far.
+    """
 
-    def __init__(self, crowd: Crowd, longest: float) -> None:
+    def __init__(self, crowd: Crowd, longest: float, *, deepest_first: bool = False) -> None:
         self._crowd = crowd
         self._longest = longest
+        self._deepest_first = deepest_first
         self._slots = Slots(crowd.home)
         self._walls: dict[BodyPair, list[Wall]] = {}
         self._locked: set[BodyPair] = set()
@@ -80,7 +84,7 @@ class Rounds:
             if self.count == most:
                 self._take_out_all()
                 return
-            self._push_apart(overlaps)
+            self._push_apart(_deepest(overlaps) if self._deepest_first else overlaps)
             self.count += 1
 
     def overlaps(self) -> dict[BodyPair, Opinion]:
@@ -252,3 +256,14 @@ class Rounds:
             taken.update(out)
             if not out:
                 self._give_up(pair)
+
+
+def _deepest(overlaps: dict[BodyPair, Opinion]) -> dict[BodyPair, Opinion]:
+    """Of each body the deepest of its overlaps, or none where that is a deeper one of the other."""
+    chosen: dict[BodyPair, Opinion] = {}
+    taken: set[int] = set()
+    for pair in sorted(overlaps, key=lambda pair: -math.hypot(*(overlaps[pair].push or ()))):
+        if taken.isdisjoint(pair):
+            chosen[pair] = overlaps[pair]
+            taken.update(pair)
+    return chosen
