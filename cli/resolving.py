@@ -115,7 +115,7 @@ def _written(scene: Scene, found: Resolution, choices: Choices) -> str:
     translations = {move.body: move.translation for move in found.moves}
     if _is_scene(choices.paths[0]):
         return moved_scene_file(choices.paths[0], choices.output, translations)
-    return scene_file_of(choices.output, scene.bodies, translations)
+    return scene_file_of(choices.output, scene, translations)
 
 
 def _checked(path: Path, settings: Settings, allow_outside: bool) -> Report:

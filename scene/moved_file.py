@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from satcheck.scene.bodies import Body
+from satcheck.scene.bodies import Scene
 from satcheck.scene.format import scene_1, simple
 from satcheck.scene.format.placement import IDENTITY
 from satcheck.scene.format.reading import read_scene_file
@@ -34,12 +34,10 @@ def moved_scene_file(source: str, output: Path, translations: Mapping[str, Trans
     return _with_paths_from(output, source, text)
 
 
-def scene_file_of(
-    output: Path, bodies: Iterable[Body], translations: Mapping[str, Translation]
-) -> str:
-    """The text of a new scene file, for the place `output`, of bodies that are mesh files or parts
-    of them, as the files place them, and then moved."""
-    bodies = tuple(bodies)
+def scene_file_of(output: Path, scene: Scene, translations: Mapping[str, Translation]) -> str:
+    """The text of a new scene file, for the place `output`, of a scene of mesh files or of parts of
+    them, as the files place them, and then moved."""
+    bodies = scene.bodies
     in_parts = any(body.path is not None for body in bodies)
     entries = []
     for body in bodies:
@@ -52,7 +50,8 @@ def scene_file_of(
             entry |= {"position": [x, y, z]} if in_parts else {"transform": rows}
         entries.append(f"\n    {json.dumps(entry, ensure_ascii=False)}")
     schema = scene_1.SCHEMA if in_parts else simple.SCHEMA
-    return f'{{\n  "schema": "{schema}",\n  "bodies": [{",".join(entries)}\n  ]\n}}\n'
+    units = f'\n  "units": {json.dumps(scene.units)},' if scene.units else ""
+    return f'{{\n  "schema": "{schema}",{units}\n  "bodies": [{",".join(entries)}\n  ]\n}}\n'
 
 
 def _translated(placement: tuple[float, ...], by: Translation) -> tuple[float, ...]:

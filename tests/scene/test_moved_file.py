@@ -131,7 +131,7 @@ def test_a_toml_scene_keeps_its_comments(tmp_path) -> None:
 def test_mesh_files_become_a_scene(tmp_path) -> None:
     scene = load_scene(write(tmp_path, a=unit_box(), b=unit_box(2)))
     output = tmp_path / "made.json"
-    output.write_text(scene_file_of(output, scene.bodies, {"b": BY}), encoding="utf-8")
+    output.write_text(scene_file_of(output, scene, {"b": BY}), encoding="utf-8")
     made = load_scene([output])
     assert [body.id for body in made.bodies] == ["a", "b"]
     assert made.bodies[0].transform is None
@@ -142,9 +142,10 @@ def test_nodes_of_a_file_become_parts(tmp_path) -> None:
     (tmp_path / "asm.gltf").write_text(two_nodes())
     scene = load_scene([tmp_path / "asm.gltf"])
     output = tmp_path / "made.json"
-    output.write_text(scene_file_of(output, scene.bodies, {scene.bodies[1].id: BY}))
+    output.write_text(scene_file_of(output, scene, {scene.bodies[1].id: BY}))
     made = load_scene([output])
     assert [body.id for body in made.bodies] == [body.id for body in scene.bodies]
+    assert made.units == scene.units
     assert made.bodies[0].world_mesh().bounds == scene.bodies[0].world_mesh().bounds
     (x, y, z), _ = scene.bodies[1].world_mesh().bounds
     assert made.bodies[1].world_mesh().bounds[0] == (x + BY[0], y + BY[1], z + BY[2])
