@@ -8,7 +8,7 @@ no common interior; `mtv` is the translation to add to A. What was not asked for
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
@@ -250,24 +250,29 @@ class Report:
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
         return {
-            "schema": SCHEMA,
-            "tool": {"name": self.tool.name, "version": self.tool.version},
-            "units": self.units,
-            "settings": dict(self.settings),
-            "summary": _summary(self.summary),
-            **({} if self.pose is None else {"pose": dict(self.pose)}),
-            **({"motions": [dict(motion) for motion in self.motions]} if self.motions else {}),
-            "bodies": [_body(body) for body in self.bodies],
-            "exempt": {
-                "groups": list(self.exempt.groups),
-                "static_pairs": self.exempt.static_pairs,
-            },
-            "rules": [rule_values(rule) for rule in self.rules],
-            "effects": [_effect(effect, timings) for effect in self.effects],
-            "findings": [_finding(finding, timings) for finding in self.findings],
-            "issues": [_issue(issue) for issue in self.issues],
-            "truncated": self.truncated,
+            key: list(value) if isinstance(value, Iterator) else value
+            for key, value in self.members(timings)
         }
+
+    def members(self, timings: bool = True) -> Iterator[tuple[str, Any]]:
+        """The same key by key; of bodies and findings, which can be many, iterators."""
+        yield "schema", SCHEMA
+        yield "tool", {"name": self.tool.name, "version": self.tool.version}
+        yield "units", self.units
+        yield "settings", dict(self.settings)
+        yield "summary", _summary(self.summary)
+        if self.pose is not None:
+            yield "pose", dict(self.pose)
+        if self.motions:
+            yield "motions", [dict(motion) for motion in self.motions]
+        yield "bodies", (_body(body) for body in self.bodies)
+        exempt = {"groups": list(self.exempt.groups), "static_pairs": self.exempt.static_pairs}
+        yield "exempt", exempt
+        yield "rules", [rule_values(rule) for rule in self.rules]
+        yield "effects", [_effect(effect, timings) for effect in self.effects]
+        yield "findings", (_finding(finding, timings) for finding in self.findings)
+        yield "issues", [_issue(issue) for issue in self.issues]
+        yield "truncated", self.truncated
 
 
 def _number(value: float | None) -> float | None:

@@ -189,7 +189,7 @@ def settings_of(choices: Choices, scene: Scene) -> Any:
     )
 
 
-def _render(report: Report, choices: Choices, page: Page) -> str:
+def _render(report: Report, choices: Choices, page: Page) -> str | list[str]:
     if choices.form == "json":
         from satcheck.cli.report.json import render
 

@@ -7,6 +7,7 @@ import errno
 import os
 import shutil
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -71,8 +72,10 @@ class Document:
             return
         self._stream = os.fdopen(kept, "w", encoding=encoding, errors="replace", newline="")
 
-    def write(self, text: str, *, utf8: bool = False) -> None:
-        """Write it all; a closed pipe is silent, any other failure is CannotWrite.
+    def write(self, text: str | Sequence[str], *, utf8: bool = False) -> None:
+        """Write it all, one text or its pieces.
+
+        A closed pipe is silent, any other failure is CannotWrite.
 
         utf8: whatever the terminal's encoding (JSON is UTF-8 by definition); lone surrogates of
         undecodable file names become their `\\udcXX` escapes, which JSON reads back.
@@ -82,7 +85,7 @@ class Document:
         if utf8 and hasattr(self._stream, "reconfigure"):
             self._stream.reconfigure(encoding="utf-8", errors="backslashreplace")
         try:
-            self._stream.write(text)
+            self._stream.writelines(_pieces(text))
             self._stream.flush()
         except OSError as error:
             _abandon(self._stream)
@@ -90,13 +93,17 @@ class Document:
                 raise CannotWrite("standard output", error.strerror) from None
 
 
-def write_file(path: Path, text: str) -> None:
-    """Write UTF-8 to a file; CannotWrite where that fails."""
+def write_file(path: Path, text: str | Sequence[str]) -> None:
+    """Write UTF-8 to a file, one text or its pieces; CannotWrite where that fails."""
     try:
         with path.open("w", encoding="utf-8", errors="backslashreplace", newline="") as stream:
-            stream.write(text)
+            stream.writelines(_pieces(text))
     except OSError as error:
         raise CannotWrite(str(path), error.strerror) from None
+
+
+def _pieces(text: str | Sequence[str]) -> Sequence[str]:
+    return (text,) if isinstance(text, str) else text
 
 
 def _abandon(stream: TextIO) -> None:

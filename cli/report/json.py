@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from json.encoder import encode_basestring
 from typing import TYPE_CHECKING, Any
@@ -13,9 +13,28 @@ if TYPE_CHECKING:
 _STEP = "  "
 
 
-def render(report: Report, *, timings: bool) -> str:
-    """The document and a final newline; without timings it is the same bytes every time."""
-    return document(report.to_dict(timings))
+def render(report: Report, *, timings: bool) -> list[str]:
+    """The document in pieces, final newline included; without timings the same bytes every time.
+
+    Not as one text: the report of a scene can be larger than the scene in memory.
+    """
+    pieces = ["{"]
+    for number, (key, value) in enumerate(report.members(timings)):
+        pieces.append(f"{',' if number else ''}\n{_STEP}{_key(key)}")
+        if isinstance(value, Iterator):
+            pieces += _list_pieces(value, _STEP)
+        else:
+            pieces.append(_text(value, _STEP))
+    pieces.append("\n}\n")
+    return pieces
+
+
+def _list_pieces(members: Iterator[Any], indent: str) -> Iterator[str]:
+    inner = indent + _STEP
+    number = -1
+    for number, member in enumerate(members):
+        yield f"{',' if number else '['}\n{inner}{_text(member, inner)}"
+    yield "[]" if number < 0 else f"\n{indent}]"
 
 
 def document(values: dict[str, Any]) -> str:
