@@ -109,7 +109,7 @@ class _Scan:
 
     def _in_contact(self, end: float) -> float:
         on = self._pair.shallow(self.t, end)
-        if on >= SHORTEST_STEP or self._pair.convex or not self._pair.pair.may("exact"):
+        if on >= SHORTEST_STEP or not self._pair.pair.may("exact"):
             return on
         return self._nudges.safe_time(self.t, end)
 

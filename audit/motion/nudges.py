@@ -6,7 +6,7 @@ for moving A by it ends the overlap: that is what depth means.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import combinations
 
 from satcheck import core
@@ -25,6 +25,8 @@ WALLS = 3
 MOST_WAYS = 8
 # Pairs of triangles that touch, of which the directions are taken; of more than that, of one.
 MOST_MEETING = 100_000
+# Touch bands of motion after which what is about to meet has met.
+AHEAD = 16
 # Decimals to which normals are told apart.
 DIGITS = 6
 # Of the touch band: a nudge that leaves room for rounding, and a shorter one, which what stands on
@@ -73,22 +75,31 @@ class Nudges:
                     yield scaled((x, y, z), length / walls)
 
     def _ways_off(self, t: float, end: float, placed: Pair) -> list[Vector]:
-        """Unit directions in which A may leave B: the most frequent normals of what touches."""
-        surfaces = placed.a.surface(), placed.b.surface()
-        pairs = core.surface_intersection(*surfaces, MOST_MEETING).triangle_pairs
+        """Unit directions in which A may leave B: the most frequent normals of what touches, now
+        or a few bands of motion later, where what has not quite met yet crosses."""
         nearest = self._pair.apart(t, end).triangles
-        if not pairs and nearest is not None:
-            pairs = [nearest]
-        normals: Counter[Vector] = Counter()
-        for triangles in pairs:
-            for body, triangle, way in zip((placed.a, placed.b), triangles, (-1, 1), strict=True):
-                normal = triangle_normal(body, triangle)
-                if normal is not None:
-                    x, y, z = (round(way * c, DIGITS) + 0.0 for c in normal)
-                    normals[x, y, z] += 1
+        normals = _normals(placed, [] if nearest is None else [nearest])
+        speed = self._pair.fastest(t)
+        ahead = min(t + AHEAD * self._pair.tolerance / speed, end) if speed > 0.0 else t
+        for there in (placed, self._pair.placed(ahead)):
+            surfaces = there.a.surface(), there.b.surface()
+            meeting = core.surface_intersection(*surfaces, MOST_MEETING)
+            normals += _normals(there, meeting.triangle_pairs)
         hulls = way_out_of_hulls(placed)
         first = [scaled(hulls.normal, -1.0)] if hulls.upper < self._pair.tolerance else []
         return first + [unit(normal) for normal, _ in normals.most_common(MOST_WAYS)]
+
+
+def _normals(placed: Pair, pairs: Iterable[tuple[int, int]]) -> Counter[Vector]:
+    """Unit normals of these triangles, those of A turned round, and how often they occur."""
+    normals: Counter[Vector] = Counter()
+    for triangles in pairs:
+        for body, triangle, way in zip((placed.a, placed.b), triangles, (-1, 1), strict=True):
+            normal = triangle_normal(body, triangle)
+            if normal is not None:
+                x, y, z = (round(way * c, DIGITS) + 0.0 for c in normal)
+                normals[x, y, z] += 1
+    return normals
 
 
 def _is_step(step: float, t: float, end: float) -> bool:
