@@ -46,7 +46,7 @@ def resolve(
     without any touch band. The sum of the squares of the translations is made small, not least.
 
     pins: selectors of bodies that stay, as in rules; those that the scene calls static or pinned
-    stay too.
+    stay too, and so do the links of robots.
     max_motion: no body is moved farther. iterations: rounds of pushing, after which bodies are
     taken out to free places, wherever these are. progress(done, total) counts pairs.
 
@@ -104,6 +104,8 @@ def proof_of(settings: Settings) -> Settings:
 
 
 def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
+    # A link goes where its joints put it.
+    carried = {part.id for robot in scene.robots for part in robot.bodies}
     selectors = [Selector(pin) for pin in pins]
     for selector in selectors:
         if not any(selector.matches(body.id, body.groups) for body in scene.bodies):
@@ -111,7 +113,10 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     return frozenset(
         body.id
         for body in scene.bodies
-        if body.static or body.pinned or any(pin.matches(body.id, body.groups) for pin in selectors)
+        if body.static
+        or body.pinned
+        or body.id in carried
+        or any(pin.matches(body.id, body.groups) for pin in selectors)
     )
 
 

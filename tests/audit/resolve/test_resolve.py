@@ -42,6 +42,18 @@ def test_a_box_beside_one_that_stays_moves_all_the_way(tmp_path, how) -> None:
     assert found.pinned == ("a",)
 
 
+def test_the_links_of_a_robot_stay(tmp_path) -> None:
+    """A link goes where its joints put it; what it meets makes way."""
+    link = (
+        '<link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>'
+    )
+    (tmp_path / "robot.urdf").write_text(f'<robot name="r">{link}</robot>')
+    found = resolve(load_scene([tmp_path / "robot.urdf", *write(tmp_path, box=unit_box())]))
+    assert found.pinned == ("base",)
+    assert list(moves(found)) == ["box"]
+    assert found.verdict == "resolved"
+
+
 def test_a_box_in_the_corner_of_two_walls_leaves_both(tmp_path) -> None:
     scene = boxes_scene(
         tmp_path,
