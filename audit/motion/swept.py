@@ -35,7 +35,8 @@ def _boxes(bounds: Box, piece: Piece) -> list[Box]:
     count = min(max(math.ceil(turned / STEP), 1), MOST_POSES)
     length = piece.end - piece.start
     radius = max(math.dist(corner, piece.pivot) for corner in _corners(bounds))
-    grown = radius * min((turned / count) ** 2 / 8.0, 2.0)
+    angle = min(turned / count, 4.0)  # radians; no point is farther off than twice the radius
+    grown = radius * angle * angle / 8.0
     times = [piece.start + length * k / count for k in range(count + 1)]
     return [_box(bounds, piece, t, grown) for t in times]
 

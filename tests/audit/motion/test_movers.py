@@ -115,9 +115,24 @@ def test_the_clearance_of_a_rule_holds_on_the_way(tmp_path: Path) -> None:
     assert (finding.severity, finding.rule) == ("error", rule.name)
 
 
-def test_what_stays_open_is_incomplete(tmp_path: Path) -> None:
-    far = Motion(("a",), Translation((1e30, 0.0, 0.0)))
-    report = checked(tmp_path, [far], a=unit_box(), b=unit_box(3.0))
+@pytest.mark.parametrize(
+    "path",
+    [
+        Translation((1e30, 0.0, 0.0)),
+        Translation((1.7e308, 1.7e308, 0.0)),
+        Rotation((1e308, 1e308, 0.0), (0.0, 0.0, 1.0), 1.0),
+        Rotation((0.0, 0.0, 0.0), (1e-308, 1e-320, 1e-310), 1e308),
+        PosePath(
+            (
+                Waypoint(0.0, (0.0, 0.0, 0.0)),
+                Waypoint(5e-324, (5.0, 0.0, 0.0)),
+                Waypoint(1.0, (0.0, 0.0, 0.0)),
+            )
+        ),
+    ],
+)
+def test_what_stays_open_is_incomplete(tmp_path: Path, path) -> None:
+    report = checked(tmp_path, [Motion(("a",), path)], a=unit_box(), b=unit_box(1.25))
     (finding,) = report.findings
     assert (finding.severity, finding.undecided) == ("warning", "motion")
     assert (report.summary.verdict, report.summary.sweeps_undecided) == ("incomplete", 1)
