@@ -31,7 +31,7 @@ ID_DIGITS = 12
 def finding_id(a: str, b: str) -> str:
     """Stable for the two bodies, whatever their order, pose or result."""
     key = "\0".join(sorted((a, b)))
-    return hashlib.sha256(key.encode(errors="surrogateescape")).hexdigest()[:ID_DIGITS]
+    return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
 
 
 def examine(pair: Pair, plan: Plan) -> Finding:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import shutil
 import sys
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ import click
 UNBOUNDED_WIDTH = 100_000
 # A reader that left early: EPIPE, and EINVAL as Windows calls it.
 _READER_LEFT = (errno.EPIPE, errno.EINVAL)
+_COLOUR = re.compile(r"(\x1b\[[0-9;]*m)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +39,7 @@ def talk(line: str) -> None:
     if sys.stderr is None:
         return
     encoding = sys.stderr.encoding or "ascii"
+    line = "\n".join(map(harmless, line.split("\n")))
     with contextlib.suppress(OSError, ValueError):
         sys.stderr.write(line.encode(encoding, "backslashreplace").decode(encoding) + "\n")
         sys.stderr.flush()
@@ -91,6 +94,20 @@ class Document:
             _abandon(self._stream)
             if error.errno not in _READER_LEFT:
                 raise CannotWrite("standard output", error.strerror) from None
+
+
+def harmless(line: str, *, colour: bool = False) -> str:
+    """A line without what a terminal obeys instead of showing it, colours aside where they are
+    wanted: names of bodies and files can hold any character, and must not rewrite a verdict."""
+    if line.isprintable():
+        return line
+    pieces = _COLOUR.split(line) if colour else [line]
+    return "".join(
+        piece
+        if number % 2
+        else "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in piece)
+        for number, piece in enumerate(pieces)
+    )
 
 
 def write_file(path: Path, text: str | Sequence[str]) -> None:

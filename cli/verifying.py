@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from satcheck.cli import exit_codes
-from satcheck.cli.output import Document, talk
+from satcheck.cli.output import Document, harmless, talk
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ def _table(found: Verification) -> str:
     lines = [_line(finding) for finding in found.findings if finding.outcome != "accepted"]
     lines += [f"rejected: {fault}" for fault in found.faults]
     lines.append(_summary(found))
-    return "\n".join(lines) + "\n"
+    return "".join(f"{harmless(line)}\n" for line in lines)
 
 
 def _line(finding: Checked) -> str:

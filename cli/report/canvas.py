@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
+from satcheck.cli.output import harmless
+
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
 
@@ -30,4 +32,5 @@ class Canvas(Console):
 
     def text(self) -> str:
         """All of it, without blanks at the ends of lines; final newline included."""
-        return "".join(f"{line.rstrip()}\n" for line in self._written.getvalue().splitlines())
+        lines = self._written.getvalue().removesuffix("\n").split("\n")
+        return "".join(f"{harmless(line, colour=not self.no_color).rstrip()}\n" for line in lines)

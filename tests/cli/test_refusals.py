@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -164,5 +165,15 @@ def test_a_name_that_is_no_utf8_is_only_a_name(tmp_path: Path) -> None:
     for name in ("a.off", odd):
         (tmp_path / name).write_bytes((SAMPLES / "cube.off").read_bytes())
     done = satcheck("a.off", odd, "--format", "json", cwd=tmp_path)
+    assert done.code == 1
+    assert done.document["findings"][0]["relation"] == "coincident"
+
+
+def test_an_id_that_is_no_unicode_is_only_an_id(tmp_path: Path) -> None:
+    box = {"type": "box", "size": [1, 1, 1]}
+    bodies = [{"id": "\ud800", "shape": box}, {"id": "b", "shape": box}]
+    scene = {"schema": "satcheck.scene/1", "bodies": bodies}
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    done = satcheck("scene.json", "--format", "json", cwd=tmp_path)
     assert done.code == 1
     assert done.document["findings"][0]["relation"] == "coincident"

@@ -256,3 +256,12 @@ def test_pairs_of_an_unreadable_body_are_no_rows() -> None:
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     assert "file-not-found" not in text
     assert "gone: could not be used, its 1 pair not checked" in text
+
+
+@pytest.mark.parametrize("colour", [False, True])
+@pytest.mark.parametrize("name", ["a\x1b[2A\x1b[2K", "\u202eb", "c\x0b\x85d", "\ud800"])
+def test_a_name_gives_a_terminal_no_orders(name: str, colour: bool) -> None:
+    page = replace(PLAIN_PAGE, colour=colour)
+    lines = ESCAPES.sub("", shown(replace(PENETRATING, a=name), page=page)).split("\n")
+    assert all(line.isprintable() for line in lines)
+    assert any("\N{REPLACEMENT CHARACTER}" in line for line in lines)
