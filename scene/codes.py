@@ -67,6 +67,7 @@ _ALL = (
     # The robot: URDF, SRDF and the values of joints.
     Code("bad-robot", "error", "The URDF or SRDF is not what its format prescribes."),
     Code("xacro", "error", "The file is xacro, and has to be expanded first."),
+    Code("other-robot", "warning", "The SRDF has the name of another robot than the only one."),
     Code("unknown-element", "warning", "An element unknown to the format was ignored."),
     Code("no-collision-geometry", "note", "Links with visual geometry alone have no body."),
     Code("neighbours-checked", "note", "Links that a joint connects are checked as well."),

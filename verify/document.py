@@ -117,7 +117,7 @@ class _Report:
         self.rules = Rules(document, self.bodies)
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
-        self.listed_apart = 0  # of these, pairs that are apart by their boxes
+        self.listed_apart = 0  # of these, pairs that may be apart by their boxes
         self.faults = [
             f"{body.id}: {body.reason}" for body in placed if body.claims and body.reason
         ]
@@ -151,7 +151,8 @@ class _Report:
         if entry.get("motion") is not None:
             raise Rejected("what happens while bodies move is not certified")
         asked = self.asked_of(a, b)
-        self.listed_apart += _boxes_apart(a, b, asked)
+        unknown = any(body.claims and body.world is None for body in (a, b))
+        self.listed_apart += unknown or _boxes_apart(a, b, asked)
         if entry.get("relation") == "indeterminate":
             claims = (entry.get(key) for key in ("severity", "undecided", "certificate"))
             if tuple(claims) != ("warning", "relation", None):

@@ -138,7 +138,7 @@ def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
             if reason is not None:
                 for pair in product(robot.bodies_of(a), robot.bodies_of(b)):
                     allowed.append(_allowed(pair, reason, robot.srdf.file))
-    return allowed, [*_unknown_links(robot), *_checked_neighbours(robot)]
+    return allowed, [*_other_name(robot), *_unknown_links(robot), *_checked_neighbours(robot)]
 
 
 def _allowed(pair: tuple[str, str], reason: str, file: str) -> Rule:
@@ -208,6 +208,14 @@ def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | Mesh
         case UnknownShape(reason):
             return MeshFileError("unsupported-feature", reason)
     return collision.geometry
+
+
+def _other_name(robot: SceneRobot) -> list[Issue]:
+    srdf, name = robot.srdf, robot.robot.name
+    if srdf is None or srdf.robot == name:
+        return []
+    message = f"it is about robot {srdf.robot!r}, and taken to be about {name!r}"
+    return [issue("other-robot", message, file=srdf.file)]
 
 
 def _unknown_links(robot: SceneRobot) -> list[Issue]:

@@ -131,7 +131,7 @@ def test_a_mirrored_mesh_is_a_solid_the_right_way_round() -> None:
 def test_an_srdf_belongs_to_the_robot_of_its_name_or_to_the_only_one(tmp_path: Path) -> None:
     other = '<robot name="other"><disable_collisions link1="a" link2="x" reason="Never"/></robot>'
     scene = load(tmp_path, link("a"), srdf=other)
-    assert codes(scene) == ["unknown-body"]
+    assert codes(scene) == ["other-robot", "unknown-body"]
     srdf = tmp_path / "r.srdf"
     with pytest.raises(SceneFileError, match="about robot 'other', which is not here"):
         load_scene([ARM[0], tmp_path / "r.urdf", srdf])
