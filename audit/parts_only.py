@@ -13,7 +13,7 @@ from satcheck.audit.boxes import largest_coordinate
 from satcheck.audit.inner_bodies import deepest_pair
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
-from satcheck.audit.parts import Covering, covering, inner_parts
+from satcheck.audit.parts import Covering, covering, inner_parts, split_together
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Relation
 from satcheck.audit.tolerances import rounding_pad
@@ -25,6 +25,7 @@ def settle_by_parts(pair: Pair, plan: Plan) -> Contact:
     if not pair.both_solid:
         plan.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
         return Contact("penetrating", False)
+    split_together(pair)
     covers = [covering(body, plan) for body in (pair.a, pair.b)]
     if covers[0] is None or covers[1] is None:
         plan.record("parts", "failed", "see the issues")

@@ -13,7 +13,7 @@ from satcheck.cli.commands.options import HELP_NAMES
 
 DEFAULT_COMMAND = "check"
 # Each is `command` in the module of its name in cli/commands/, imported when it is called.
-COMMANDS = ("cache", "resolve", "schema", "stability", "suggest", "verify")
+COMMANDS = ("cache", "resolve", "schema", "stability", "suggest", "tradeoff", "verify")
 
 
 def meant(word: str) -> str | None:

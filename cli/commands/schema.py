@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import click
 
-DOCUMENTS = ("report", "resolution", "samples", "scene", "stability", "suggestions")
+DOCUMENTS = ("report", "resolution", "samples", "scene", "stability", "suggestions", "tradeoff")
 
 
 @click.command("schema")
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def command(document: str) -> None:
     """Print the JSON Schema of a report: of a check, of resolve, of robots in many poses, of
-    stability, of suggestions; or that of a scene file."""
+    stability, of suggestions, of tradeoff; or that of a scene file."""
     from satcheck.cli.report.schema import text
 
     click.echo(text(document), nl=False)

@@ -27,11 +27,12 @@ def test_help_advertises_what_exists() -> None:
         "Exit codes",
         "satcheck stability",
         "satcheck suggest",
+        "satcheck tradeoff",
         "satcheck verify",
         "_SATCHECK_COMPLETE",
     ):
         assert word in ran.out
-    for later in ("batch", "tradeoff", "view"):
+    for later in ("batch", "view"):
         assert f"satcheck {later}" not in ran.out
 
 

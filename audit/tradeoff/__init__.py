@@ -1,0 +1,24 @@
+"""satcheck.audit.tradeoff: what accuracy costs in time.
+
+Each rung of the ladder is asked about the same pair and held against what the exact one proves.
+"""
+
+from __future__ import annotations
+
+from satcheck.audit.tradeoff.figure import Figure, Truth
+from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, Times, Tradeoff
+from satcheck.audit.tradeoff.rungs import RUNGS, Rung
+from satcheck.audit.tradeoff.tradeoff import tradeoff
+
+__all__ = [
+    "RUNGS",
+    "Figure",
+    "PairTradeoff",
+    "Picked",
+    "Row",
+    "Rung",
+    "Times",
+    "Tradeoff",
+    "Truth",
+    "tradeoff",
+]

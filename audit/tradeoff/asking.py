@@ -1,0 +1,146 @@
+"""One rung asked about one pair, once, with what it took."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from satcheck.audit.finding import examine
+from satcheck.audit.ladder import Contact, settle
+from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
+from satcheck.audit.planner import asked_by
+from satcheck.audit.report import Finding
+from satcheck.audit.roster import Known
+from satcheck.audit.settings import Settings
+from satcheck.audit.tolerances import rounding_pad
+from satcheck.audit.tradeoff.memory import ChildMemory
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import Body
+
+if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
+
+Bodies = tuple[Body, Body]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """The answer of a ladder.
+
+    contact: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
+    can make of a length here. seconds: from the meshes in memory to the finding, hulls and
+    hierarchies made anew; reading the files is not in it. hulls: how many convex bodies stood for A
+    and for B, where hulls answered. split: convex parts were asked for; from_cache: and found
+    there. megabytes: of the child that made them. failure: why there are none.
+    """
+
+    finding: Finding
+    contact: Contact
+    pad: float
+    seconds: float
+    hulls: tuple[int, int] | None
+    split: bool = False
+    from_cache: bool = False
+    megabytes: float | None = None
+    failure: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """The volume in common, and about how far it is off.
+
+    cold: seconds with the start of the child process; cached: when it runs already.
+    """
+
+    volume: float
+    error: float
+    cold: float
+    cached: float
+    megabytes: float | None
+
+
+def ask(bodies: Bodies, settings: Settings) -> Asked:
+    """As far up the ladder as the settings let it, nothing known from before."""
+    start = perf_counter()
+    pair, plan = _pair(bodies, settings), Plan()
+    finding = examine(pair, plan)
+    seconds = perf_counter() - start
+    stages = {stage.stage for stage in finding.plan}
+    contact = settle(pair, Plan())
+    return Asked(
+        finding, contact, rounding_pad(pair.largest_coordinate), seconds, _one_each(stages)
+    )
+
+
+def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
+    """The same of a ladder that ends with convex parts."""
+    with ChildMemory() as memory:
+        start = perf_counter()
+        pair, plan = _pair(bodies, settings), Plan()
+        finding = examine(pair, plan)
+        seconds = perf_counter() - start
+    stages = {stage.stage for stage in finding.plan}
+    known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
+    made = [one for one in known if one is not None]
+    parts = [one for one in made if not isinstance(one, SatcheckError)]
+    failures = [str(one) for one in made if isinstance(one, SatcheckError)]
+    hulls = _one_each(stages)
+    if made and not failures:
+        a, b = (
+            1 if one is None or isinstance(one, SatcheckError) else len(one.parts) for one in known
+        )
+        hulls = (a, b)
+    return Asked(
+        finding,
+        settle(pair, Plan()),
+        rounding_pad(pair.largest_coordinate),
+        seconds,
+        hulls,
+        split=bool(made),
+        from_cache=bool(parts) and all(one.from_cache for one in parts),
+        megabytes=memory.megabytes if made else None,
+        failure=failures[0] if failures else None,
+    )
+
+
+def ask_volume(bodies: Bodies, settings: Settings) -> Measured | str:
+    """Of the Boolean of manifold3d, in a child process of its own; or why there is none."""
+    from satcheck.core.overlap_volume import VolumeMeter
+
+    times: list[float] = []
+    volume = error = 0.0
+    seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
+    with ChildMemory() as memory, VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
+        for _ in ("cold", "cached"):
+            start = perf_counter()
+            found = _volume(_pair(bodies, settings, meter))
+            times.append(perf_counter() - start)
+            if isinstance(found, str):
+                return found
+            volume, error = found
+        memory.look()
+    return Measured(volume, error, times[0], times[1], memory.megabytes)
+
+
+def _volume(pair: Pair) -> tuple[float, float] | str:
+    from satcheck.audit.volume import common_volume
+
+    if pair.curved:
+        return "a curved shape has no triangles"
+    found = common_volume(pair, Contact("penetrating", False), Plan())
+    if found.volume is None or found.error is None:
+        return found.refusal or "no volume"
+    return found.volume, found.error
+
+
+def _pair(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) -> Pair:
+    known = Known()
+    a, b = (known.place(body, settings, None) for body in bodies)
+    return Pair(a, b, settings, asked_by(settings), meter)
+
+
+def _one_each(stages: set[str]) -> tuple[int, int] | None:
+    """Where the hulls of the whole meshes answered."""
+    return (1, 1) if "hull" in stages and "triangles" not in stages else None

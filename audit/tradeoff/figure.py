@@ -1,0 +1,90 @@
+"""Signed distances: what a rung says, what is proven, and how far the two are apart.
+
+Signed distance: > 0 a gap, < 0 an overlap, as deep as the shortest translation that ends it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from satcheck.audit.ladder import Contact
+from satcheck.audit.report import OVERLAPS, Finding, Relation
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """value: the figure a rung gives. low, high: what it leaves open; None: no bound."""
+
+    value: float
+    low: float | None
+    high: float | None
+
+    @property
+    def width(self) -> float | None:
+        return None if self.low is None or self.high is None else self.high - self.low
+
+
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """What the exact rung has proven; relation, figure: None where it has not, reason says why.
+
+    pad: what the rounding of a coordinate can make of a length.
+    """
+
+    relation: Relation | None
+    figure: Figure | None
+    pad: float
+    reason: str | None = None
+
+    def error(self, said: Figure | None) -> float | None:
+        """The figure minus the nearest signed distance that is possible; 0.0 within rounding.
+        Negative: closer or deeper than the bodies are."""
+        if said is None or self.figure is None:
+            return None
+        low, high = self.figure.low, self.figure.high
+        if low is None or high is None:
+            return None
+        nearest = min(max(said.value, low), high)
+        error = said.value - nearest
+        return 0.0 if abs(error) <= self.pad else error
+
+    def is_right(self, overlap: bool | None, relation: Relation | None) -> bool | None:
+        """Whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
+        `inside` and `coincident` are overlaps like any. relation: None where only that is said."""
+        if self.relation is None or overlap is None:
+            return None
+        if overlap != (self.relation in OVERLAPS):
+            return False
+        return overlap or relation in (None, self.relation)
+
+
+def figure_of(finding: Finding, contact: Contact) -> Figure | None:
+    """contact: of the same ladder, for what it proves and nobody asked to report."""
+    if finding.depth_bounds is not None:
+        low, high = finding.depth_bounds
+        # An overlap that is not proven may be a gap, of any width.
+        return Figure(-high + 0.0, -high + 0.0, -low + 0.0 if contact.proven else None)
+    if contact.convex is not None and contact.convex.distance is not None:
+        return Figure(contact.convex.distance, contact.convex.lower, contact.convex.upper)
+    if finding.distance is not None:
+        return Figure(finding.distance, finding.distance, finding.distance)
+    if contact.relation == "separated":
+        return Figure(contact.gap_lower, contact.gap_lower if contact.proven else None, None)
+    if contact.relation == "touching":
+        return Figure(0.0, 0.0, 0.0)
+    band = finding.tolerance
+    return None if finding.relation != "touching" or band is None else Figure(0.0, -band, None)
+
+
+def truth_of(finding: Finding, figure: Figure | None, pad: float) -> Truth:
+    relation = plain(finding.relation)
+    if finding.exact_relation is None or finding.undecided in ("relation", "inside"):
+        return Truth(None, None, pad, finding.reason or "the exact rung has not proven it")
+    known = figure is not None and figure.width is not None and math.isfinite(figure.width)
+    return Truth(relation, figure if known else None, pad, finding.reason)
+
+
+def plain(relation: Relation) -> Relation:
+    """Without the clearance that is asked only to have the gap measured."""
+    return "separated" if relation == "near" else relation

@@ -1,0 +1,254 @@
+"""Every rung of the ladder on one pair, in turn, as often as the budget allows."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import tempfile
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from time import monotonic
+
+from satcheck.audit.report import OVERLAPS, Stage
+from satcheck.audit.settings import Settings
+from satcheck.audit.tradeoff.asking import Asked, Bodies, Measured, ask, ask_parts, ask_volume
+from satcheck.audit.tradeoff.figure import Truth, figure_of, plain, truth_of
+from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, State, Times, with_front
+from satcheck.audit.tradeoff.rungs import BOOLEAN, EXACT, IN_TURN, RUNGS, Rung
+
+SPENT = "budget"
+# What one run of convex parts may take whatever the budget: the default of a check.
+PART_SECONDS = Settings().part_seconds
+# Stages of a plan that are rungs, and how they are called here.
+STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "triangles": "exact"}
+CURVED = "curved"
+
+
+class Budget:
+    """Wall-clock seconds for a whole run."""
+
+    def __init__(self, seconds: float) -> None:
+        self.seconds = seconds
+        self._start = monotonic()
+
+    @property
+    def spent(self) -> float:
+        return monotonic() - self._start
+
+    @property
+    def left(self) -> float:
+        return self.seconds - self.spent
+
+
+@dataclass(slots=True)
+class Gauge:
+    """What has been seen of a rung so far."""
+
+    rung: Rung
+    state: State = "not run"
+    reason: str | None = SPENT
+    answer: Asked | Measured | None = None
+    cold: list[float] = field(default_factory=list)
+    cached: list[float] = field(default_factory=list)
+    megabytes: float | None = None
+    longest: float = 0.0
+
+    @property
+    def wants_more(self) -> bool:
+        """It has answered, or has not been asked."""
+        return self.state == "answered" or self.reason == SPENT
+
+    def fail(self, reason: str) -> None:
+        self.state, self.reason = "failed", reason
+
+    def saw(self, answer: Asked | Measured, cold: float, cached: float | None) -> None:
+        self.state, self.reason = "answered", None
+        self.answer = self.answer or answer
+        self.cold.append(cold)
+        if cached is not None:
+            self.cached.append(cached)
+        if answer.megabytes is not None:
+            self.megabytes = max(self.megabytes or 0.0, answer.megabytes)
+
+
+def measure(
+    bodies: Bodies, repeat: int, budget: Budget, told: Callable[[], None] | None = None
+) -> PairTradeoff:
+    """repeat: runs of each rung; what does not fit the budget is left away, and said.
+
+    Rungs take turns, so that what slows the machine down for a while slows all of them. Convex
+    parts run cold with an empty cache of their own, then with what they have left in it; the cache
+    of the user is neither read nor written. told: called after each run.
+    """
+    a, b = (body.id for body in bodies)
+    gauges = {rung: Gauge(rung) for rung in IN_TURN}
+    plainly = _plain_check(bodies, budget)
+    apart = plainly is not None and plainly.finding.relation not in OVERLAPS
+    for _ in range(repeat):
+        _warm_up(bodies, budget)
+        for gauge in gauges.values():
+            if gauge.wants_more and budget.left > gauge.longest:
+                _run(gauge, bodies, budget, apart=apart)
+            if told is not None:
+                told()
+    truth = _truth(gauges[EXACT])
+    rows = [_row(gauges[rung], truth) for rung in RUNGS]
+    picked = None if plainly is None else _picked(plainly.finding.plan)
+    return PairTradeoff(a, b, truth, picked, with_front(rows))
+
+
+def _plain_check(bodies: Bodies, budget: Budget) -> Asked | None:
+    """What `satcheck A B` finds; None where the budget is spent, or the exact rung will fail."""
+    if budget.left <= 0:
+        return None
+    try:
+        _import_early()
+        return ask(bodies, Settings(depth=True))
+    except Exception:  # noqa: BLE001 the row of the rung will say it
+        return None
+
+
+def _warm_up(bodies: Bodies, budget: Budget) -> None:
+    """A question that is not counted: after a child process the next one is slower."""
+    if budget.left > 0:
+        with suppress(Exception):  # the row of the rung will say it
+            ask(bodies, Settings(depth=True, accuracy="hull"))
+
+
+def _import_early() -> None:
+    """What the first question imports is no cost of the rung that asks it."""
+    import satcheck.core.overlap_volume
+    import satcheck.decompose.computation  # noqa: F401
+
+
+def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
+    start = budget.spent
+    try:
+        if gauge.rung == BOOLEAN:
+            _run_boolean(gauge, bodies, budget)
+        elif gauge.rung.threshold is not None:
+            _run_parts(gauge, bodies, budget)
+        else:
+            answer = ask(bodies, _settings(gauge.rung, bodies, apart=apart))
+            gauge.saw(answer, answer.seconds, None)
+    except Exception as error:  # noqa: BLE001 a rung that fails is a row that says so
+        gauge.fail(f"internal error: {type(error).__name__}: {error}")
+    gauge.longest = max(gauge.longest, budget.spent - start)
+
+
+def _settings(rung: Rung, bodies: Bodies, *, apart: bool) -> Settings:
+    """The exact rung is asked for the gap of bodies that are apart, by a clearance beyond any; the
+    others say what their test has shown."""
+    assert rung.accuracy is not None
+    settings = Settings(depth=True, accuracy=rung.accuracy)
+    if not apart or rung != EXACT:
+        return settings
+    corners = [corner for body in bodies for corner in body.world_mesh().bounds]
+    largest = max(abs(c) for corner in corners for c in corner)
+    return replace(settings, clearance=math.ldexp(1.0, math.frexp(largest)[1] + 2))
+
+
+def _run_parts(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
+    threshold = gauge.rung.threshold
+    assert threshold is not None
+    limit = min(PART_SECONDS, budget.left)
+    with ExitStack() as stack:
+        folder = Path(tempfile.mkdtemp(prefix="satcheck-tradeoff-"))
+        stack.callback(shutil.rmtree, folder, ignore_errors=True)
+        settings = Settings(
+            depth=True,
+            accuracy="parts",
+            part_threshold=threshold,
+            part_seconds=limit,
+            cache_directory=str(folder),
+        )
+        cold = ask_parts(bodies, settings)
+        if cold.failure is not None:
+            _fail_parts(gauge, cold, limit)
+            return
+        cached = ask_parts(bodies, settings) if cold.split else None
+    reread = cached is not None and cached.from_cache
+    gauge.saw(cold, cold.seconds, cached.seconds if cached is not None and reread else None)
+
+
+def _fail_parts(gauge: Gauge, asked: Asked, limit: float) -> None:
+    if limit < PART_SECONDS and asked.seconds >= limit:
+        if gauge.state != "answered":
+            gauge.reason = f"{SPENT}: stopped after {limit:.3g} s"
+        gauge.longest = math.inf
+        return
+    assert asked.failure is not None
+    gauge.fail(asked.failure)
+
+
+def _run_boolean(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
+    settings = Settings()
+    seconds = min(settings.volume_seconds, budget.left)
+    found = ask_volume(bodies, replace(settings, volume_seconds=seconds))
+    if isinstance(found, str):
+        gauge.fail(found)
+    else:
+        gauge.saw(found, found.cold, found.cached)
+
+
+def _truth(exact: Gauge) -> Truth:
+    answer = exact.answer
+    if not isinstance(answer, Asked):
+        return Truth(None, None, 0.0, f"the exact rung was not run: {exact.reason}")
+    return truth_of(answer.finding, figure_of(answer.finding, answer.contact), answer.pad)
+
+
+def _row(gauge: Gauge, truth: Truth) -> Row:
+    row = Row(
+        rung=gauge.rung,
+        state=gauge.state,
+        reason=gauge.reason,
+        cold=Times(tuple(gauge.cold)) if gauge.cold else None,
+        cached=Times(tuple(gauge.cached)) if gauge.cached else None,
+        megabytes=gauge.megabytes,
+    )
+    answer = gauge.answer
+    if gauge.state != "answered" or answer is None:
+        return row
+    if isinstance(answer, Measured):
+        return _with_volume(row, answer, truth)
+    finding = answer.finding
+    relation = plain(finding.relation)
+    overlap = None if relation == "indeterminate" else relation in OVERLAPS
+    figure = figure_of(finding, answer.contact)
+    return replace(
+        row,
+        overlap=overlap,
+        relation=relation,
+        proven=finding.exact_relation is not None,
+        right=truth.is_right(overlap, relation),
+        figure=figure,
+        error=truth.error(figure),
+        hulls=answer.hulls,
+        reason=finding.reason if relation == "indeterminate" else None,
+    )
+
+
+def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
+    """A volume within its own error says nothing, except that there is none to be seen."""
+    overlap = None if 0 < answer.volume <= answer.error else answer.volume > 0
+    return replace(
+        row,
+        overlap=overlap,
+        right=truth.is_right(overlap, None),
+        volume=answer.volume,
+        volume_error=answer.error,
+    )
+
+
+def _picked(plan: tuple[Stage, ...]) -> Picked:
+    """The last stage that is a rung settled it; those before say why they could not."""
+    climbed = [stage for stage in plan if stage.stage in STAGES or stage.stage == CURVED]
+    why = "; ".join(
+        f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
+        for stage in climbed
+    )
+    last = climbed[-1].stage if climbed else "none"
+    return Picked(STAGES.get(last, last), why)

@@ -1,0 +1,177 @@
+"""What accuracy costs in time: plain frozen data, `satcheck.tradeoff/1`, and its way into JSON."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from statistics import median
+from typing import Any, Literal
+
+from satcheck.audit.report import OVERLAPS, Relation, Tool
+from satcheck.audit.tradeoff.figure import Figure, Truth
+from satcheck.audit.tradeoff.pareto import front
+from satcheck.audit.tradeoff.rungs import Rung
+
+SCHEMA = "satcheck.tradeoff/1"
+
+State = Literal["answered", "failed", "not run"]
+
+
+@dataclass(frozen=True, slots=True)
+class Times:
+    """Seconds of every run, in the order in which they ran; one at least."""
+
+    runs: tuple[float, ...]
+
+    @property
+    def median(self) -> float:
+        return median(self.runs)
+
+    def to_dict(self) -> dict[str, Any]:
+        low, high = min(self.runs), max(self.runs)
+        micro = {"median": self.median, "low": low, "high": high}
+        return {key: 1e6 * value for key, value in micro.items()} | {"runs": len(self.runs)}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """A rung and what came of it.
+
+    reason: why it failed or was not run. overlap: None where it cannot say. relation: None for the
+    Boolean, which knows only whether there is a volume in common. proven: it has proven its
+    relation. right: held against the truth; None: one of the two is not known. figure: the signed
+    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. cold: nothing
+    kept from before; cached: with the parts on disk, or the child process running. megabytes: peak
+    of the child process, in MiB. on_front: of error against time.
+    """
+
+    rung: Rung
+    state: State
+    reason: str | None = None
+    overlap: bool | None = None
+    relation: Relation | None = None
+    proven: bool = False
+    right: bool | None = None
+    figure: Figure | None = None
+    error: float | None = None
+    volume: float | None = None
+    volume_error: float | None = None
+    hulls: tuple[int, int] | None = None
+    cold: Times | None = None
+    cached: Times | None = None
+    megabytes: float | None = None
+    on_front: bool = False
+
+    @property
+    def time(self) -> float | None:
+        return None if self.cold is None else self.cold.median
+
+    @property
+    def size_of_error(self) -> float | None:
+        return None if self.error is None else abs(self.error)
+
+    @property
+    def standing(self) -> int:
+        """0: proven, 1: a guess that is right, or nobody knows, 2: wrong."""
+        if self.right is False:
+            return 2
+        return 0 if self.proven else 1
+
+    def to_dict(self) -> dict[str, Any]:
+        figure = self.figure
+        return {
+            "rung": self.rung.name,
+            "threshold": self.rung.threshold,
+            "state": self.state,
+            "reason": self.reason,
+            "overlap": self.overlap,
+            "relation": self.relation,
+            "proven": self.proven,
+            "right": self.right,
+            "distance": None if figure is None else figure.value,
+            "bounds": None if figure is None else [figure.low, figure.high],
+            "width": None if figure is None else figure.width,
+            "error": self.error,
+            "volume": self.volume,
+            "volume_error": self.volume_error,
+            "hulls": None if self.hulls is None else list(self.hulls),
+            "cold": None if self.cold is None else self.cold.to_dict(),
+            "cached": None if self.cached is None else self.cached.to_dict(),
+            "peak_megabytes": self.megabytes,
+            "pareto": self.on_front,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Picked:
+    """The rung by which a plain check settles the relation, and what each step before it said."""
+
+    rung: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class PairTradeoff:
+    """picked: None where the budget was spent before anything ran."""
+
+    a: str
+    b: str
+    truth: Truth
+    picked: Picked | None
+    rows: tuple[Row, ...]
+
+    @property
+    def overlap(self) -> bool | None:
+        return None if self.truth.relation is None else self.truth.relation in OVERLAPS
+
+    def to_dict(self) -> dict[str, Any]:
+        truth, figure = self.truth, self.truth.figure
+        return {
+            "a": self.a,
+            "b": self.b,
+            "truth": {
+                "relation": truth.relation,
+                "bounds": None if figure is None else [figure.low, figure.high],
+                "reason": truth.reason,
+            },
+            "default": None
+            if self.picked is None
+            else {"rung": self.picked.rung, "why": self.picked.why},
+            "rungs": [row.to_dict() for row in self.rows],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Tradeoff:
+    """left_out: how many more pairs have boxes that meet. spent: seconds."""
+
+    tool: Tool
+    units: str | None
+    repeat: int
+    budget: float
+    spent: float
+    pairs: tuple[PairTradeoff, ...]
+    left_out: int
+
+    @property
+    def complete(self) -> bool:
+        """Every rung of every pair has answered, and the truth is known."""
+        return all(
+            pair.truth.relation is not None and all(row.state == "answered" for row in pair.rows)
+            for pair in self.pairs
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        return {
+            "schema": SCHEMA,
+            "tool": {"name": self.tool.name, "version": self.tool.version},
+            "units": self.units,
+            "settings": {"repeat": self.repeat, "budget": self.budget},
+            "seconds": self.spent,
+            "left_out": self.left_out,
+            "pairs": [pair.to_dict() for pair in self.pairs],
+        }
+
+
+def with_front(rows: list[Row]) -> tuple[Row, ...]:
+    marks = front(rows)
+    return tuple(replace(row, on_front=mark) for row, mark in zip(rows, marks, strict=True))

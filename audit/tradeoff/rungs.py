@@ -1,0 +1,44 @@
+"""What a pair is asked by, from the cheapest to the dearest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from satcheck.audit.settings import Accuracy
+
+
+@dataclass(frozen=True, slots=True)
+class Rung:
+    """accuracy: where the ladder ends; None: the Boolean, which is no rung of it.
+
+    threshold: of the convex parts, see satcheck.decompose; None for the other rungs.
+    """
+
+    name: str
+    accuracy: Accuracy | None
+    threshold: float | None = None
+
+    @property
+    def label(self) -> str:
+        """`hull`, `parts 0.05`."""
+        return self.name if self.threshold is None else f"{self.name} {self.threshold:g}"
+
+
+EXACT = Rung("exact", "exact")
+BOOLEAN = Rung("boolean", None)
+THRESHOLDS = (0.5, 0.2, 0.1, 0.05, 0.02, 0.01)
+# In the order in which they are shown, ...
+RUNGS = (
+    Rung("aabb", "aabb"),
+    Rung("obb", "obb"),
+    Rung("hull", "hull"),
+    *(Rung("parts", "parts", threshold) for threshold in THRESHOLDS),
+    EXACT,
+    BOOLEAN,
+)
+# ... and in which they run: the proof first, then what is cheap, so that a budget ends the rest.
+IN_TURN = (
+    EXACT,
+    *(rung for rung in RUNGS if rung.name not in ("parts", "exact")),
+    *(rung for rung in RUNGS if rung.name == "parts"),
+)

@@ -1,0 +1,61 @@
+"""Which pairs of a scene are measured, one after another, within one budget."""
+
+from __future__ import annotations
+
+from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.check import Progress
+from satcheck.audit.planner import Planner
+from satcheck.audit.roster import place
+from satcheck.audit.settings import Settings
+from satcheck.audit.summary import tool
+from satcheck.audit.tradeoff.asking import Bodies
+from satcheck.audit.tradeoff.measure import Budget, measure
+from satcheck.audit.tradeoff.result import PairTradeoff, Tradeoff
+from satcheck.audit.tradeoff.rungs import RUNGS
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import Scene
+
+
+def tradeoff(
+    scene: Scene,
+    *,
+    repeat: int = 5,
+    budget: float = 60.0,
+    pairs: int = 10,
+    progress: Progress | None = None,
+) -> Tradeoff:
+    """Every rung on the two bodies of the scene, or on the first pairs whose boxes meet.
+
+    repeat: runs of each rung. budget: seconds for everything after the files are read. pairs: at
+    most so many. Bodies stand as the scene places them. progress(done, total) counts runs.
+    Raises SatcheckError (`no-pair`) where no boxes meet.
+    """
+    clock = Budget(budget)
+    met = _pairs(scene)
+    if not met:
+        raise SatcheckError("no-pair", "no two bodies have boxes that meet: nothing to compare")
+    done, total = 0, min(len(met), pairs) * repeat * len(RUNGS)
+
+    def told() -> None:
+        nonlocal done
+        done += 1
+        if progress is not None:
+            progress(done, total)
+
+    found: list[PairTradeoff] = []
+    for bodies in met[:pairs]:
+        found.append(measure(bodies, repeat, clock, told))
+    return Tradeoff(
+        tool(), scene.units, repeat, budget, clock.spent, tuple(found), len(met) - len(found)
+    )
+
+
+def _pairs(scene: Scene) -> list[Bodies]:
+    """Of two bodies the pair, wherever they are; of more the asked ones whose boxes meet."""
+    if len(scene.bodies) == 2:
+        a, b = scene.bodies
+        return [(a, b)]
+    settings = Settings()
+    roster = place(scene, settings)
+    close = close_pairs(roster, Planner(settings, roster.book, scene.composed))
+    return [(roster.placed[i].body, roster.placed[j].body) for i, j in close]

@@ -1,0 +1,73 @@
+"""`satcheck tradeoff A B`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from satcheck.cli.commands.options import (
+    HELP_NAMES,
+    debug_option,
+    form_of,
+    form_option,
+    output_option,
+    outside_option,
+    paths_argument,
+    split_option,
+)
+
+
+@click.command("tradeoff", context_settings=HELP_NAMES)
+@paths_argument("A B", -1)
+@click.option(
+    "--repeat",
+    type=click.IntRange(min=1),
+    metavar="N",
+    default=5,
+    show_default=True,
+    help="How often each rung is asked; the rungs take turns.",
+)
+@click.option(
+    "--budget",
+    type=click.FloatRange(min=0, min_open=True),
+    metavar="SECONDS",
+    default=60.0,
+    show_default=True,
+    help="For the whole run. Rungs that do not fit are shown as not run.",
+)
+@click.option(
+    "--pairs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    default=10,
+    show_default=True,
+    help="Of a scene: at most so many of the pairs whose boxes meet.",
+)
+@click.option(
+    "--plot",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Draw error against time: FILE.svg, or FILE.html.",
+)
+@form_option
+@output_option
+@split_option
+@outside_option
+@debug_option
+def command(debug: bool, **options: Any) -> int:
+    """What accuracy costs in time: every rung of the ladder on one pair.
+
+    Boxes, oriented boxes, hulls, convex parts from coarse to fine, triangles and the Boolean of
+    manifold3d answer about the same bodies. Each answer is held against what the triangles prove.
+    A and B are mesh files, or a scene.
+
+    Exit codes: 0, every rung has answered; 2, wrong usage, an unreadable input, or an internal
+    error; 3, a rung failed or was not run, or the truth is not known.
+    """
+    from satcheck.cli.tradeoff import Choices, run
+
+    del debug
+    options["form"] = form_of(options["form"], options["output"])
+    return run(Choices(**options))

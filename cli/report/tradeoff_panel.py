@@ -1,0 +1,264 @@
+"""One pair as a picture: error against time, both logarithmic, an SVG fragment.
+
+Errors of 0 have no logarithm: they lie on a lane of their own below the axis, and what gives no
+distance at all, the Boolean, on one below that.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING
+
+from satcheck.cli.report.numbers import duration, number
+
+if TYPE_CHECKING:
+    from satcheck.audit.tradeoff import PairTradeoff, Row
+
+WIDTH = 760.0
+_LEFT, _RIGHT = 96.0, 24.0
+_TITLE, _LANE, _FOOT, _LINE = 34.0, 34.0, 28.0, 15.0
+_DECADE, _MOST_HEIGHT = 42.0, 210.0
+_MICROSECONDS = 1e6
+_LETTER, _LETTER_HEIGHT = 6.3, 13.0  # of labels, in pixels: what they take at most
+_NEAR = 20.0  # points of one kind within so many pixels share a label
+_REACH = 7.0  # a marker and the air around it
+_KINDS = {0: "proven", 1: "guess", 2: "wrong"}
+
+
+@dataclass(frozen=True, slots=True)
+class TimeAxis:
+    """Decades of seconds, first and last, that all panels share."""
+
+    first: int
+    last: int
+
+    def x(self, seconds: float) -> float:
+        share = (math.log10(seconds) - self.first) / (self.last - self.first)
+        return _LEFT + share * (WIDTH - _LEFT - _RIGHT)
+
+    @property
+    def ticks(self) -> Iterator[tuple[float, str]]:
+        for decade in range(self.first, self.last + 1):
+            yield self.x(10.0**decade), duration(10.0**decade * _MICROSECONDS)
+
+
+def time_axis(pairs: Sequence[PairTradeoff]) -> TimeAxis:
+    """Whole decades around every time."""
+    rows = [row for pair in pairs for row in pair.rows]
+    known = [t.median for row in rows for t in (row.cold, row.cached) if t is not None]
+    first = math.floor(math.log10(min(known, default=1e-5)))
+    return TimeAxis(first, max(math.ceil(math.log10(max(known, default=1.0))), first + 1))
+
+
+@dataclass(frozen=True, slots=True)
+class _Errors:
+    """The vertical axis: decades of error from the top down, then the lanes."""
+
+    decades: tuple[int, int] | None
+    height: float
+
+    def y(self, error: float | None) -> float:
+        top = _TITLE + self.height
+        if error is None:
+            return top + 1.5 * _LANE
+        if error == 0 or self.decades is None:
+            return top + 0.5 * _LANE
+        first, last = self.decades
+        return _TITLE + self.height * (last - math.log10(error)) / (last - first)
+
+    @property
+    def bottom(self) -> float:
+        return _TITLE + self.height + 2 * _LANE
+
+
+@dataclass(frozen=True, slots=True)
+class _Dot:
+    row: Row
+    x: float
+    y: float
+    cached: bool = False
+
+
+def panel(pair: PairTradeoff, time: TimeAxis) -> tuple[str, float]:
+    """The fragment, from y = 0 down, and its height."""
+    drawn = [row for row in pair.rows if row.cold is not None and row.state == "answered"]
+    errors = _error_axis(drawn)
+    dots = list(_dots(drawn, time, errors))
+    silent = [row for row in pair.rows if row not in drawn]
+    foot = errors.bottom + _FOOT
+    parts = [
+        f'<text class="title" x="{_LEFT:g}" y="18">{escape(_title(pair))}</text>',
+        *_grid(time, errors),
+        *_front(dots),
+        *_links(dots),
+        *(_marker(dot) for dot in dots),
+        *_labels([dot for dot in dots if not dot.cached], dots),
+        *(
+            f'<text class="label" x="{_LEFT:g}" y="{foot + k * _LINE:.1f}">{escape(_silence(row))}'
+            "</text>"
+            for k, row in enumerate(silent, 1)
+        ),
+    ]
+    return "\n".join(parts), foot + _LINE * (len(silent) + 1)
+
+
+def _title(pair: PairTradeoff) -> str:
+    truth = pair.truth.relation or "truth not known"
+    picked = f"; the default stops at: {pair.picked.rung}" if pair.picked else ""
+    return f"{pair.a} against {pair.b}: {truth}{picked}"
+
+
+def _silence(row: Row) -> str:
+    reason = row.reason or ""
+    return f"{row.rung.label}: {row.state}, {reason if len(reason) < 80 else reason[:79] + '…'}"
+
+
+def _error_axis(rows: Sequence[Row]) -> _Errors:
+    sizes = [size for row in rows if (size := row.size_of_error)]
+    if not sizes:
+        return _Errors(None, 0.0)
+    first = math.floor(math.log10(min(sizes)))
+    last = max(math.ceil(math.log10(max(sizes))), first + 1)
+    return _Errors((first, last), min(_DECADE * (last - first), _MOST_HEIGHT))
+
+
+def _dots(rows: Sequence[Row], time: TimeAxis, errors: _Errors) -> Iterator[_Dot]:
+    for row in rows:
+        y = errors.y(row.size_of_error)
+        for times, cached in ((row.cold, False), (row.cached, True)):
+            if times is not None:
+                yield _Dot(row, time.x(times.median), y, cached)
+
+
+def _grid(time: TimeAxis, errors: _Errors) -> Iterator[str]:
+    right = WIDTH - _RIGHT
+    for x, text in time.ticks:
+        yield _line("grid", x, _TITLE, x, errors.bottom)
+        y = errors.bottom + 15
+        yield f'<text class="tick" x="{x:.1f}" y="{y:.1f}" text-anchor="middle">{text}</text>'
+    heights = []
+    if errors.decades is not None:
+        first, last = errors.decades
+        step = max(1, math.ceil((last - first) / 6))
+        heights = [(errors.y(10.0**d), number(10.0**d)) for d in range(last, first, -step)]
+    lanes = ((errors.y(0.0), "exact (0)"), (errors.y(None), "no distance"))
+    for y, text in heights:
+        yield _line("grid", _LEFT, y, right, y)
+        yield _y_tick(y, text)
+    for y, text in lanes:
+        yield _line("lane", _LEFT, y - 0.5 * _LANE, right, y - 0.5 * _LANE)
+        yield _y_tick(y, text)
+    yield _line("lane", _LEFT, errors.bottom, right, errors.bottom)
+
+
+def _y_tick(y: float, text: str) -> str:
+    return f'<text class="tick" x="{_LEFT - 8:g}" y="{y + 4:.1f}" text-anchor="end">{text}</text>'
+
+
+def _line(kind: str, x1: float, y1: float, x2: float, y2: float) -> str:
+    return f'<line class="{kind}" x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}"/>'
+
+
+def _front(dots: Sequence[_Dot]) -> Iterator[str]:
+    """A step from each rung on the front to the next slower one."""
+    best = sorted((dot.x, dot.y) for dot in dots if dot.row.on_front and not dot.cached)
+    path = "".join(
+        f"H{x:.1f}V{y:.1f}" if k else f"M{x:.1f} {y:.1f}" for k, (x, y) in enumerate(best)
+    )
+    if path:
+        yield f'<path class="front" d="{path}"/>'
+
+
+def _links(dots: Sequence[_Dot]) -> Iterator[str]:
+    cold = {dot.row.rung: dot for dot in dots if not dot.cached}
+    for dot in dots:
+        if dot.cached:
+            yield _line("link", dot.x, dot.y, cold[dot.row.rung].x, dot.y)
+
+
+def _marker(dot: _Dot) -> str:
+    row, x, y = dot.row, dot.x, dot.y
+    times = row.cached if dot.cached else row.cold
+    assert times is not None
+    kind = _KINDS[0 if row.rung.accuracy is None and row.right else row.standing]
+    error = "no distance" if row.error is None else f"error {number(row.error)}"
+    said = f"{row.rung.label}{', cached' if dot.cached else ''}: {error}, "
+    said += duration(times.median * _MICROSECONDS)
+    return shape(kind, x, y, cached=dot.cached, title=said)
+
+
+def shape(kind: str, x: float, y: float, *, cached: bool = False, title: str = "") -> str:
+    """proven: a disc; guess: a triangle; wrong: a cross. cached: smaller, an outline."""
+    r = 3.5 if cached else 5.0
+    hint = f"<title>{escape(title)}</title>" if title else ""
+    name = f"{kind}{' cached' if cached else ''}"
+    if kind == "proven":
+        return f'<circle class="{name}" cx="{x:.1f}" cy="{y:.1f}" r="{r:g}">{hint}</circle>'
+    if kind == "guess":
+        path = f"M{x:.1f} {y - r:.1f}l{r:g} {1.8 * r:.1f}h{-2 * r:g}z"
+    else:
+        path = f"M{x - r:.1f} {y - r:.1f}l{2 * r:g} {2 * r:g}m0 {-2 * r:g}l{-2 * r:g} {2 * r:g}"
+    return f'<path class="{name}" d="{path}">{hint}</path>'
+
+
+Box = tuple[float, float, float, float]
+
+
+def _labels(named: Sequence[_Dot], dots: Sequence[_Dot]) -> Iterator[str]:
+    """Beside the points, where nothing else is; neighbours of one kind share a label."""
+    taken: list[Box] = [
+        (dot.x - _REACH, dot.y - _REACH, dot.x + _REACH, dot.y + _REACH) for dot in dots
+    ]
+    for group in _groups(named):
+        text = _name(group)
+        left, right = min(dot.x for dot in group), max(dot.x for dot in group)
+        box = _place(text, left, right, group[-1].y, taken)
+        taken.append(box)
+        yield f'<text class="label" x="{box[0]:.1f}" y="{box[3] - 3:.1f}">{escape(text)}</text>'
+
+
+def _groups(dots: Sequence[_Dot]) -> list[list[_Dot]]:
+    found: list[list[_Dot]] = []
+    for dot in sorted(dots, key=lambda dot: (dot.row.rung.name, dot.y, dot.x)):
+        last = found[-1][-1] if found else None
+        same = last is not None and last.row.rung.name == dot.row.rung.name
+        if last is not None and same and math.hypot(dot.x - last.x, dot.y - last.y) < _NEAR:
+            found[-1].append(dot)
+        else:
+            found.append([dot])
+    return found
+
+
+def _name(group: Sequence[_Dot]) -> str:
+    thresholds = sorted((dot.row.rung.threshold or 0.0 for dot in group), reverse=True)
+    if group[0].row.rung.threshold is None:
+        return group[0].row.rung.label
+    return f"{group[0].row.rung.name} {', '.join(f'{one:g}' for one in thresholds)}"
+
+
+def _place(text: str, left: float, right: float, y: float, taken: Sequence[Box]) -> Box:
+    """The first free place of: above, below, right, left, and so on farther away."""
+    wide, high, middle = _LETTER * len(text), _LETTER_HEIGHT, 0.5 * (left + right)
+    corners = [
+        (x, y + dy)
+        for away in (0.0, high, 2 * high)
+        for x, dy in (
+            (middle - 0.5 * wide, -_REACH - high - away),
+            (middle - 0.5 * wide, _REACH + away),
+            (right + _REACH + 1, -0.5 * high - away),
+            (left - _REACH - 1 - wide, -0.5 * high - away),
+        )
+    ]
+    boxes = [(x, top, x + wide, top + high) for x, top in corners]
+    within = [
+        box for box in boxes if box[0] >= _LEFT and box[2] <= WIDTH and box[1] >= _TITLE - high
+    ]
+    free = [box for box in within if not any(_overlap(box, other) for other in taken)]
+    return next(iter(free or within or boxes))
+
+
+def _overlap(one: Box, other: Box) -> bool:
+    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]

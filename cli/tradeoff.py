@@ -1,0 +1,95 @@
+"""`satcheck tradeoff`: from its options to a document, a plot and an exit code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from satcheck.cli import exit_codes
+from satcheck.cli.checking import load, refuse_early
+from satcheck.cli.output import PLAIN_PAGE, Document, write_file
+
+if TYPE_CHECKING:
+    from satcheck.audit.tradeoff import Tradeoff
+    from satcheck.cli.output import Page
+    from satcheck.scene.loader import Split
+
+PLOTS = (".svg", ".html")
+
+
+@dataclass(frozen=True, slots=True)
+class Choices:
+    """What the command line asked for."""
+
+    paths: tuple[str, ...]
+    form: str
+    output: Path | None
+    repeat: int
+    budget: float
+    pairs: int
+    plot: Path | None
+    split: Split | None
+    allow_outside: bool
+
+
+def run(choices: Choices) -> int:
+    """Measure, write the document and the plot; returns the exit code."""
+    refuse_early(choices.paths, choices.output)
+    _refuse_plot(choices)
+    document = Document()
+    found = _measured(choices)
+    if choices.plot:
+        write_file(choices.plot, _plot(found, choices.plot))
+    page = PLAIN_PAGE if choices.output else document.page
+    text = _render(found, choices, page)
+    if choices.output:
+        write_file(choices.output, text)
+    else:
+        document.write(text, utf8=choices.form == "json")
+    return exit_codes.CLEAN if found.complete else exit_codes.INCOMPLETE
+
+
+def _refuse_plot(choices: Choices) -> None:
+    """What cannot be drawn is said before any work is done."""
+    if choices.plot is None:
+        return
+    if choices.plot.suffix.lower() not in PLOTS:
+        raise click.UsageError(
+            f"--plot {choices.plot}: drawn as {' or '.join(PLOTS)}; a browser makes a PNG of that"
+        )
+    refuse_early(choices.paths, choices.plot)
+    if choices.plot.absolute() == (choices.output and choices.output.absolute()):
+        raise click.UsageError("--plot and -o name the same file")
+
+
+def _measured(choices: Choices) -> Tradeoff:
+    from satcheck.cli.progress import Bar
+
+    scene = load(choices.paths, split=choices.split, allow_outside=choices.allow_outside)
+    if scene.unreadable:
+        raise click.ClickException("an input could not be used: nothing is compared without it")
+    from satcheck.audit.tradeoff import tradeoff
+
+    with Bar("runs") as bar:
+        return tradeoff(
+            scene, repeat=choices.repeat, budget=choices.budget, pairs=choices.pairs, progress=bar
+        )
+
+
+def _plot(found: Tradeoff, path: Path) -> str:
+    from satcheck.cli.report.tradeoff_plot import page, svg
+
+    return svg(found.pairs) if path.suffix.lower() == ".svg" else page(found.pairs)
+
+
+def _render(found: Tradeoff, choices: Choices, page: Page) -> str:
+    if choices.form == "json":
+        from satcheck.cli.report.json import document
+
+        return document(found.to_dict())
+    from satcheck.cli.report.tradeoff import render
+
+    return render(found, page)

@@ -1,0 +1,31 @@
+"""Draw docs/tradeoff.svg: `python -m docs.tradeoff`. Takes minutes; the times are of this machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from satcheck.audit.tradeoff import tradeoff
+from satcheck.cli.report.tradeoff_plot import svg
+from satcheck.scene import load_scene
+
+HERE = Path(__file__).parent
+SAMPLES = HERE.parent / "sample_meshes"
+PAIRS = (
+    ("box.obj", "box_pushed.stl"),
+    ("l_bracket.obj", "peg_in_notch.ply"),
+    ("kettle.obj", "snowflake.obj"),
+)
+REPEAT, BUDGET = 3, 150.0
+
+
+def main() -> None:
+    runs = [
+        tradeoff(load_scene([SAMPLES / name for name in names]), repeat=REPEAT, budget=BUDGET)
+        for names in PAIRS
+    ]
+    pairs = [pair for run in runs for pair in run.pairs]
+    (HERE / "tradeoff.svg").write_text(svg(pairs), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,73 @@
+"""`satcheck tradeoff` as a whole process: its documents, its plot and its exit codes."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from satcheck.cli.report.schema import text
+from tests.cli.process import PUSHED, satcheck
+
+SCHEMA = json.loads(text("tradeoff"))
+RUNGS = ("aabb", "obb", "hull", "parts", "exact", "boolean")
+
+
+def test_the_document_follows_its_schema() -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+    ran = satcheck("tradeoff", *PUSHED, "--format", "json", "--repeat", "2")
+    assert ran.code == 0, ran.err
+    Draft202012Validator(SCHEMA).validate(ran.document)
+    (pair,) = ran.document["pairs"]
+    assert list(dict.fromkeys(row["rung"] for row in pair["rungs"])) == list(RUNGS)
+    assert {row["cold"]["runs"] for row in pair["rungs"]} == {2}
+
+
+def test_a_spent_budget_is_a_document_too_and_exits_with_three(tmp_path: Path) -> None:
+    plot = tmp_path / "plot.svg"
+    out = tmp_path / "report.json"
+    ran = satcheck("tradeoff", *PUSHED, "--budget", "1e-9", "--plot", str(plot), "-o", str(out))
+    assert ran.code == 3, ran.err
+    document = json.loads(out.read_text(encoding="utf-8"))
+    Draft202012Validator(SCHEMA).validate(document)
+    assert {row["state"] for row in document["pairs"][0]["rungs"]} == {"not run"}
+    drawn = "".join(ElementTree.fromstring(plot.read_text(encoding="utf-8")).itertext())
+    assert all(f"{name}: not run, budget" in drawn for name in ("aabb", "exact", "boolean"))
+
+
+def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
+    plot = tmp_path / "plot.html"
+    ran = satcheck("tradeoff", *PUSHED, "--repeat", "1", "--plot", str(plot))
+    assert ran.code == 0, ran.err
+    for said in (*RUNGS, "parts 0.01", "volume 2.625", "Default: settled by hull"):
+        assert said in ran.out
+    page = plot.read_text(encoding="utf-8")
+    drawing = page[page.index("<svg") : page.index("</svg>") + len("</svg>")]
+    hints = "".join(ElementTree.fromstring(drawing).itertext())
+    for said in ("aabb: error 0", "parts 0.01: error 0", "boolean: no distance"):
+        assert said in hints
+    assert "prefers-color-scheme: dark" in drawing
+
+
+def test_the_schema_is_printed() -> None:
+    assert satcheck("schema", "tradeoff").document == SCHEMA
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("box.obj",), "one body alone"),
+        (("box.obj", "missing.obj"), "no such file"),
+        (("box.obj", "cube.off", "--plot", "plot.png"), "drawn as .svg or .html"),
+        (("box.obj", "cube.off", "--repeat", "0"), "--repeat"),
+        (("box.obj", "cube.off", "-o", "cube.off"), "overwrite an input"),
+    ],
+)
+def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:
+    ran = satcheck("tradeoff", *arguments)
+    assert ran.code == 2
+    assert said in ran.err
+    assert ran.out == ""
