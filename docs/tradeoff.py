@@ -1,4 +1,4 @@
-"""Draw docs/tradeoff.svg: `python -m docs.tradeoff`. Takes minutes; the times are of this machine."""
+"""Draw docs/tradeoff.svg: `python -m docs.tradeoff`. Takes minutes; times are of this machine."""
 
 from __future__ import annotations
 
