@@ -55,6 +55,19 @@ void check_tree(const Mesh& mesh) {
   check_holds(build_bvh_by_form(triangle_boxes(mesh)), triangle_boxes(mesh));
 }
 
+// The same tree over vertices that an affine map has moved: the boxes are those of the triangles there.
+void check_refit(const Mesh& mesh) {
+  Bvh bvh = build_bvh(mesh);
+  const Bvh before = bvh;
+  Mesh moved = mesh;
+  for (Vec3& p : moved.vertices) p = {3 * p.y - 1, 0.5 * p.x + p.z, -p.z};
+  refit(bvh, moved);
+  check_holds(bvh, triangle_boxes(moved));
+  CHECK(bvh.order == before.order && bvh.nodes.size() == before.nodes.size());
+  refit(bvh, mesh);
+  check_same(bvh, before);
+}
+
 // Beams along x and along y share no node but the root.
 void check_forms() {
   std::vector<Aabb> boxes;
@@ -76,6 +89,8 @@ void check_forms() {
 int main() {
   CHECK(build_bvh(Mesh{}).nodes.empty() && build_bvh_by_form({}).nodes.empty());
   check_forms();
+  check_refit(uv_sphere(30));
+  check_refit(box({0, 0, 0}, {1, 1, 1}));
   check_tree(box({0, 0, 0}, {1, 1, 1}));
   check_tree(uv_sphere(30));
   // More triangles than one thread takes alone.
