@@ -22,6 +22,8 @@ _SEPARATOR = r"[\s,]*"
 _ARGUMENTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7, "z": 0}
 _LENGTH = re.compile(rf"\s*({_NUMBER})\s*(um|mm|cm|m|in|px|)\s*")
 _DRAWN_ELSEWHERE = frozenset({"text", "image", "foreignObject", "switch"})
+# Drawn only where something else refers to them.
+_TEMPLATES = frozenset({"symbol", "marker", "pattern", "mask", "clipPath"})
 _FULL_TURN = 2 * math.pi
 
 
@@ -40,6 +42,8 @@ def read_svg(data: bytes) -> Drawing:
             _check_path(element.get("d", ""))
         elif name in _DRAWN_ELSEWHERE:
             warnings.add(f"{name} elements are ignored")
+        warnings |= {f"{key} is ignored: shapes are taken whole" for key in _cut_by(element)}
+    _put_away_templates(root)
     for key in ("width", "height", "viewBox"):
         root.attrib.pop(key, None)
     # Not reified: that would bend arcs under a skewed transform. Corners are mapped instead.
@@ -54,6 +58,23 @@ def read_svg(data: bytes) -> Drawing:
             if contours:
                 shapes.append(DrawnShape(names.of(element), tuple(contours), _rule(element)))
     return Drawing(tuple(shapes), units, tuple(sorted(warnings)))
+
+
+def _cut_by(element: ElementTree.Element) -> Iterator[str]:
+    for key in ("clip-path", "mask"):
+        style = re.search(rf"(?:^|[\s;]){key}\s*:\s*url", element.get("style", ""))
+        if element.get(key, "none") != "none" or style:
+            yield key
+
+
+def _put_away_templates(root: ElementTree.Element) -> None:
+    """Into <defs>: svgelements would draw some of them where they stand."""
+    for parent in list(root.iter()):
+        for place, child in enumerate(parent):
+            space, _, name = str(child.tag).rpartition("}")
+            if name in _TEMPLATES:
+                parent[place] = ElementTree.Element(f"{space}}}defs" if space else "defs")
+                parent[place].append(child)
 
 
 def _check_xml(data: bytes) -> None:

@@ -152,3 +152,21 @@ def test_broken_files_are_refused(text: str, code: str) -> None:
     with pytest.raises(MeshFileError) as caught:
         read_svg(text.encode())
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize("template", ["symbol", "marker", "pattern", "mask", "clipPath"])
+def test_a_template_is_drawn_only_where_it_is_used(template: str) -> None:
+    unused = f'<{template}><rect width="9" height="9"/></{template}>'
+    drawing = read(f'{unused}<rect id="r" width="1" height="1"/>')
+    assert [shape.name for shape in drawing.shapes] == ["r"]
+    used = read('<symbol id="s"><rect width="9" height="9"/></symbol><use href="#s" x="3"/>')
+    (shape,) = used.shapes
+    assert min(x for x, _ in shape.contours[0].points) == 3
+
+
+@pytest.mark.parametrize("how", ['clip-path="url(#c)"', 'style="fill:red; mask: url(#c)"'])
+def test_what_cuts_a_shape_is_ignored_with_a_warning(how: str) -> None:
+    drawing = read(f'<rect {how} width="2" height="2"/>')
+    (warning,) = drawing.ignored
+    assert warning.endswith("is ignored: shapes are taken whole")
+    assert len(drawing.shapes) == 1
