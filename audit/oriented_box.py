@@ -11,10 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck import core
-from satcheck.audit.boxes import Box
-from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import ORTHOGONALITY, rounding_pad
-from satcheck.audit.vectors import dot
 
 if TYPE_CHECKING:
     from satcheck.scene import Body
@@ -37,10 +34,27 @@ class OrientedBox:
 def oriented_box(body: Body, pad: float) -> OrientedBox:
     """A box that holds every point within `pad` of the body."""
     transform = body.transform or IDENTITY
-    posed = None
-    if _is_orthogonal(transform):
-        posed = _carried(body.file.mesh.bounds, transform, pad)
-    return OrientedBox(not _keeps_axes(transform), posed)
+    # Spelled out number by number: a scene asks for one of these for each of its bodies.
+    a, b, c, x, d, e, f, y, g, h, i, z = transform[:12]
+    turned = not _keeps_axes(a, b, c, d, e, f, g, h, i)
+    p, q, r = math.hypot(a, d, g), math.hypot(b, e, h), math.hypot(c, f, i)
+    is_orthogonal = (
+        abs(a * b + d * e + g * h) <= ORTHOGONALITY * p * q
+        and abs(a * c + d * f + g * i) <= ORTHOGONALITY * p * r
+        and abs(b * c + e * f + h * i) <= ORTHOGONALITY * q * r
+    )
+    if not is_orthogonal:
+        return OrientedBox(turned, None)
+    (x0, y0, z0), (x1, y1, z1) = body.file.mesh.bounds
+    u, v, w = 0.5 * x0 + 0.5 * x1, 0.5 * y0 + 0.5 * y1, 0.5 * z0 + 0.5 * z1
+    half = ((0.5 * x1 - 0.5 * x0) * p, (0.5 * y1 - 0.5 * y0) * q, (0.5 * z1 - 0.5 * z0) * r)
+    rows = ((a * u, b * v, c * w, x), (d * u, e * v, f * w, y), (g * u, h * v, i * w, z))
+    radius = math.hypot(*half)
+    reach = max(map(abs, (*rows[0], *rows[1], *rows[2]))) + radius
+    pad += rounding_pad(reach) + 4 * ORTHOGONALITY * radius
+    turn = quaternion_of((a / p, d / p, g / p), (b / q, e / q, h / q), (c / r, f / r, i / r))
+    box = core.Box((half[0] + pad, half[1] + pad, half[2] + pad))
+    return OrientedBox(turned, (box, (sum(rows[0]), sum(rows[1]), sum(rows[2]), *turn)))
 
 
 def nothing_new(a: OrientedBox, b: OrientedBox) -> str:
@@ -50,44 +64,12 @@ def nothing_new(a: OrientedBox, b: OrientedBox) -> str:
     return "neither body is turned: its oriented box is its world box"
 
 
-def _column(transform: Transform, axis: int) -> Vector:
-    return transform[axis], transform[4 + axis], transform[8 + axis]
+def _keeps_axes(*m: float) -> bool:
+    """Whether every column of the 3 x 3 matrix, given row by row, runs along one world axis."""
+    return all((m[k] != 0) + (m[3 + k] != 0) + (m[6 + k] != 0) == 1 for k in range(3))
 
 
-def _keeps_axes(transform: Transform) -> bool:
-    """Whether every column runs along one world axis."""
-    return all(sum(c != 0 for c in _column(transform, axis)) == 1 for axis in range(3))
-
-
-def _is_orthogonal(transform: Transform) -> bool:
-    columns = [_column(transform, axis) for axis in range(3)]
-    return all(
-        abs(dot(columns[i], columns[j]))
-        <= ORTHOGONALITY * math.hypot(*columns[i]) * math.hypot(*columns[j])
-        for i, j in ((0, 1), (0, 2), (1, 2))
-    )
-
-
-def _carried(bounds: Box, transform: Transform, padding: float) -> PosedBox:
-    low, high = bounds
-    columns = [_column(transform, axis) for axis in range(3)]
-    stretch = [math.hypot(*column) for column in columns]
-    centre = [0.5 * low[axis] + 0.5 * high[axis] for axis in range(3)]
-    half = [(0.5 * high[axis] - 0.5 * low[axis]) * stretch[axis] for axis in range(3)]
-    terms = [
-        [*(columns[axis][row] * centre[axis] for axis in range(3)), transform[4 * row + 3]]
-        for row in range(3)
-    ]
-    origin = [math.fsum(row) for row in terms]
-    reach = max(abs(term) for row in terms for term in row) + math.hypot(*half)
-    pad = padding + rounding_pad(reach) + 4 * ORTHOGONALITY * math.hypot(*half)
-    units = [tuple(c / stretch[axis] for c in columns[axis]) for axis in range(3)]
-    quaternion = _quaternion(units[0], units[1], units[2])
-    box = core.Box((half[0] + pad, half[1] + pad, half[2] + pad))
-    return box, (origin[0], origin[1], origin[2], *quaternion)
-
-
-def _quaternion(
+def quaternion_of(
     x: tuple[float, ...], y: tuple[float, ...], z: tuple[float, ...]
 ) -> tuple[float, float, float, float]:
     """(qx, qy, qz, qw) of the rotation with these columns; a mirrored one has its z turned round,

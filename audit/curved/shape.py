@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from satcheck import core
 from satcheck.audit.boxes import Box
+from satcheck.audit.oriented_box import quaternion_of
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, ORTHOGONALITY, UNIT_ROUNDOFF
 from satcheck.scene.primitives import (
     Capsule,
@@ -60,14 +61,14 @@ def curved_shape(primitive: Primitive, transform: tuple[float, ...] | None) -> C
         return CurvedShape(primitive, core_shape(primitive), (0.0, 0.0, 0.0, *_NO_TURN), 0.0)
     columns = [[transform[4 * row + k] for row in range(3)] for k in range(3)]
     stretch = [math.hypot(*column) for column in columns]
-    axes = [[c / s for c in column] for column, s in zip(columns, stretch, strict=True)]
+    axes = [tuple(c / s for c in column) for column, s in zip(columns, stretch, strict=True)]
     skew = max(abs(sum(p * q for p, q in zip(axes[i], axes[j], strict=True))) for i, j in _PAIRS)
     if skew > ORTHOGONALITY:
         raise ValueError("a curved shape cannot be skewed")
     if _determinant(axes) < 0:  # every one of the shapes is its own image under x -> -x
-        axes[0] = [-c for c in axes[0]]
+        axes[0] = tuple(-c for c in axes[0])
     scaled = _scaled(primitive, stretch)
-    turn = _quaternion(axes)
+    turn = quaternion_of(axes[0], axes[1], axes[2])
     centre = (transform[3], transform[7], transform[11])
     is_exact = stretch == [1.0, 1.0, 1.0] and (turn == _NO_TURN or isinstance(scaled, Sphere))
     rounding = CHAIN_ROUNDOFFS * UNIT_ROUNDOFF + 2 * ORTHOGONALITY * (skew > 0)
@@ -143,29 +144,13 @@ def _same(a: float, b: float) -> bool:
     return abs(a - b) <= CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * max(a, b)
 
 
-def _determinant(columns: list[list[float]]) -> float:
+def _determinant(columns: list[tuple[float, ...]]) -> float:
     a, b, c = columns
     return (
         a[0] * (b[1] * c[2] - b[2] * c[1])
         - a[1] * (b[0] * c[2] - b[2] * c[0])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
     )
-
-
-def _quaternion(columns: list[list[float]]) -> tuple[float, float, float, float]:
-    """Of a rotation given by its columns, by its largest component first: S. W. Shepperd,
-    "Quaternion from rotation matrix" (1978)."""
-    (m00, m10, m20), (m01, m11, m21), (m02, m12, m22) = columns
-    squares = (1 + m00 - m11 - m22, 1 - m00 + m11 - m22, 1 - m00 - m11 + m22, 1 + m00 + m11 + m22)
-    largest = squares.index(max(squares))
-    x, y, z, w = (
-        (squares[0], m01 + m10, m02 + m20, m21 - m12),
-        (m01 + m10, squares[1], m12 + m21, m02 - m20),
-        (m02 + m20, m12 + m21, squares[2], m10 - m01),
-        (m21 - m12, m02 - m20, m10 - m01, squares[3]),
-    )[largest]
-    length = math.hypot(x, y, z, w)
-    return x / length, y / length, z / length, w / length
 
 
 def rows_of(quaternion: tuple[float, ...]) -> list[Vector]:
