@@ -67,14 +67,17 @@ def _crossing(pair: Pair, plan: Plan, triangles: int) -> Contact:
 
 
 def _apart(pair: Pair, plan: Plan, seen: Nearest, sign: float) -> Contact:
+    solid = _sides(pair)[1].solid  # the gap to a surface alone rules no containment out
     if seen.nearest is None:
         plan.record(STAGE, "separated", "no triangle is near the shape")
-        return Contact("separated", True, math.nextafter(pair.asked_gap, 0.0))
+        gap = math.nextafter(pair.asked_gap, 0.0) if solid else 0.0
+        return Contact("separated", True, gap)
     nearest: Signed = seen.nearest if sign > 0 else seen.nearest.swapped()
     plan.record(STAGE, nearest.outcome, f"nearest is triangle {seen.triangle}")
     reason = None if nearest.exact else CLOSE_CONTACT
     relation: Relation = "separated" if nearest.outcome == "separated" else "touching"
-    return Contact(relation, nearest.exact, max(nearest.lower, 0.0), nearest, reason=reason)
+    gap = max(nearest.lower, 0.0) if solid else 0.0
+    return Contact(relation, nearest.exact, gap, nearest, reason=reason)
 
 
 def _sides(pair: Pair) -> tuple[CurvedShape, PlacedBody, float]:

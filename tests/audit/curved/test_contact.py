@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from satcheck.core import Mesh
 from satcheck.scene.primitives import (
     Box,
     Capsule,
@@ -15,8 +16,10 @@ from satcheck.scene.primitives import (
     Ellipsoid,
     Primitive,
     Sphere,
+    mesh_of,
 )
 from tests.audit.curved.bodies import ask, bracket, hollow_box, moved, shape, tilted
+from tests.scene.planar.flat import body as mesh_body
 
 # Figures below are sums and differences of coordinates below 8, turned once at most.
 ROUNDING = 64 * 2.0**-50
@@ -161,3 +164,17 @@ def test_a_shape_that_touches_a_wall_from_within_is_not_said_to_be_inside(swappe
     assert found.relation == "penetrating"
     assert found.exact_relation is None
     assert found.severity == "error"
+
+
+@pytest.mark.parametrize("clearance", [None, 0.25])
+@pytest.mark.parametrize("radius", [0.125, 0.5])
+def test_a_shape_in_a_box_without_a_lid_is_not_said_to_be_outside(
+    radius: float, clearance: float | None
+) -> None:
+    """Whether it lies in the body is not defined, and must not read as a pass."""
+    box = mesh_of(Box((2.0, 2.0, 2.0)))
+    open_box = mesh_body("box", Mesh(box.vertices, box.triangles[:-2].copy()))
+    found = ask(shape("ball", Sphere(radius)), open_box, clearance=clearance)
+    assert found.relation == "separated"
+    assert found.undecided == "inside"
+    assert found.severity == "warning"
