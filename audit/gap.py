@@ -41,6 +41,9 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     if contact.relation == "touching":
         witness = contact.point and Witness(contact.point, contact.point)
         return Gap(0.0, 0.0, 0.0, None, witness)
+    if pair.curved and contact.relation == "separated" and pair.may("hull"):
+        beyond = math.nextafter(pair.asked_gap, math.inf)  # no triangle was found within that
+        return Gap(max(contact.gap_lower, beyond), math.inf, math.inf)
     settled = contact.gap_lower > pair.asked_gap or pair.asked_gap == 0
     if settled or not pair.may("exact"):
         return Gap(contact.gap_lower, math.inf, math.inf)

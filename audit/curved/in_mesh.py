@@ -70,7 +70,7 @@ def _apart(pair: Pair, plan: Plan, seen: Nearest, sign: float) -> Contact:
     solid = _sides(pair)[1].solid  # the gap to a surface alone rules no containment out
     if seen.nearest is None:
         plan.record(STAGE, "separated", "no triangle is near the shape")
-        gap = math.nextafter(pair.asked_gap, 0.0) if solid else 0.0
+        gap = math.nextafter(pair.asked_gap, math.inf) if solid else 0.0
         return Contact("separated", True, gap)
     nearest: Signed = seen.nearest if sign > 0 else seen.nearest.swapped()
     plan.record(STAGE, nearest.outcome, f"nearest is triangle {seen.triangle}")

@@ -178,3 +178,19 @@ def test_a_shape_in_a_box_without_a_lid_is_not_said_to_be_outside(
     assert found.relation == "separated"
     assert found.undecided == "inside"
     assert found.severity == "warning"
+
+
+def test_a_touch_from_within_an_open_mesh_is_no_pass() -> None:
+    """The ball fills the cube, of which two triangles are missing: it may lie inside."""
+    cube = mesh_of(Box((1.0, 1.0, 1.0)))
+    open_cube = mesh_body("cube", Mesh(cube.vertices, np.asarray(cube.triangles)[:-2]))
+    found = ask(shape("ball", Sphere(0.5)), open_cube)
+    assert found.severity == "warning"
+    assert found.undecided == "inside"
+
+
+def test_no_distance_is_taken_from_the_mesh_within_a_shape() -> None:
+    """Beside the corner of the notch: boxes within the clearance, triangles beyond it."""
+    ball = shape("ball", Sphere(0.5), moved(3.0, 0.0, 3.0))
+    found = ask(ball, bracket(), clearance=1.2)
+    assert (found.relation, found.distance) == ("separated", None)
