@@ -16,7 +16,7 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.tradeoff.asking import Asked, Bodies, Measured, ask, ask_parts, ask_volume
 from satcheck.audit.tradeoff.figure import Truth, figure_of, plain, truth_of
 from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, State, Times, with_front
-from satcheck.audit.tradeoff.rungs import BOOLEAN, EXACT, IN_TURN, RUNGS, Rung
+from satcheck.audit.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
 
 SPENT = "budget"
 # What one run of convex parts may take whatever the budget: the default of a check.
@@ -83,12 +83,12 @@ def measure(
     of the user is neither read nor written. told: called after each run.
     """
     a, b = (body.id for body in bodies)
-    gauges = {rung: Gauge(rung) for rung in IN_TURN}
+    gauges = {rung: Gauge(rung) for rung in RUNGS}
     plainly = _plain_check(bodies, budget)
     apart = plainly is not None and plainly.finding.relation not in OVERLAPS
-    for _ in range(repeat):
+    for group in (group for group in GROUPS for _ in range(repeat)):
         _warm_up(bodies, budget)
-        for gauge in gauges.values():
+        for gauge in (gauges[rung] for rung in group if rung in gauges):
             if gauge.wants_more and budget.left > gauge.longest:
                 _run(gauge, bodies, budget, apart=apart)
             if told is not None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 _TASKS = Path("/proc/self/task")
 _PEAK = "VmHWM:"  # the high-water mark of the resident set, in KiB
+_WORKER = b"satcheck.core.worker_child"
 _KIB_PER_MIB = 1024.0
 _PERIOD = 0.02  # seconds; the mark only rises, so no more than the last rise is missed
 
@@ -55,8 +56,12 @@ def _children() -> list[str]:
 
 
 def _peak(process: str) -> float | None:
+    folder = Path("/proc", process)
     try:
-        status = Path("/proc", process, "status").read_text(encoding="utf-8", errors="replace")
+        # Until it has become a worker it is a copy of this process.
+        if _WORKER not in (folder / "cmdline").read_bytes():
+            return None
+        status = (folder / "status").read_text(encoding="utf-8", errors="replace")
     except OSError:  # it has ended
         return None
     lines = (line.split() for line in status.splitlines() if line.startswith(_PEAK))

@@ -36,9 +36,9 @@ RUNGS = (
     EXACT,
     BOOLEAN,
 )
-# ... and in which they run: the proof first, then what is cheap, so that a budget ends the rest.
-IN_TURN = (
-    EXACT,
-    *(rung for rung in RUNGS if rung.name not in ("parts", "exact")),
-    *(rung for rung in RUNGS if rung.name == "parts"),
+# ... and in which they take turns: the proof and what is cheap, and then convex parts, the dearest,
+# so that it is these that a budget cuts.
+GROUPS: tuple[tuple[Rung, ...], ...] = (
+    (EXACT, *(rung for rung in RUNGS if rung.name not in ("parts", "exact"))),
+    tuple(rung for rung in RUNGS if rung.name == "parts"),
 )

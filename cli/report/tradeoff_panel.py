@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 WIDTH = 760.0
 _LEFT, _RIGHT = 96.0, 24.0
 _TITLE, _LANE, _FOOT, _LINE = 34.0, 34.0, 28.0, 15.0
-_DECADE, _MOST_HEIGHT = 42.0, 210.0
+_DECADE, _LEAST_HEIGHT, _MOST_HEIGHT = 42.0, 84.0, 210.0
 _MICROSECONDS = 1e6
 _LETTER, _LETTER_HEIGHT = 6.3, 13.0  # of labels, in pixels: what they take at most
 _NEAR = 20.0  # points of one kind within so many pixels share a label
@@ -122,7 +122,8 @@ def _error_axis(rows: Sequence[Row]) -> _Errors:
         return _Errors(None, 0.0)
     first = math.floor(math.log10(min(sizes)))
     last = max(math.ceil(math.log10(max(sizes))), first + 1)
-    return _Errors((first, last), min(_DECADE * (last - first), _MOST_HEIGHT))
+    height = min(max(_DECADE * (last - first), _LEAST_HEIGHT), _MOST_HEIGHT)
+    return _Errors((first, last), height)
 
 
 def _dots(rows: Sequence[Row], time: TimeAxis, errors: _Errors) -> Iterator[_Dot]:
@@ -143,8 +144,9 @@ def _grid(time: TimeAxis, errors: _Errors) -> Iterator[str]:
     if errors.decades is not None:
         first, last = errors.decades
         step = max(1, math.ceil((last - first) / 6))
-        heights = [(errors.y(10.0**d), number(10.0**d)) for d in range(last, first, -step)]
+        heights = [(errors.y(10.0**d), number(10.0**d)) for d in range(last, first - 1, -step)]
     lanes = ((errors.y(0.0), "exact (0)"), (errors.y(None), "no distance"))
+    yield _y_tick(14.0, "error")
     for y, text in heights:
         yield _line("grid", _LEFT, y, right, y)
         yield _y_tick(y, text)

@@ -19,7 +19,7 @@ text { font: 12px system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
 .head { font-size: 15px; font-weight: 600; }
 .title { font-weight: 600; }
 .tick { font-size: 11px; }
-.label { font-size: 11.5px; }
+.label { font-size: 11.5px; paint-order: stroke; stroke-width: 3px; stroke-linejoin: round; }
 .front { fill: none; stroke-width: 1.5; }
 .link { stroke-dasharray: 2 3; }
 .wrong { fill: none; stroke-width: 2.5; }
@@ -69,7 +69,8 @@ def _colours(scheme: Sequence[str]) -> str:
     """Rules for one scheme, spelled out: not every viewer of SVG knows variables of CSS."""
     paper, ink, faint, grid, lane, proven, guess, wrong = scheme
     return (
-        f".paper {{ fill: {paper}; }} text {{ fill: {ink}; }} .tick {{ fill: {faint}; }}\n"
+        f".paper {{ fill: {paper}; }} .label {{ stroke: {paper}; }} "
+        f"text {{ fill: {ink}; }} .tick {{ fill: {faint}; }}\n"
         f".grid {{ stroke: {grid}; }} .lane, .link {{ stroke: {lane}; }} "
         f".front {{ stroke: {faint}; }}\n"
         f".proven {{ fill: {proven}; }} .guess {{ fill: {guess}; }} .wrong {{ stroke: {wrong}; }}\n"

@@ -9,7 +9,6 @@ import pytest
 
 from satcheck.audit.tradeoff import RUNGS, PairTradeoff, Row, Rung, Tradeoff, tradeoff
 from satcheck.audit.tradeoff import measure as measuring
-from satcheck.audit.tradeoff.rungs import IN_TURN
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
 
@@ -53,7 +52,6 @@ def test_boxes_are_exact_on_every_rung_from_oriented_boxes_on() -> None:
 def test_a_peg_in_a_notch_is_apart_for_the_finer_rungs_only(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(measuring, "IN_TURN", without_fine_parts(IN_TURN))
     monkeypatch.setattr(measuring, "RUNGS", without_fine_parts(RUNGS))
     (pair,) = found("l_bracket.obj", "peg_in_notch.ply").pairs
     seen = rows(pair)
@@ -118,7 +116,6 @@ def test_what_is_no_solid_has_no_volume() -> None:
 
 
 def test_of_a_scene_the_pairs_whose_boxes_meet(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(measuring, "IN_TURN", (measuring.EXACT,))
     monkeypatch.setattr(measuring, "RUNGS", (measuring.EXACT,))
     run = found("box.obj", "box_pushed.stl", "inside_out.stl", "far_a.obj", pairs=1)
     assert [(pair.a, pair.b) for pair in run.pairs] == [("box", "box_pushed")]
