@@ -22,8 +22,12 @@ SPENT = "budget"
 # What one run of convex parts may take whatever the budget: the default of a check.
 PART_SECONDS = Settings().part_seconds
 # Stages of a plan that are rungs, and how they are called here.
-STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "triangles": "exact"}
-CURVED = "curved"
+STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
+STAGES |= {"parts": "parts", "triangles": "exact"}
+
+
+# What a stage records that had nothing to add to the one below.
+SKIPPED = "skipped"
 
 
 class Budget:
@@ -105,6 +109,7 @@ def _plain_check(bodies: Bodies, budget: Budget) -> Asked | None:
         return None
     try:
         _import_early()
+        ask(bodies, Settings(depth=True, accuracy="aabb"))
         return ask(bodies, Settings(depth=True))
     except Exception:  # noqa: BLE001 the row of the rung will say it
         return None
@@ -227,6 +232,7 @@ def _row(gauge: Gauge, truth: Truth) -> Row:
         figure=figure,
         error=truth.error(figure),
         hulls=answer.hulls,
+        settled_by=_picked(finding.plan).rung,
         reason=finding.reason if relation == "indeterminate" else None,
     )
 
@@ -245,10 +251,10 @@ def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
 
 def _picked(plan: tuple[Stage, ...]) -> Picked:
     """The last stage that is a rung settled it; those before say why they could not."""
-    climbed = [stage for stage in plan if stage.stage in STAGES or stage.stage == CURVED]
+    climbed = [stage for stage in plan if stage.stage in STAGES]
     why = "; ".join(
         f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
         for stage in climbed
     )
-    last = climbed[-1].stage if climbed else "none"
-    return Picked(STAGES.get(last, last), why)
+    ran = [STAGES[stage.stage] for stage in climbed if stage.result != SKIPPED]
+    return Picked(ran[-1] if ran else "none", why)

@@ -39,9 +39,10 @@ class Row:
     reason: why it failed or was not run. overlap: None where it cannot say. relation: None for the
     Boolean, which knows only whether there is a volume in common. proven: it has proven its
     relation. right: held against the truth; None: one of the two is not known. figure: the signed
-    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. cold: nothing
-    kept from before; cached: with the parts on disk, or the child process running. megabytes: peak
-    of the child process, in MiB. on_front: of error against time.
+    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. settled_by: the
+    rung at which its climb ended. cold: nothing kept from before; cached: with the parts on disk,
+    or the child process running. megabytes: peak of the child process, in MiB. on_front: of error
+    against time.
     """
 
     rung: Rung
@@ -56,6 +57,7 @@ class Row:
     volume: float | None = None
     volume_error: float | None = None
     hulls: tuple[int, int] | None = None
+    settled_by: str | None = None
     cold: Times | None = None
     cached: Times | None = None
     megabytes: float | None = None
@@ -93,6 +95,7 @@ class Row:
             "error": self.error,
             "volume": self.volume,
             "volume_error": self.volume_error,
+            "settled_by": self.settled_by,
             "hulls": None if self.hulls is None else list(self.hulls),
             "cold": None if self.cold is None else self.cold.to_dict(),
             "cached": None if self.cached is None else self.cached.to_dict(),
@@ -173,5 +176,14 @@ class Tradeoff:
 
 
 def with_front(rows: list[Row]) -> tuple[Row, ...]:
-    marks = front(rows)
-    return tuple(replace(row, on_front=mark) for row, mark in zip(rows, marks, strict=True))
+    """The rows with their marks. One that ended its climb at a lower rung with the same answer is
+    that rung again, and only noise could put it on the front."""
+    figures = {row.rung.name: row.figure for row in rows}
+
+    def is_again(row: Row) -> bool:
+        lower = row.settled_by
+        return lower not in (None, row.rung.name) and row.figure == figures.get(lower or "")
+
+    compared = [row for row in rows if not is_again(row)]
+    on_front = {row.rung for row, mark in zip(compared, front(compared), strict=True) if mark}
+    return tuple(replace(row, on_front=row.rung in on_front) for row in rows)

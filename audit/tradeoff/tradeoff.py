@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from satcheck import core
 from satcheck.audit.broad_phase import close_pairs
 from satcheck.audit.check import Progress
 from satcheck.audit.planner import Planner
@@ -27,7 +28,8 @@ def tradeoff(
     """Every rung on the two bodies of the scene, or on the first pairs whose boxes meet.
 
     repeat: runs of each rung. budget: seconds for everything after the files are read. pairs: at
-    most so many. Bodies stand as the scene places them. progress(done, total) counts runs.
+    most so many. Bodies stand as the scene places them; of its rules only exemptions are followed.
+    progress(done, total) counts runs.
     Raises SatcheckError (`no-pair`) where no boxes meet.
     """
     clock = Budget(budget)
@@ -57,5 +59,6 @@ def _pairs(scene: Scene) -> list[Bodies]:
         return [(a, b)]
     settings = Settings()
     roster = place(scene, settings)
-    close = close_pairs(roster, Planner(settings, roster.book, scene.composed))
-    return [(roster.placed[i].body, roster.placed[j].body) for i, j in close]
+    near = close_pairs(roster, Planner(settings, roster.book, scene.composed))
+    met = [(roster.placed[i], roster.placed[j]) for i, j in near]
+    return [(a.body, b.body) for a, b in met if core.box_gap(a.bounds, b.bounds) == 0]

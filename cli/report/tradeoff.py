@@ -22,7 +22,9 @@ _MICROSECONDS = 1e6
 _RIGHT = {True: "right", False: "WRONG", None: ""}
 _COLOURS = {"right": "green", "WRONG": "bold red"}
 # Left out, in this order, where a terminal is too narrow.
-_SPARE = ("memory", "runs", "width", "hulls")
+_SPARE = ("memory", "runs", "width", "spread", "hulls", "cached")
+# Never broken between lines.
+_WHOLE = ("rung", "verdict", "error", "time")
 _FRAME = 3
 # As in a check: so narrow an interval, relatively, comes from rounding alone.
 EXACT_WIDTH = 1e-9
@@ -50,6 +52,12 @@ def _print_pair(console: Canvas, pair: PairTradeoff, page: Page) -> None:
     for row in pair.rows:
         if row.reason:
             console.print(f"  {row.rung.label}: {row.state}, {row.reason}")
+    early: dict[str, list[str]] = {}
+    for row in pair.rows:
+        if row.settled_by not in (None, row.rung.name):
+            early.setdefault(str(row.settled_by), []).append(row.rung.label)
+    for rung, labels in early.items():
+        console.print(f"  the same as {rung}: {', '.join(labels)}")
     if pair.picked is not None:
         console.print(f"Default: settled by {pair.picked.rung}. {pair.picked.why}.")
     console.print()
@@ -72,7 +80,10 @@ def _table(pair: PairTradeoff, page: Page) -> Table:
             columns.pop(name, None)
     table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
     for name in columns:
-        table.add_column(name, justify="left" if name in ("rung", "relation", "") else "right")
+        left = name in ("rung", "relation")
+        table.add_column(
+            name, justify="left" if left else "right", overflow="fold", no_wrap=name in _WHOLE
+        )
     for cells in zip(*columns.values(), strict=True):
         table.add_row(*(Text(cell, style=_COLOURS.get(cell, "")) for cell in cells))
     return table

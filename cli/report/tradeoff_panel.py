@@ -185,7 +185,7 @@ def _marker(dot: _Dot) -> str:
     row, x, y = dot.row, dot.x, dot.y
     times = row.cached if dot.cached else row.cold
     assert times is not None
-    kind = _KINDS[0 if row.rung.accuracy is None and row.right else row.standing]
+    kind = _KINDS[row.standing]
     error = "no distance" if row.error is None else f"error {number(row.error)}"
     said = f"{row.rung.label}{', cached' if dot.cached else ''}: {error}, "
     said += duration(times.median * _MICROSECONDS)
@@ -235,14 +235,14 @@ def _groups(dots: Sequence[_Dot]) -> list[list[_Dot]]:
 
 
 def _name(group: Sequence[_Dot]) -> str:
-    thresholds = sorted((dot.row.rung.threshold or 0.0 for dot in group), reverse=True)
-    if group[0].row.rung.threshold is None:
-        return group[0].row.rung.label
-    return f"{group[0].row.rung.name} {', '.join(f'{one:g}' for one in thresholds)}"
+    """`hull`, `parts 0.5 .. 0.05`."""
+    coarse_first = sorted(group, key=lambda dot: -(dot.row.rung.threshold or 0.0))
+    first, last = coarse_first[0].row.rung, coarse_first[-1].row.rung
+    return first.label if first is last else f"{first.label} .. {last.threshold:g}"
 
 
 def _place(text: str, left: float, right: float, y: float, taken: Sequence[Box]) -> Box:
-    """The first free place of: above, below, right, left, and so on farther away."""
+    """Above, below, right, left, or so farther away: the first place with least in the way."""
     wide, high, middle = _LETTER * len(text), _LETTER_HEIGHT, 0.5 * (left + right)
     corners = [
         (x, y + dy)
@@ -258,9 +258,11 @@ def _place(text: str, left: float, right: float, y: float, taken: Sequence[Box])
     within = [
         box for box in boxes if box[0] >= _LEFT and box[2] <= WIDTH and box[1] >= _TITLE - high
     ]
-    free = [box for box in within if not any(_overlap(box, other) for other in taken)]
-    return next(iter(free or within or boxes))
+    return min(within or boxes, key=lambda box: sum(_common(box, other) for other in taken))
 
 
-def _overlap(one: Box, other: Box) -> bool:
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+def _common(one: Box, other: Box) -> float:
+    """The area that two boxes have in common."""
+    wide = min(one[2], other[2]) - max(one[0], other[0])
+    high = min(one[3], other[3]) - max(one[1], other[1])
+    return max(wide, 0.0) * max(high, 0.0)

@@ -25,9 +25,9 @@ text { font: 12px system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
 .wrong { fill: none; stroke-width: 2.5; }
 """.strip()
 _LEGEND = (
-    ("proven", False, "right"),
-    ("guess", False, "right, not proven"),
-    ("wrong", False, "wrong relation"),
+    ("proven", False, "proven"),
+    ("guess", False, "not proven"),
+    ("wrong", False, "wrong"),
     ("proven", True, "cached"),
 )
 

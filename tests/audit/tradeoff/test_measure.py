@@ -43,6 +43,10 @@ def test_boxes_are_exact_on_every_rung_from_oriented_boxes_on() -> None:
             assert row.error == 0.0, label
             assert row.figure.value == pytest.approx(-1.0, rel=1e-12)
     assert seen["hull"].hulls == (1, 1)
+    # Hulls settle it: what climbs higher is the same again, and no choice of its own.
+    assert seen["parts 0.1"].settled_by == seen["exact"].settled_by == "hull"
+    assert {label for label, row in seen.items() if row.on_front} <= {"aabb", "obb", "hull"}
+    assert seen["hull"].on_front
     assert seen["boolean"].volume == pytest.approx(1.0 * 1.75 * 1.5, abs=1e-9)
     assert pair.picked is not None
     assert pair.picked.rung == "hull"
