@@ -12,15 +12,13 @@ from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.tolerances import ORTHOGONALITY, rounding_pad
+from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
     from satcheck.scene import Body
 
     RigidPose = tuple[float, float, float, float, float, float, float]
     PosedBox = tuple[core.Box, RigidPose]
-
-Transform = tuple[float, ...]
-IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ no common interior; `mtv` is the translation to add to A. What was not asked for
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -256,153 +255,22 @@ class Report:
 
     def members(self, timings: bool = True) -> Iterator[tuple[str, Any]]:
         """The same key by key; of bodies and findings, which can be many, iterators."""
+        from satcheck.audit import report_values as values
+
         yield "schema", SCHEMA
         yield "tool", {"name": self.tool.name, "version": self.tool.version}
         yield "units", self.units
         yield "settings", dict(self.settings)
-        yield "summary", _summary(self.summary)
+        yield "summary", values.summary(self.summary)
         if self.pose is not None:
             yield "pose", dict(self.pose)
         if self.motions:
             yield "motions", [dict(motion) for motion in self.motions]
-        yield "bodies", (_body(body) for body in self.bodies)
+        yield "bodies", (values.body(body) for body in self.bodies)
         exempt = {"groups": list(self.exempt.groups), "static_pairs": self.exempt.static_pairs}
         yield "exempt", exempt
-        yield "rules", [rule_values(rule) for rule in self.rules]
-        yield "effects", [_effect(effect, timings) for effect in self.effects]
-        yield "findings", (_finding(finding, timings) for finding in self.findings)
-        yield "issues", [_issue(issue) for issue in self.issues]
+        yield "rules", [values.rule(rule) for rule in self.rules]
+        yield "effects", [values.effect(effect, timings) for effect in self.effects]
+        yield "findings", (values.finding(finding, timings) for finding in self.findings)
+        yield "issues", [values.issue(issue) for issue in self.issues]
         yield "truncated", self.truncated
-
-
-def _number(value: float | None) -> float | None:
-    """Finite, and without a negative zero."""
-    if value is None:
-        return None
-    if not math.isfinite(value):
-        raise ValueError(f"a report holds finite numbers only, not {value!r}")
-    return value + 0.0
-
-
-def _vector(value: Vector | None) -> list[float | None] | None:
-    return None if value is None else [_number(c) for c in value]
-
-
-def _summary(summary: Summary) -> dict[str, Any]:
-    pairs = summary.pairs
-    return {
-        "verdict": summary.verdict,
-        "pairs": {
-            "total": pairs.total,
-            "pruned": pairs.pruned,
-            "decided": pairs.decided,
-            "allowed": pairs.allowed,
-            "indeterminate": pairs.indeterminate,
-        },
-        "by_relation": {name: summary.by_relation.get(name, 0) for name in RELATIONS},
-        "surfaces_only": summary.surfaces_only,
-        "limits_undecided": summary.limits_undecided,
-        **({"sweeps_undecided": undecided} if (undecided := summary.sweeps_undecided) else {}),
-    }
-
-
-def _effect(effect: EffectReport, timings: bool) -> dict[str, Any]:
-    plain: dict[str, Any] = {
-        "effect": effect.effect,
-        "asked_by": list(effect.asked_by),
-        "pairs": effect.pairs,
-        "not_run": dict(effect.not_run),
-    }
-    return plain | {"microseconds": _number(effect.microseconds)} if timings else plain
-
-
-def rule_values(rule: Rule) -> dict[str, Any]:
-    return {
-        "a": rule.a.text,
-        "b": rule.b.text,
-        "allowed": rule.allowed,
-        "max_depth": _number(rule.max_depth),
-        "max_volume": _number(rule.max_volume),
-        "clearance": _number(rule.clearance),
-        "tolerance": _number(rule.tolerance),
-        "severity": rule.severity,
-        "reason": rule.reason,
-        "where": rule.where,
-    }
-
-
-def _body(body: BodyReport) -> dict[str, Any]:
-    error = body.part_error
-    return {
-        "id": body.id,
-        "name": body.name,
-        "file": body.file,
-        "sha256": body.sha256,
-        "path": body.path,
-        "shape": body.shape,
-        "transform": body.transform and [_number(entry) for entry in body.transform],
-        "groups": list(body.groups),
-        "static": body.static,
-        "triangles": body.triangles,
-        "health": body.health,
-        "resolution": _number(body.resolution),
-        "convex": body.convex,
-        "parts": body.parts,
-        "part_error": error
-        and {"outside": _number(error.outside), "missing": _number(error.missing)},
-    }
-
-
-def _finding(finding: Finding, timings: bool) -> dict[str, Any]:
-    bounds, witness = finding.depth_bounds, finding.witness
-    return {
-        "id": finding.id,
-        "a": finding.a,
-        "b": finding.b,
-        "rule": finding.rule,
-        "severity": finding.severity,
-        "undecided": finding.undecided,
-        "relation": finding.relation,
-        "exact_relation": finding.exact_relation,
-        "tolerance": _number(finding.tolerance),
-        "distance": _number(finding.distance),
-        "depth": _number(finding.depth),
-        "depth_bounds": bounds and [_number(bounds[0]), _number(bounds[1])],
-        "quality": finding.quality,
-        "normal": _vector(finding.normal),
-        "mtv": _vector(finding.mtv),
-        "mtv_moves": finding.mtv_moves,
-        "mtv_verified": finding.mtv_verified,
-        "witness": witness and {"a": _vector(witness.a), "b": _vector(witness.b)},
-        "volume": _number(finding.volume),
-        "volume_error": _number(finding.volume_error),
-        "contacts": finding.contacts and finding.contacts.to_dict(),
-        **({} if finding.motion is None else {"motion": finding.motion.to_dict()}),
-        "certificate": finding.certificate,
-        "reason": finding.reason,
-        "plan": [_stage(stage, timings) for stage in finding.plan],
-        "baseline_state": finding.baseline_state,
-    }
-
-
-def finding_values(finding: Finding, timings: bool = True) -> dict[str, Any]:
-    """One finding as JSON values."""
-    return _finding(finding, timings)
-
-
-def _stage(stage: Stage, timings: bool) -> dict[str, Any]:
-    plain: dict[str, Any] = {"stage": stage.stage, "result": stage.result}
-    if timings:
-        plain["microseconds"] = _number(stage.microseconds)
-    plain["detail"] = stage.detail
-    return plain
-
-
-def _issue(issue: Issue) -> dict[str, Any]:
-    return {
-        "code": issue.code,
-        "severity": issue.severity,
-        "body": issue.body,
-        "file": issue.file,
-        "message": issue.message,
-    }

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any, get_args
 
+from satcheck.audit import report_values
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.report import (
     OVERLAPS,
@@ -17,8 +18,6 @@ from satcheck.audit.report import (
     Report,
     Tool,
     Verdict,
-    finding_values,
-    rule_values,
 )
 from satcheck.audit.roster import Known
 from satcheck.audit.rule_book import RuleBook
@@ -131,7 +130,7 @@ class Samples:
                 for body in self.bodies
             ],
             "exempt": asdict(self.exempt),
-            "rules": [rule_values(rule) for rule in self.rules],
+            "rules": [report_values.rule(rule) for rule in self.rules],
             "samples": [_sample_values(sample, timings) for sample in self.samples],
             "pairs": [asdict(pair) for pair in self.pairs if not pair.settled],
             "issues": [asdict(issue) for issue in self.issues],
@@ -214,7 +213,7 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
         "number": sample.number,
         "pose": sample.posture.pose(),
         "verdict": sample.verdict,
-        "findings": [finding_values(finding, timings) for finding in sample.findings],
+        "findings": [report_values.finding(finding, timings) for finding in sample.findings],
         "issues": [asdict(issue) for issue in sample.issues],
     }
 

@@ -19,7 +19,9 @@ CLEARANCE_RULE = "clearance"
 
 
 @dataclass(frozen=True, slots=True)
-class _Judgement:
+class Judgement:
+    """A severity, the rule that decided it, and what was left open, with the reason."""
+
     severity: Severity
     rule: str | None = None
     undecided: Undecided | None = None
@@ -45,31 +47,31 @@ def judged(finding: Finding, pair: Pair, gap: float, unseen: bool) -> Finding:
     return replace(finding, severity=severity, rule=rule, undecided=undecided, reason=reason)
 
 
-def _found(finding: Finding, asked: Asked, gap: float) -> _Judgement:
+def _found(finding: Finding, asked: Asked, gap: float) -> Judgement:
     if finding.relation in OVERLAPS:
-        return _limited(finding, asked) if asked.limited else _Judgement("error")
+        return _limited(finding, asked) if asked.limited else Judgement("error")
     if gap < (asked.clearance or 0.0):
-        return _Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
-    return _Judgement("note" if finding.relation == "touching" else "none")
+        return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
+    return Judgement("note" if finding.relation == "touching" else "none")
 
 
-def _left_open(found: _Judgement, allow_open: bool) -> _Judgement:
+def _left_open(found: Judgement, allow_open: bool) -> Judgement:
     if allow_open:
         return found if found.severity != "none" else replace(found, severity="note")
     graver = SEVERITIES.index(found.severity) <= SEVERITIES.index("warning")
     return replace(found, severity=found.severity if graver else "warning", undecided="inside")
 
 
-def _limited(finding: Finding, asked: Asked) -> _Judgement:
+def _limited(finding: Finding, asked: Asked) -> Judgement:
     """Within all limits, beyond one, or undecided."""
     limits = list(_limits(finding, asked))
     for limit in limits:
         if not limit.kept and limit.least is not None and limit.least > limit.most:
-            return _Judgement("error", limit.rule)
+            return Judgement("error", limit.rule)
     for limit in limits:
         if not limit.kept:
-            return _Judgement("warning", limit.rule, "limit", f"undecided: {limit.question}")
-    return _Judgement("note", ", ".join(dict.fromkeys(limit.rule for limit in limits)))
+            return Judgement("warning", limit.rule, "limit", f"undecided: {limit.question}")
+    return Judgement("note", ", ".join(dict.fromkeys(limit.rule for limit in limits)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.lengths import in_units_of
-from satcheck.cli.output import PLAIN_PAGE, CannotWrite, Document, talk, write_file
+from satcheck.cli.output import CannotWrite, Document, talk
 
 if TYPE_CHECKING:
     from satcheck.audit.report import Report
@@ -88,12 +88,8 @@ def run(choices: Choices) -> int:
             return check_and_tell(scene, poses, choices, document)
         scene = posed(scene, poses)
     report = _report(scene, choices)
-    page = PLAIN_PAGE if choices.output else document.page
-    text = _render(report, choices, page)
-    if choices.output:
-        write_file(choices.output, text)
-    else:
-        document.write(text, utf8=choices.form == "json")
+    utf8 = choices.form == "json"
+    document.deliver(lambda page: _render(report, choices, page), choices.output, utf8=utf8)
     _tell(report, scene, choices)
     return exit_codes.of_report(report, exit_zero=choices.exit_zero)
 

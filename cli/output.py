@@ -8,7 +8,7 @@ import os
 import re
 import shutil
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -32,6 +32,8 @@ class Page:
 
 
 PLAIN_PAGE = Page(width=UNBOUNDED_WIDTH, colour=False, unicode=True)
+# A document as it is drawn for a page: one text or its pieces.
+Render = Callable[[Page], str | Sequence[str]]
 
 
 def talk(line: str) -> None:
@@ -74,6 +76,13 @@ class Document:
             self._stream = sys.stdout
             return
         self._stream = os.fdopen(kept, "w", encoding=encoding, errors="replace", newline="")
+
+    def deliver(self, render: Render, output: Path | None, *, utf8: bool = False) -> None:
+        """Write what `render` makes of a page: to the file, plain, or else to standard output."""
+        if output is None:
+            self.write(render(self.page), utf8=utf8)
+        else:
+            write_file(output, render(PLAIN_PAGE))
 
     def write(self, text: str | Sequence[str], *, utf8: bool = False) -> None:
         """Write it all, one text or its pieces.

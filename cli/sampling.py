@@ -10,7 +10,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import settings_of
-from satcheck.cli.output import PLAIN_PAGE, Document, talk, write_file
+from satcheck.cli.output import Document, talk
 
 if TYPE_CHECKING:
     from satcheck.audit.samples import Samples
@@ -35,12 +35,8 @@ def check_and_tell(
     with Bar("poses") as bar:
         found = check_poses(scene, poses, settings, progress=bar)
     found = replace(found, seed=choices.posing.random_seed)
-    page = PLAIN_PAGE if choices.output else document.page
-    text = _render(found, choices, page)
-    if choices.output:
-        write_file(choices.output, text)
-    else:
-        document.write(text, utf8=choices.form == "json")
+    utf8 = choices.form == "json"
+    document.deliver(lambda page: _render(found, choices, page), choices.output, utf8=utf8)
     _tell(found, scene, choices)
     return exit_codes.of_verdict(found.verdict, found.issues, exit_zero=choices.exit_zero)
 

@@ -10,7 +10,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
-from satcheck.cli.output import PLAIN_PAGE, Document, write_file
+from satcheck.cli.output import Document
 
 if TYPE_CHECKING:
     from satcheck.audit.stability import Stability
@@ -42,12 +42,8 @@ def run(choices: Choices) -> int:
     refuse_early(choices.paths, choices.output)
     document = Document()
     found = _probe(choices)
-    page = PLAIN_PAGE if choices.output else document.page
-    text = _render(found, choices, page)
-    if choices.output:
-        write_file(choices.output, text)
-    else:
-        document.write(text, utf8=choices.form == "json")
+    utf8 = choices.form == "json"
+    document.deliver(lambda page: _render(found, choices, page), choices.output, utf8=utf8)
     return _EXIT_CODES[found.verdict]
 
 

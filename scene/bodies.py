@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from satcheck.scene.robot import Posture, SceneRobot
 
 Transform = tuple[float, ...]
+IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,9 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from satcheck.scene.bodies import Scene
+from satcheck.scene.bodies import IDENTITY, Scene
 from satcheck.scene.format import scene_1, simple
-from satcheck.scene.format.placement import IDENTITY
 from satcheck.scene.format.reading import read_scene_file
 from satcheck.scene.format.text import parsed, read_text
 from satcheck.scene.format.writing import moved

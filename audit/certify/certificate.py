@@ -8,10 +8,11 @@ from fractions import Fraction
 from typing import Any
 
 from satcheck import core
+from satcheck.audit import report_values
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.pair import Pair
-from satcheck.audit.report import OVERLAPS, Finding, finding_values
+from satcheck.audit.report import OVERLAPS, Finding
 from satcheck.verify import Rejected
 from satcheck.verify.evidence import exceeds, gap_along, vector
 from satcheck.verify.findings import check_finding, depth_at_most, pair_of
@@ -40,7 +41,7 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
     if isinstance(certificate, str):
         return certificate
     try:
-        check_finding(finding_values(finding) | {"certificate": certificate}, a, b, asked)
+        check_finding(report_values.finding(finding) | {"certificate": certificate}, a, b, asked)
     except Rejected as why:
         return f"what was found does not prove it: {why}"
     return certificate

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from satcheck.audit.motion.movers import Paths
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.motion_report import Sweep
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
-from satcheck.audit.report import SEVERITIES, Finding, Severity, Undecided
-from satcheck.audit.severity import CLEARANCE_RULE
+from satcheck.audit.report import SEVERITIES, Finding
+from satcheck.audit.severity import CLEARANCE_RULE, Judgement
 from satcheck.audit.tolerances import EXACT_WIDTH
-
-
-@dataclass(frozen=True, slots=True)
-class _Judgement:
-    severity: Severity
-    rule: str | None = None
-    undecided: Undecided | None = None
-    reason: str | None = None
 
 
 def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Finding:
@@ -29,7 +21,7 @@ def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Findin
     plan.record("sweep", found.relation, _detail(found))
     judged = _judged(found, pair)
     if judged.severity == "error" and pair.asked.severity is not None:
-        judged = _Judgement(pair.asked.severity, pair.asked.rule("severity"))
+        judged = Judgement(pair.asked.severity, pair.asked.rule("severity"))
     graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
     return replace(
         finding,
@@ -42,32 +34,32 @@ def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Findin
     )
 
 
-def _judged(found: Sweep, pair: Pair) -> _Judgement:
+def _judged(found: Sweep, pair: Pair) -> Judgement:
     asked = pair.asked
     if found.relation == "indeterminate":
-        return _Judgement("warning", undecided="motion")
+        return Judgement("warning", undecided="motion")
     if found.relation == "penetrating":
-        return _limited(found, pair) if asked.limited else _Judgement("error")
+        return _limited(found, pair) if asked.limited else Judgement("error")
     if found.relation == "near" or (found.relation == "touching" and asked.clearance):
-        return _Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
+        return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
     if found.reason is not None and not pair.settings.allow_open:
-        return _Judgement("warning", undecided="inside")
+        return Judgement("warning", undecided="inside")
     touches = found.relation == "touching" or found.reason is not None
-    return _Judgement("note" if touches else "none")
+    return Judgement("note" if touches else "none")
 
 
-def _limited(found: Sweep, pair: Pair) -> _Judgement:
+def _limited(found: Sweep, pair: Pair) -> Judgement:
     """Of a pair that may overlap within limits. The volume on the way is not measured."""
     asked = pair.asked
     depth = None if found.worst is None else found.worst.depth
     rule = asked.rule("max_depth") or asked.rule("max_volume")
     if asked.max_depth is not None and depth is not None:
         if depth[0] > asked.max_depth:
-            return _Judgement("error", rule)
+            return Judgement("error", rule)
         if depth[1] <= asked.max_depth * (1 + EXACT_WIDTH) and asked.max_volume is None:
-            return _Judgement("note", rule)
+            return Judgement("note", rule)
     reason = "undecided: whether the overlap on the way is within its limits"
-    return _Judgement("warning", rule, "limit", reason)
+    return Judgement("warning", rule, "limit", reason)
 
 
 def _detail(found: Sweep) -> str:

@@ -22,6 +22,7 @@ from satcheck.audit.resolve.wall import BodyPair
 from satcheck.audit.roster import place
 from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import added, scaled
+from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
     from satcheck.scene import Body, Scene
@@ -31,7 +32,6 @@ WAY_OUT_WIDTH = 0.25
 WAY_OUT_BUDGET = 0.03
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
-IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from satcheck.audit import report_values
 from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
 
 SCHEMA = "satcheck.resolution/1"
@@ -87,7 +88,6 @@ class Resolution:
     def to_dict(self, output: str | None = None) -> dict[str, Any]:
         """JSON values in the fixed key order of the schema. output: the file it was written to."""
         report = self.report
-        pairs = report.summary.pairs
         return {
             "schema": SCHEMA,
             "tool": {"name": report.tool.name, "version": report.tool.version},
@@ -119,25 +119,10 @@ class Resolution:
             ],
             "check": {
                 "verdict": report.summary.verdict,
-                "pairs": {
-                    "total": pairs.total,
-                    "pruned": pairs.pruned,
-                    "decided": pairs.decided,
-                    "allowed": pairs.allowed,
-                    "indeterminate": pairs.indeterminate,
-                },
+                "pairs": report_values.pair_counts(report.summary.pairs),
                 "by_relation": _counts(report.summary.by_relation),
             },
-            "issues": [
-                {
-                    "code": issue.code,
-                    "severity": issue.severity,
-                    "body": issue.body,
-                    "file": issue.file,
-                    "message": issue.message,
-                }
-                for issue in report.issues
-            ],
+            "issues": [report_values.issue(issue) for issue in report.issues],
         }
 
 

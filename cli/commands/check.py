@@ -11,6 +11,8 @@ from satcheck.cli.commands.options import (
     debug_option,
     form_of,
     form_option,
+    jobs_option,
+    open_option,
     output_option,
     outside_option,
     paths_argument,
@@ -150,12 +152,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="The least severity of a finding that makes the check fail. Overlaps and gaps below the "
     "clearance are errors, unless a rule of the scene says otherwise; what only touches is a note.",
 )
-@click.option(
-    "--allow-open",
-    is_flag=True,
-    help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
-    "not make the check incomplete.",
-)
+@open_option
 @click.option(
     "--cross-check",
     is_flag=True,
@@ -166,15 +163,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     is_flag=True,
     help="Give the proven verdicts of a JSON report evidence that satcheck verify checks.",
 )
-@click.option(
-    "-j",
-    "--jobs",
-    type=click.IntRange(min=0),
-    metavar="N",
-    default=0,
-    show_default=True,
-    help="Threads; 0 is one per core. Changes no answer.",
-)
+@jobs_option
 @click.option(
     "--no-cache",
     "cache",

@@ -46,6 +46,14 @@ form_option = click.option(
     type=click.Choice(FORMATS),
     help="How to report. [default: table; json where the name after -o ends in .json]",
 )
+table_or_json_option = click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    default="table",
+    show_default=True,
+    help="How to report.",
+)
 output_option = click.option(
     "-o",
     "--output",
@@ -65,5 +73,20 @@ split_option = click.option(
     type=click.Choice(SPLITS),
     help="What a body is: a node of a GLB, glTF or 3MF file, a connected component, or a whole "
     "file. [default: nodes for one file alone, otherwise none]",
+)
+open_option = click.option(
+    "--allow-open",
+    is_flag=True,
+    help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
+    "not make the check incomplete.",
+)
+jobs_option = click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=0,
+    show_default=True,
+    help="Threads; 0 is one per core. Changes no answer.",
 )
 debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")

@@ -8,12 +8,14 @@ from typing import Any
 import click
 
 from satcheck.cli.commands.options import (
-    FORMATS,
     HELP_NAMES,
     debug_option,
+    jobs_option,
+    open_option,
     outside_option,
     paths_argument,
     split_option,
+    table_or_json_option,
 )
 from satcheck.cli.lengths import length
 
@@ -54,29 +56,9 @@ from satcheck.cli.lengths import length
     show_default=True,
     help="Rounds of pushing; what overlaps after them is taken out to a free place.",
 )
-@click.option(
-    "--allow-open",
-    is_flag=True,
-    help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
-    "not make the check incomplete.",
-)
-@click.option(
-    "-j",
-    "--jobs",
-    type=click.IntRange(min=0),
-    metavar="N",
-    default=0,
-    show_default=True,
-    help="Threads; 0 is one per core. Changes no answer.",
-)
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(FORMATS),
-    default="table",
-    show_default=True,
-    help="How to report.",
-)
+@open_option
+@jobs_option
+@table_or_json_option
 @split_option
 @outside_option
 @debug_option

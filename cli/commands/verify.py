@@ -6,7 +6,12 @@ from pathlib import Path
 
 import click
 
-from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option, outside_option
+from satcheck.cli.commands.options import (
+    HELP_NAMES,
+    debug_option,
+    outside_option,
+    table_or_json_option,
+)
 
 
 @click.command("verify", context_settings=HELP_NAMES)
@@ -18,14 +23,7 @@ from satcheck.cli.commands.options import FORMATS, HELP_NAMES, debug_option, out
     help="The folder where the check ran: paths in the report start there.  "
     "[default: the current one]",
 )
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(FORMATS),
-    default="table",
-    show_default=True,
-    help="How to report.",
-)
+@table_or_json_option
 @outside_option
 @debug_option
 def command(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -> int:

@@ -20,24 +20,6 @@ _TURNS = ("quaternion", "euler")
 PARTS = ("position", *_TURNS, "scale")
 KEYS = frozenset((*PARTS, "matrix"))
 
-IDENTITY: Transform = (
-    1.0,
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    1.0,
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    1.0,
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    1.0,
-)
 _NO_TURN: Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 _NO_SCALE = (1.0, 1.0, 1.0)
 _ORIGIN = (0.0, 0.0, 0.0)

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from satcheck.scene.bodies import Transform
+from satcheck.scene.bodies import IDENTITY, Transform
 from satcheck.scene.format import simple
-from satcheck.scene.format.placement import IDENTITY, matrix, placement
+from satcheck.scene.format.placement import matrix, placement
 from satcheck.scene.format.positions import Keys, Place
 from satcheck.scene.format.problems import Problems
 from satcheck.scene.format.table import Table

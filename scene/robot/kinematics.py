@@ -10,27 +10,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from satcheck.scene.bodies import Transform
+from satcheck.scene.bodies import IDENTITY, Transform
 from satcheck.scene.robot.model import Joint, Robot, Vector
 
-IDENTITY: Transform = (
-    1.0,
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    1.0,
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    1.0,
-    0.0,
-    0.0,
-    0.0,
-    0.0,
-    1.0,
-)
 Rotation = tuple[float, float, float, float, float, float, float, float, float]
 # Numbers of one joint: none for a fixed one, (x, y, angle) for a planar one, (x, y, z, roll, pitch,
 # yaw) for a floating one, an angle or a length for the others.

@@ -13,10 +13,11 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import get_args
 
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.primitives import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.robot.joint_tree import in_order
-from satcheck.scene.robot.kinematics import IDENTITY, from_quaternion, from_rpy
+from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
 from satcheck.scene.robot.model import (
     Collision,
     Geometry,

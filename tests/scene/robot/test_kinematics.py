@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot import read_urdf, settle
 from satcheck.scene.robot.kinematics import (
-    IDENTITY,
     about,
     compose,
     from_quaternion,
