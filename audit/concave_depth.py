@@ -40,7 +40,6 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     way_out = None
     if pair.may("exact"):
         lower, way_out = _searched(pair, lower, hulls.upper, plan)
-        way_out = _in_the_plane(pair, way_out)
     elif contact.proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(pair, plan))
     if way_out is not None:
@@ -95,6 +94,7 @@ def search(
         lower=min(lower, upper),
         width=pair.settings.depth_width if width is None else width,
         work=_budget(pair) if work is None else work,
+        across=-1 if (plane := pair.settings.planar) is None else axis_across(plane),
     )
     reason = "" if found.stop == "narrow" else "; the budget ended the search"
     plan.record(
@@ -133,15 +133,6 @@ def _depth_of(pair: Pair, move: Vector, lower: float) -> Depth:
     length, normal = _length_and_normal(move)
     upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
     return Depth(min(lower, upper), upper, normal, Escape(move, True, upper))
-
-
-def _in_the_plane(pair: Pair, way_out: Vector | None) -> Vector | None:
-    """Prisms of one height are freed by the rest of a translation without the part along it."""
-    plane = pair.settings.planar
-    if plane is None or way_out is None:
-        return way_out
-    x, y, z = (0.0 if axis == axis_across(plane) else way_out[axis] for axis in range(3))
-    return x, y, z
 
 
 def _length_and_normal(translation: Vector) -> tuple[float, Vector]:

@@ -1,4 +1,4 @@
-"""Checks in a plane, where bodies are prisms of one height."""
+"""Checks in a plane, where bodies are prisms that reach beyond all that matters."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from satcheck.audit.boxes import Box
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
+from satcheck.audit.report import OVERLAPS, Relation
 from satcheck.core.conventions import Plane, axes_of, axis_across
 
 if TYPE_CHECKING:
@@ -17,24 +18,33 @@ if TYPE_CHECKING:
 
 
 def refine_nesting(pair: Pair, contact: Contact, plane: Plane, plan: Plan) -> Contact:
-    """`contains` and `inside` where an outline lies within the other.
+    """`contains`, `inside` and `coincident` as the outlines are.
 
-    The prisms share the planes of their ends, so as solids their surfaces always meet. Where the
-    outer one is made to stick out at both ends, only the walls can meet.
+    The prisms themselves end at different heights, which no outline has: one made to reach beyond
+    the other says whether it holds it, two of one height whether they are the same.
     """
-    if contact.relation != "penetrating":
+    if contact.relation not in OVERLAPS:
         return contact
-    if _holds(pair.a.bounds, pair.b.bounds, plane):
-        found = core.mesh_relation(_longer(pair.a, plane), pair.b.surface()).relation
-        if found == "contains":
-            plan.record("containment", found, "the outline of B lies within that of A")
-            return replace(contact, relation="contains")
-    if _holds(pair.b.bounds, pair.a.bounds, plane):
-        found = core.mesh_relation(pair.a.surface(), _longer(pair.b, plane)).relation
-        if found == "inside":
-            plan.record("containment", found, "the outline of A lies within that of B")
-            return replace(contact, relation="inside")
-    return contact
+    relation = _nesting(pair.a, pair.b, plane)
+    if relation != "penetrating":
+        plan.record("containment", relation, "the outlines, as prisms of heights that suit")
+    return replace(contact, relation=relation)
+
+
+def _nesting(a: PlacedBody, b: PlacedBody, plane: Plane) -> Relation:
+    holds_b, holds_a = _holds(a.bounds, b.bounds, plane), _holds(b.bounds, a.bounds, plane)
+    height = max(body.bounds[1][axis_across(plane)] for body in (a, b))
+    if holds_a and holds_b and _related(a, height, b, height, plane) == "coincident":
+        return "coincident"
+    if holds_b and _related(a, 2 * height, b, height, plane) == "contains":
+        return "contains"
+    if holds_a and _related(a, height, b, 2 * height, plane) == "inside":
+        return "inside"
+    return "penetrating"
+
+
+def _related(a: PlacedBody, height_a: float, b: PlacedBody, height_b: float, plane: Plane) -> str:
+    return core.mesh_relation(_reaching(a, height_a, plane), _reaching(b, height_b, plane)).relation
 
 
 def _holds(outer: Box, inner: Box, plane: Plane) -> bool:
@@ -44,10 +54,10 @@ def _holds(outer: Box, inner: Box, plane: Plane) -> bool:
     )
 
 
-def _longer(body: PlacedBody, plane: Plane) -> core.Surface:
-    """Twice as high about its middle, exactly: the height is a power of two."""
-    axis = axis_across(plane)
-    height = body.bounds[1][axis]
-    transform = [float(row == column) for row in range(4) for column in range(4)]
-    transform[5 * axis], transform[4 * axis + 3] = 2.0, -0.5 * height
-    return core.Surface(body.mesh.transformed(transform), body.solid)
+def _reaching(body: PlacedBody, height: float, plane: Plane) -> core.Surface:
+    """The prism of another height."""
+    import numpy as np
+
+    vertices, axis = np.array(body.mesh.vertices), axis_across(plane)
+    vertices[:, axis] = np.copysign(height, vertices[:, axis])
+    return core.Surface(core.Mesh(vertices, body.mesh.triangles), body.solid)

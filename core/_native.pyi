@@ -303,7 +303,14 @@ class DepthInterval:
     def sets(self) -> int: ...
 
 def search_depth(
-    a: Surface, b: Surface, *, upper: float, lower: float, width: float, work: int
+    a: Surface,
+    b: Surface,
+    *,
+    upper: float,
+    lower: float,
+    width: float,
+    work: int,
+    across: int = -1,
 ) -> DepthInterval: ...
 def mesh_distance(a: Surface, b: Surface, limit: float = ...) -> MeshDistance: ...
 def deviation(surface_of: Mesh, solid: Surface, tolerance: float) -> tuple[float, float]: ...

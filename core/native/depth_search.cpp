@@ -102,7 +102,7 @@ class Search {
 
   DepthInterval run() {
     ask_meshes({0, 0, 0});
-    push({0, 0, 0}, Vec3{1, 1, 1} * short_number_above(kRootSize * result_.upper), {}, 0);
+    push({0, 0, 0}, in_plane(Vec3{1, 1, 1} * short_number_above(kRootSize * result_.upper)), {}, 0);
     double open_from = result_.upper;
     while (!open_.empty()) {
       Box box = open_.top();
@@ -138,6 +138,16 @@ class Search {
   }
 
  private:
+  // Where translations lie in a plane, the boxes are flat, and so is whatever points at them.
+  Vec3 in_plane(Vec3 t) const {
+    switch (goal_.across) {
+      case 0: return {0, t.y, t.z};
+      case 1: return {t.x, 0, t.z};
+      case 2: return {t.x, t.y, 0};
+      default: return t;
+    }
+  }
+
   // Translations that are longer need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
@@ -207,7 +217,7 @@ class Search {
       walls.push_back({deepest.normal, dot(deepest.normal, t - start) + deepest.depth + beyond});
       const std::optional<Vec3> next = nearest_beyond(walls);
       if (!next) return false;
-      t = start + *next;
+      t = in_plane(start + *next);
     }
     return false;
   }
@@ -252,7 +262,7 @@ class Search {
       walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
       const std::optional<Vec3> next = nearest_beyond(walls);
       if (!next || norm(*next) >= result_.upper) return;
-      t = *next;
+      t = in_plane(*next);
     }
   }
 
@@ -273,6 +283,7 @@ class Search {
     scanned_ = true;
     for (; radius < result_.upper; radius *= kSphereRatio) {
       for (const Vec3 way : ways()) {
+        if (!(in_plane(way) == way)) continue;
         const Vec3 t = way * radius;
         const auto holds = [&](const ForbiddenSet& set) { return set.exit(t).depth > 0; };
         if (std::any_of(sets_.begin(), sets_.end(), holds)) continue;
@@ -292,7 +303,7 @@ class Search {
         if (std::fabs(sets_[i].facet[k] - dot(n, box.centre)) <= spread) t = t + n * (sets_[i].facet[k] - dot(n, t));
       }
     }
-    return t;
+    return in_plane(t);
   }
 
   // Where forbidden sets only touch, A fits between the parts of B without play: t is shifted by less than
@@ -307,7 +318,7 @@ class Search {
         if (shift > 0 && shift < std::fabs(nearest.height - dot(nearest.normal, t))) nearest = touch;
       }
       if (!(std::fabs(nearest.height - dot(nearest.normal, t)) <= kSeam * result_.upper)) break;
-      t = moved_to(t, nearest);
+      t = in_plane(moved_to(t, nearest));
     }
     ask_meshes(t);
   }
@@ -317,7 +328,7 @@ class Search {
     if (!result_.found) return;
     const double length = norm(result_.way_out);
     for (const Touch& touch : touches(relation_at(result_.way_out * (1 - kSnap)))) {
-      const Vec3 t = touch.normal * touch.height;
+      const Vec3 t = in_plane(touch.normal * touch.height);
       const bool agrees = norm(t - result_.way_out) <= kSnap * length;
       if (agrees && norm(t) < result_.upper && is_free(relation_at(t))) take(t);
     }

@@ -13,6 +13,7 @@ struct DepthGoal {
   double lower = 0;        // known to be a lower bound of the depth
   double width = 0.01;     // the interval may stay this wide, relative to its upper end
   std::uint64_t work = 0;  // units that may be spent, each about a nanosecond; the same on every machine
+  int across = -1;         // an axis of the world along which nothing is moved: the depth in the plane; -1: none
 };
 
 enum class DepthStop : std::uint8_t {

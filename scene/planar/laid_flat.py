@@ -29,9 +29,9 @@ from satcheck.scene.planar.region import (
 from satcheck.scene.planar.turns import Floats
 from satcheck.scene.primitives import Primitive, is_curved, mesh_of, sag_of
 
-# How many times the widest body the prisms are high: nothing that separates two bodies in the
-# plane is longer than both are wide together.
-_HEIGHT = 4.0
+# How many times the width of the widest body the prisms reach up and down at least: nothing that
+# separates two bodies in the plane is longer than both are wide together.
+_REACH = 2.0
 # Wider than this, the prisms would be higher than what is decided exactly.
 _WIDEST = 1e44
 # Of the polygon of a ball: it is off the disc by about 1/13000 of its width.
@@ -53,8 +53,11 @@ def laid_flat(scene: Scene, plane: Plane) -> Scene:
             placed.append((body, _region(body, plane)))
         except MeshFileError as error:
             lost.append(_lost(body, error))
-    height = _height([region.points for _, region in placed])
-    bodies = [_flat(body, region, plane, height) for body, region in placed]
+    heights = _heights([region.points for _, region in placed])
+    bodies = [
+        _flat(body, region, plane, height)
+        for (body, region), height in zip(placed, heights, strict=True)
+    ]
     return replace(
         scene,
         bodies=tuple(bodies),
@@ -106,10 +109,12 @@ def _lost(body: Body, error: MeshFileError) -> Unreadable:
     return Unreadable(body.id, body.file.path, found, body.groups, body.path, body.static)
 
 
-def _height(outlines: Sequence[Floats]) -> float:
-    """A power of two, so that no coordinate of a wall is rounded."""
+def _heights(outlines: Sequence[Floats]) -> list[float]:
+    """How far each prism reaches from the plane: all different, none twice as far as another."""
     widest = max((float(np.ptp(points, axis=0).max()) for points in outlines), default=1.0)
-    return 2.0 ** math.ceil(math.log2(_HEIGHT * widest)) if widest > 0 else 1.0
+    least = 2.0 ** math.ceil(math.log2(_REACH * widest)) if widest > 0 else 1.0
+    step = least / 2.0 ** len(outlines).bit_length()  # a power of two: every sum is exact
+    return [least + step * k for k in range(len(outlines))]
 
 
 def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:

@@ -1,9 +1,10 @@
 """A flat region made solid: the prism over it.
 
-All prisms of a check stand on the plane and have one height, more than any of them is wide. Two of
-them then overlap, touch, or lie in each other exactly as the regions do. They are also as deep in
-each other as the regions: a translation that separates them has to separate the regions, unless it
-is as long as the prisms are high, and those that separate the regions need no third component.
+All prisms of a check reach farther above and below the plane than any of them is wide. Two of them
+then overlap or touch exactly as the regions do. They are also as deep in each other as the regions:
+a translation that separates them has to separate the regions, unless it is as long as the prisms
+are high, and those that separate the regions need no third component. No two are of one height,
+so that their ends never meet: only walls do.
 """
 
 from __future__ import annotations
@@ -17,13 +18,13 @@ from satcheck.scene.planar.turns import Floats, Indices
 
 
 def prism(points: Floats, triangles: Indices, height: float) -> Mesh:
-    """The closed mesh, z from 0 to height, over signed triangles in the plane, (n, 2) and (m, 3).
+    """The closed mesh, |z| <= height, over signed triangles in the plane, (n, 2) and (m, 3).
 
-    Its winding number at a point above the plane is the sum of the signs of the triangles under
+    Its winding number at a point between its ends is the sum of the signs of the triangles under
     it. Walls stand on the edges that no neighbour takes back. No wall is welded here.
     """
     count = len(points)
-    ground = np.column_stack((points, np.zeros(count)))
+    ground = np.column_stack((points, np.full(count, -height)))
     roof = np.column_stack((points, np.full(count, height)))
     walls = _walls(triangles, count)
     faces = np.concatenate((triangles[:, ::-1], triangles + count, walls))

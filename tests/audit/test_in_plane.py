@@ -6,17 +6,22 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from satcheck.audit import Finding, Settings, check
-from satcheck.core import Mesh, sat_polygons
+from satcheck.core import Mesh, Surface, sat_polygons
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import Body, Scene
+from satcheck.scene import Body, Scene, load_scene
+from satcheck.scene.planar.laid_flat import laid_flat
 from satcheck.scene.primitives import Box, Sphere, mesh_of
 from satcheck.scene.shape_file import shape_file
+from tests.oracles.free_directions import along, is_free
 from tests.scene.planar.flat import Corners, scene, sheet
+
+SAMPLE_MESHES = Path(__file__).resolve().parents[2] / "sample_meshes"
 
 # Comparing lengths that two methods got from coordinates below 8: an ulp of 8 for each operation of
 # either, of which there are fewer than 32.
@@ -180,6 +185,29 @@ def test_the_way_out_lies_in_the_plane(plane: str) -> None:
     assert found.depth == min(
         d for d, name in ((0.5, "x"), (0.75, "y"), (1.5, "z")) if name in plane
     )
+
+
+@pytest.mark.parametrize("plane", ["xy", "yz", "xz"])
+def test_deep_outlines_have_narrow_intervals(plane: str) -> None:
+    """Thousands of edges, concave and with holes; no sampled way out in the plane is shorter."""
+    paths = [str(SAMPLE_MESHES / name) for name in ("kettle.obj", "snowflake.obj")]
+    scene = load_scene(paths)
+    (found,) = check(scene, Settings(planar=plane, depth=True)).findings
+    assert found.depth_bounds is not None
+    assert found.mtv is not None
+    lower, upper = found.depth_bounds
+    assert upper - lower <= 0.01 * upper
+    across = "xyz".index(({"x", "y", "z"} - set(plane)).pop())
+    assert found.mtv[across] == 0.0
+    a, b = (body.file.mesh for body in laid_flat(scene, plane).bodies)
+    other = Surface(b, True)
+    assert is_free(a, other, found.mtv)
+    for k in range(32):
+        way = [math.cos(k * math.pi / 16), math.sin(k * math.pi / 16)]
+        way.insert(across, 0.0)
+        for share in (0.25, 0.5, 0.75, 1.0):
+            t = along((way[0], way[1], way[2]), share * lower * (1 - 1e-12))
+            assert not is_free(a, other, t)
 
 
 def test_the_planar_sat_is_what_settles_convex_outlines() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import random
+from typing import Any
 
 import numpy as np
 import pytest
@@ -167,6 +168,36 @@ def test_an_interval_that_ran_out_of_work_is_wide_but_right() -> None:
         assert full.lower <= part.upper
 
 
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("across", range(3))
+def test_nothing_is_moved_across_a_plane(seed: int, across: int) -> None:
+    """Blobs of squares, one of them three layers thick: along the axis the way out is 2 long."""
+    rng = random.Random(seed)
+    flat = [{c[:2] for c in random_solid(rng).cells} for _ in "ab"]
+
+    def layers(squares: set[tuple[int, int]], heights: range) -> VoxelSolid:
+        cells = ((*square[:across], h, *square[across:]) for square in squares for h in heights)
+        return VoxelSolid(frozenset((x, y, z) for x, y, z in cells))
+
+    a, b = layers(flat[0], range(-1, 2)), layers(flat[1], range(1))
+    truth = voxel_depth(layers(flat[0], range(-20, 21)), b)
+    found = search_depth(
+        Surface(a.mesh(seed=seed), True),
+        Surface(b.mesh(seed=seed), True),
+        upper=14.0,
+        lower=0.0,
+        width=0.01,
+        work=WORK,
+        across=across,
+    )
+    assert found.lower <= truth * (1 + 1e-9)
+    assert truth * (1 - 1e-12) <= found.upper
+    assert found.stop == "narrow"
+    assert found.way_out is not None
+    assert found.way_out[across] == 0.0
+    assert is_free(a.mesh(seed=seed), Surface(b.mesh(seed=seed), True), found.way_out)
+
+
 def test_open_surfaces_are_parted_where_triangles_no_longer_cross() -> None:
     sheet = Mesh(
         np.array([(0.0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]),
@@ -191,10 +222,11 @@ def test_open_surfaces_are_parted_where_triangles_no_longer_cross() -> None:
         {"lower": math.nan},
         {"width": 1.0},
         {"width": -0.1},
+        {"across": 3},
     ],
 )
-def test_what_is_no_goal_is_refused(wrong: dict[str, float]) -> None:
+def test_what_is_no_goal_is_refused(wrong: dict[str, Any]) -> None:
     cube = Surface(box((0, 0, 0), (1, 1, 1)).mesh(), True)
-    goal = {"upper": 1.0, "lower": 0.0, "width": 0.01} | wrong
+    goal: dict[str, Any] = {"upper": 1.0, "lower": 0.0, "width": 0.01} | wrong
     with pytest.raises(ValueError, match="must"):
         search_depth(cube, cube, work=1, **goal)

@@ -18,8 +18,8 @@ def winding(points: np.ndarray, triangles: np.ndarray, x: float, y: float) -> in
 def test_a_square() -> None:
     mesh = prism(SQUARE, HALVES, 8.0).welded()
     assert mesh.topology().solid
-    assert mesh.topology().volume == 4 * 4 * 8
-    assert mesh.bounds == ((0.0, 0.0, 0.0), (4.0, 4.0, 8.0))
+    assert mesh.topology().volume == 4 * 4 * 16
+    assert mesh.bounds == ((0.0, 0.0, -8.0), (4.0, 4.0, 8.0))
 
 
 def test_winding_numbers_add_up() -> None:
