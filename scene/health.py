@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from satcheck.core import Mesh, Topology
+from satcheck.core import Mesh, Topology, inspect
 from satcheck.scene.errors import MeshFileError
 
 
@@ -56,16 +56,13 @@ def examine(mesh: Mesh, *, orient: bool = True) -> Examined:
     Its vertices and triangles come in an order of their own, so that no answer depends on the
     order in the file. Raises MeshFileError (without a file name) when no triangle has an area.
     """
-    welded = mesh.welded().sorted()
-    topology = welded.topology()
+    found = inspect(mesh, orient)
+    topology, after, turned = found.topology, found.repaired, found.turned
     if topology.degenerate_triangles == topology.triangles:
         raise MeshFileError(
             "only-degenerate",
             f"only degenerate triangles: all {topology.triangles} have area 0",
         )
-    repaired = welded.oriented() if topology.closed and orient else welded
-    turned = repaired.to_bytes() != welded.to_bytes()
-    after = repaired.topology() if turned else topology
     # An even number of triangles at every edge, each face in pairs, and nothing enclosed: front and
     # back of a sheet. A solid whose faces come twice encloses its volume twice.
     in_pairs = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
@@ -85,10 +82,10 @@ def examine(mesh: Mesh, *, orient: bool = True) -> Examined:
         volume=topology.volume,
         inside_out=turned and topology.oriented,
         double_sided=double_sided,
-        flat=not after.solid and _is_flat(welded),
+        flat=not after.solid and _is_flat(found.mesh),
         solid=after.solid,
     )
-    return Examined(repaired, topology, health, tuple(_warnings(health, turned)))
+    return Examined(found.mesh, topology, health, tuple(_warnings(health, turned)))
 
 
 def _is_flat(mesh: Mesh) -> bool:

@@ -17,6 +17,7 @@
 #include "convexity.hpp"
 #include "deviation.hpp"
 #include "hull_points.hpp"
+#include "inspection.hpp"
 #include "mesh_checks.hpp"
 #include "mesh_distance.hpp"
 #include "mesh_pair.hpp"
@@ -196,6 +197,14 @@ solid: closed, oriented and of non-zero volume, so that it has an inside.)")
       .def_ro("oriented", &Topology::oriented)
       .def_ro("volume", &Topology::volume)
       .def_ro("solid", &Topology::solid);
+  nb::class_<Inspection>(m, "Inspection", R"(What inspect() found. mesh: welded, vertices and triangles in an order that depends on their coordinates alone;
+turned: whether orienting it then changed anything; topology: before that, repaired: of `mesh`.)")
+      .def_ro("mesh", &Inspection::mesh)
+      .def_ro("turned", &Inspection::turned)
+      .def_ro("topology", &Inspection::topology)
+      .def_ro("repaired", &Inspection::repaired);
+  m.def("inspect", &inspect, "mesh"_a, "orient"_a, ReleaseGil(), R"(mesh.welded().sorted(), its topology, and, where it is closed and `orient` says so, oriented(), for less than these
+one after another.)");
 }
 
 void bind_polytope(nb::module_& m) {

@@ -6,11 +6,10 @@
 #include "bvh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <numeric>
 #include <utility>
 
+#include "key_sort.hpp"
 #include "parallel.hpp"
 
 namespace satcheck {
@@ -19,11 +18,6 @@ namespace {
 constexpr std::uint32_t kLeafSize = 6;     // triangles that are not worth a split
 constexpr std::uint32_t kTaskSize = 8192;  // triangles that one thread handles at a time
 constexpr int kAxisBits = 21;              // of a Morton code: three of them fit into 64 bits
-
-struct Item {
-  std::uint64_t code;
-  std::uint32_t number;
-};
 
 struct Range {
   std::uint32_t first, count;
@@ -59,39 +53,14 @@ class MortonCurve {
   double scale_;
 };
 
-// By code, equal ones by number. Least significant digit first, where that pays.
-void sort(std::vector<Item>& items) {
-  constexpr std::size_t kFewItems = 1024;
-  if (items.size() < kFewItems) {
-    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-      return a.code != b.code ? a.code < b.code : a.number < b.number;
-    });
-    return;
-  }
-  constexpr int kDigitBits = 11, kDigits = (3 * kAxisBits + kDigitBits - 1) / kDigitBits;
-  constexpr std::uint64_t kMask = (1 << kDigitBits) - 1;
-  const auto digit = [](const Item& item, std::size_t d) { return item.code >> d * kDigitBits & kMask; };
-  std::vector<std::array<std::uint32_t, kMask + 1>> place(kDigits);
-  for (const Item& item : items) {
-    for (std::size_t d = 0; d < kDigits; ++d) ++place[d][digit(item, d)];
-  }
-  std::vector<Item> sorted(items.size());
-  for (std::size_t d = 0; d < kDigits; ++d) {
-    if (place[d][digit(items[0], d)] == items.size()) continue;
-    std::exclusive_scan(place[d].begin(), place[d].end(), place[d].begin(), 0u);
-    for (const Item& item : items) sorted[place[d][digit(item, d)]++] = item;
-    items.swap(sorted);
-  }
-}
-
 // How many items of a sorted range go to the left child: at least 1, and not all.
-std::uint32_t left_count(const std::vector<Item>& items, Range range) {
+std::uint32_t left_count(const std::vector<Keyed>& items, Range range) {
   const auto begin = items.begin() + range.first, end = begin + range.count;
-  const std::uint64_t differing = begin->code ^ (end - 1)->code;
+  const std::uint64_t differing = begin->key ^ (end - 1)->key;
   if (differing == 0) return range.count / 2;
   const std::uint64_t highest = std::bit_floor(differing);
   const auto middle =
-      std::partition_point(begin, end, [&](const Item& item) { return (item.code & highest) == 0; });
+      std::partition_point(begin, end, [&](const Keyed& item) { return (item.key & highest) == 0; });
   return static_cast<std::uint32_t>(middle - begin);
 }
 
@@ -101,7 +70,7 @@ struct Subtree {
 };
 
 // Cuts a range of the sorted items down to leaves of at most `leaf_size`. The boxes are still empty.
-Subtree grow(const std::vector<Item>& items, Range whole, std::uint32_t leaf_size) {
+Subtree grow(const std::vector<Keyed>& items, Range whole, std::uint32_t leaf_size) {
   Subtree tree;
   tree.nodes.emplace_back();
   std::vector<std::pair<std::uint32_t, Range>> pending{{0, whole}};
@@ -154,9 +123,9 @@ std::vector<BvhNode> graft(const Subtree& trunk, std::vector<Subtree>& branches)
 }
 
 // The tree over the boxes of the items, which are not yet sorted.
-Bvh build(const std::vector<Aabb>& boxes, std::vector<Item> items, unsigned threads) {
+Bvh build(const std::vector<Aabb>& boxes, std::vector<Keyed> items, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(items.size());
-  sort(items);
+  sort_by_key(items);
   Bvh bvh;
   bvh.order.resize(count);
   bvh.boxes.resize(count);
@@ -198,7 +167,7 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads) {
   for (const Vec3& p : mesh.vertices) bounds.include(p);
   const MortonCurve curve(bounds);
   std::vector<Aabb> boxes(count);
-  std::vector<Item> items(count);
+  std::vector<Keyed> items(count);
   const auto place_on_curve = [&](std::size_t t) {
     boxes[t] = triangle_box(mesh, static_cast<std::uint32_t>(t));
     items[t] = {curve.code(centre(boxes[t])), static_cast<std::uint32_t>(t)};
@@ -211,11 +180,11 @@ std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes) {
   Aabb bounds;
   for (const Aabb& box : boxes) bounds.include(box);
   const MortonCurve curve(bounds);
-  std::vector<Item> items;
+  std::vector<Keyed> items;
   for (const Aabb& box : boxes) items.push_back({curve.code(centre(box)), static_cast<std::uint32_t>(items.size())});
-  sort(items);
+  sort_by_key(items);
   std::vector<std::uint32_t> order;
-  for (const Item& item : items) order.push_back(item.number);
+  for (const Keyed& item : items) order.push_back(item.number);
   return order;
 }
 
@@ -230,7 +199,7 @@ Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads) {
   Aabb bounds;
   for (const Aabb& box : boxes) bounds.include(box);
   const MortonCurve curve(bounds);
-  std::vector<Item> items(boxes.size());
+  std::vector<Keyed> items(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     // A Morton code without its last bit for each axis leaves room for the form above it.
     items[i] = {form_of(boxes[i]) << 3 * (kAxisBits - 1) | curve.code(centre(boxes[i])) >> 3, i};

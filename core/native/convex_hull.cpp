@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "key_sort.hpp"
 #include "numeric_range.hpp"
 #include "polytope.hpp"
 #include "polytope_faces.hpp"
@@ -22,14 +23,8 @@ struct DistinctPoints {
 DistinctPoints distinct(const std::vector<Vec3>& points) {
   if (points.empty()) throw std::invalid_argument("the convex hull needs at least one point");
   require_in_range(points, "point");
-  std::vector<std::uint32_t> order(points.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-    if (points[i] == points[j]) return i < j;
-    return coordinates_less(points[i], points[j]);
-  });
   DistinctPoints result;
-  for (const std::uint32_t i : order) {
+  for (const std::uint32_t i : order_by_coordinates(points)) {
     if (!result.point.empty() && points[i] == result.point.back()) continue;
     result.point.push_back(points[i]);
     result.source.push_back(i);

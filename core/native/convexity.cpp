@@ -164,6 +164,25 @@ Vec3 mean(const std::vector<Vec3>& points) {
   return sum;
 }
 
+// Are there corners on both sides of the plane of some triangle? Then the triangle is not in the boundary of
+// the hull. Only a few planes are tried: where it is so at all, a few of its triangles tell as a rule.
+bool is_dented(const Mesh& mesh) {
+  constexpr std::size_t kPlanes = 32;
+  const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / kPlanes);
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
+    const Corners t = corners(mesh, static_cast<std::uint32_t>(i));
+    const TrianglePlane plane(t[0], t[1], t[2]);
+    bool above = false, below = false;
+    for (const Triangle& other : mesh.triangles) {
+      const int side = plane.side(mesh.vertices[other[0]]);
+      above = above || side > 0;
+      below = below || side < 0;
+      if (above && below) return true;
+    }
+  }
+  return false;
+}
+
 // Does an edge of two triangles bend inwards? Then the surface is not its hull's.
 bool has_reflex_edge(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
@@ -180,6 +199,7 @@ bool has_reflex_edge(const Mesh& welded) {
 }  // namespace
 
 double convexity_defect(const Mesh& mesh, double limit) {
+  if (limit == 0 && is_dented(mesh)) return INFINITY;
   const Mesh welded = weld(mesh);
   if (limit == 0 && has_reflex_edge(welded)) return INFINITY;
   const Topology topology = measure_topology(welded);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "patches.hpp"
@@ -16,7 +17,6 @@ namespace {
 // A set of triangles connected through edges of exactly two triangles.
 struct Patch {
   std::vector<std::uint32_t> triangles;
-  bool repaired = false;
   bool shell = false;  // closed and consistently wound by itself
   double volume = 0;   // signed, of a shell
   Aabb box;
@@ -36,12 +36,24 @@ struct Neighbour {
 
 using Neighbours = std::array<Neighbour, 3>;  // across edge 0, 1, 2
 
+bool is_run_twice_the_same_way(const EdgeTable& edges, std::size_t edge) {
+  const auto h = edges.half_edges(edge);
+  return h.size() == 2 && edges.ascends(h[0]) == edges.ascends(h[1]);
+}
+
+bool has_mixed_winding(const EdgeTable& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (is_run_twice_the_same_way(edges, e)) return true;
+  }
+  return false;
+}
+
 std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges) {
   std::vector<Neighbours> neighbours(mesh.triangles.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.half_edges(e);
     if (h.size() != 2) continue;
-    const bool same = edges.ascends(h[0]) == edges.ascends(h[1]);
+    const bool same = is_run_twice_the_same_way(edges, e);
     neighbours[h[0] / 3][h[0] % 3] = {h[1] / 3, same};
     neighbours[h[1] / 3][h[1] % 3] = {h[0] / 3, same};
   }
@@ -49,12 +61,14 @@ std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges
 }
 
 // Makes the patches with mixed winding consistent, keeping the winding of the majority. A patch that
-// is not orientable stays as it is.
-void repair_patches(Mesh& mesh, const EdgeTable& edges, std::vector<Patch>& patches) {
+// is not orientable stays as it is. Returns whether anything was turned: half-edges are others then.
+bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>& patches) {
+  if (!has_mixed_winding(edges)) return false;
+  bool repaired = false;
   const auto neighbours = find_neighbours(mesh, edges);
   enum : signed char { kUnseen, kKeep, kFlip };
   std::vector<signed char> state(mesh.triangles.size(), kUnseen);
-  for (Patch& patch : patches) {
+  for (const Patch& patch : patches) {
     bool orientable = true;
     std::vector<std::uint32_t> queue{patch.triangles[0]};
     state[queue[0]] = kKeep;
@@ -73,11 +87,12 @@ void repair_patches(Mesh& mesh, const EdgeTable& edges, std::vector<Patch>& patc
     std::vector<std::uint32_t> flipped, kept;
     for (const std::uint32_t t : patch.triangles) (state[t] == kFlip ? flipped : kept).push_back(t);
     if (!orientable || flipped.empty()) continue;
-    patch.repaired = true;
+    repaired = true;
     for (const std::uint32_t t : flipped.size() <= kept.size() ? flipped : kept) {
       std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
     }
   }
+  return repaired;
 }
 
 // A patch is a shell when it runs each of its edges equally often in both directions.
@@ -157,8 +172,7 @@ std::vector<Patch> make_patches(const Labels& labels) {
   return patches;
 }
 
-bool is_closed(const Mesh& mesh) {
-  const EdgeTable edges(mesh.vertices.size(), mesh.triangles);
+bool is_closed(const EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     if (edges.half_edges(e).size() % 2 != 0) return false;
   }
@@ -185,24 +199,26 @@ std::vector<Triangle> without_copies(const std::vector<Triangle>& triangles) {
   return result;
 }
 
-Mesh weld_without_surplus(const Mesh& mesh) {
-  Mesh welded = weld(mesh);
-  if (is_closed(welded)) return welded;
+// Drops the repeated copies of triangles where the surface is closed without them only.
+void drop_surplus(Mesh& welded, std::optional<EdgeTable>& edges) {
+  if (is_closed(*edges)) return;
   std::vector<Triangle> single = without_copies(welded.triangles);
-  if (single.size() == welded.triangles.size()) return welded;
-  Mesh reduced{welded.vertices, std::move(single)};
-  return is_closed(reduced) ? reduced : welded;
+  if (single.size() == welded.triangles.size()) return;
+  if (!is_closed(EdgeTable(welded.vertices.size(), single))) return;
+  welded.triangles = std::move(single);
+  edges.emplace(welded.vertices.size(), welded.triangles);
 }
 
 }  // namespace
 
 Mesh orient(const Mesh& mesh) {
-  Mesh result = weld_without_surplus(mesh);
-  const EdgeTable edges(result.vertices.size(), result.triangles);
-  const Labels labels = label_manifold_patches(result, edges);
+  Mesh result = weld(mesh);
+  std::optional<EdgeTable> edges(std::in_place, result.vertices.size(), result.triangles);
+  drop_surplus(result, edges);
+  const Labels labels = label_manifold_patches(result, *edges);
   std::vector<Patch> patches = make_patches(labels);
-  repair_patches(result, edges, patches);
-  find_shells(result, edges, labels, patches);
+  if (repair_patches(result, *edges, patches)) edges.emplace(result.vertices.size(), result.triangles);
+  find_shells(result, *edges, labels, patches);
 
   double total = 0;
   for (const Patch& patch : patches) total += patch.volume;

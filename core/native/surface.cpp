@@ -1,16 +1,21 @@
 #include "surface.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
 #include "edge_table.hpp"
+#include "parallel.hpp"
 #include "patches.hpp"
 #include "topology.hpp"
 #include "winding.hpp"
 
 namespace satcheck {
 namespace {
+
+constexpr std::size_t kFewTriangles = 8192;  // that are not worth a second thread
 
 // Does every edge run equally often in both directions?
 bool has_inside(const Mesh& welded) {
@@ -59,11 +64,14 @@ Surface make_surface(const Mesh& mesh, bool solid) {
   Surface surface;
   surface.mesh = weld(mesh);
   surface.solid = solid;
-  if (solid && !has_inside(surface.mesh)) {
-    throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
-  }
-  surface.bvh = build_bvh(surface.mesh);
-  surface.parts = find_parts(surface.mesh);
+  bool proven = true;
+  // The tree first, which takes longest.
+  const std::function<void()> tasks[] = {[&] { surface.bvh = build_bvh(surface.mesh); },
+                                         [&] { proven = !solid || has_inside(surface.mesh); },
+                                         [&] { surface.parts = find_parts(surface.mesh); }};
+  const unsigned threads = surface.mesh.triangles.size() < kFewTriangles ? 1 : 0;
+  parallel_for(std::size(tasks), threads, [&](std::size_t i) { tasks[i](); });
+  if (!proven) throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
   return surface;
 }
 

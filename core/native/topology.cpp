@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "edge_table.hpp"
+#include "key_sort.hpp"
 #include "patches.hpp"
 #include "predicates.hpp"
 
@@ -26,8 +28,9 @@ std::uint64_t hash_coordinates(Vec3 p) {
 
 // For each vertex the first one of equal coordinates. -0.0 must have been made +0.0.
 std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& points) {
+  std::vector<std::uint32_t> first(points.size());
   const std::size_t capacity = std::bit_ceil(points.size() * 2 + 1);
-  std::vector<std::uint32_t> slot(capacity, none), first(points.size());
+  std::vector<std::uint32_t> slot(capacity, none);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     std::size_t at = hash_coordinates(points[i]) & (capacity - 1);
     while (slot[at] != none && !(points[slot[at]] == points[i])) at = (at + 1) & (capacity - 1);
@@ -37,22 +40,37 @@ std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& points) {
   return first;
 }
 
+// As -0.0 == 0.0, points of equal coordinates are then equal bit for bit.
+std::vector<Vec3> without_negative_zeros(std::vector<Vec3> points) {
+  for (Vec3& p : points) p = p + Vec3{};  // -0.0 + 0.0 == +0.0
+  return points;
+}
+
 struct Welding {
   Mesh mesh;
   std::size_t duplicate_vertices = 0, unreferenced_vertices = 0;
 };
 
+std::vector<bool> find_referenced(const Mesh& mesh) {
+  std::vector<bool> referenced(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) referenced[v] = true;
+  }
+  return referenced;
+}
+
 Welding weld_and_count(const Mesh& mesh) {
   Welding result;
-  std::vector<Vec3> points = mesh.vertices;
-  for (Vec3& p : points) p = p + Vec3{};  // -0.0 + 0.0 == +0.0
+  const std::vector<bool> referenced = find_referenced(mesh);
+  std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
+  if (strictly_ascending(points) && std::find(referenced.begin(), referenced.end(), false) == referenced.end()) {
+    result.mesh = {std::move(points), mesh.triangles};
+    return result;
+  }
   const std::vector<std::uint32_t> first = first_of_equal(points);
-  std::vector<bool> referenced(points.size(), false), kept(points.size(), false);
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) {
-      referenced[v] = true;
-      kept[first[v]] = true;
-    }
+  std::vector<bool> kept(points.size(), false);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (referenced[v]) kept[first[v]] = true;
   }
   std::vector<std::uint32_t> renumbered(points.size(), none);
   for (std::uint32_t v = 0; v < points.size(); ++v) {
@@ -98,18 +116,29 @@ void count_triangles(Topology& topology, const Mesh& welded) {
     }
     std::sort(t.begin(), t.end());
   }
-  std::sort(sorted.begin(), sorted.end());
+  sort_triangles(sorted, welded.vertices.size());
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     topology.duplicate_triangles += sorted[i] == sorted[i - 1] ? 1 : 0;
   }
 }
 
+// With vertex v at place[v], each triangle from its lowest corner on, in ascending order.
+std::vector<Triangle> sorted_triangles(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& place,
+                                       std::size_t vertex_count) {
+  std::vector<Triangle> result;
+  result.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    const std::uint32_t a = place[t[0]], b = place[t[1]], c = place[t[2]];
+    result.push_back(a <= b && a <= c ? Triangle{a, b, c} : b <= c ? Triangle{b, c, a} : Triangle{c, a, b});
+  }
+  sort_triangles(result, vertex_count);
+  return result;
+}
+
 }  // namespace
 
 bool is_welded(const Mesh& mesh) {
-  std::vector<Vec3> points = mesh.vertices;
-  for (Vec3& p : points) p = p + Vec3{};  // as in weld_and_count()
-  const std::vector<std::uint32_t> first = first_of_equal(points);
+  const std::vector<std::uint32_t> first = first_of_equal(without_negative_zeros(mesh.vertices));
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     if (first[i] != i) return false;
   }
@@ -119,41 +148,46 @@ bool is_welded(const Mesh& mesh) {
 Mesh weld(const Mesh& mesh) { return weld_and_count(mesh).mesh; }
 
 Mesh sort(const Mesh& mesh) {
-  struct Numbered {
-    Vec3 point;
-    std::uint32_t number;
-  };
-  std::vector<Numbered> order;
-  order.reserve(mesh.vertices.size());
-  for (const Vec3& p : mesh.vertices) order.push_back({p, static_cast<std::uint32_t>(order.size())});
-  std::sort(order.begin(), order.end(), [](const Numbered& a, const Numbered& b) {
-    return a.point == b.point ? a.number < b.number : coordinates_less(a.point, b.point);
-  });
   Mesh result;
-  result.vertices.reserve(order.size());
-  std::vector<std::uint32_t> place(order.size());
-  for (const Numbered& v : order) {
-    place[v.number] = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.push_back(v.point);
+  result.vertices.reserve(mesh.vertices.size());
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  for (const std::uint32_t v : order_by_coordinates(mesh.vertices)) {
+    place[v] = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.push_back(mesh.vertices[v]);
   }
-  result.triangles = mesh.triangles;
-  for (Triangle& t : result.triangles) {
-    for (std::uint32_t& v : t) v = place[v];
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  result.triangles = sorted_triangles(mesh.triangles, place, result.vertices.size());
+  return result;
+}
+
+Mesh weld_and_sort(const Mesh& mesh) {
+  const std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
+  const std::vector<bool> referenced = find_referenced(mesh);
+  Mesh result;
+  result.vertices.reserve(points.size());
+  std::vector<std::uint32_t> place(points.size());
+  for (const std::uint32_t v : order_by_coordinates(points)) {
+    if (!referenced[v]) continue;
+    if (result.vertices.empty() || result.vertices.back() != points[v]) result.vertices.push_back(points[v]);
+    place[v] = static_cast<std::uint32_t>(result.vertices.size() - 1);
   }
-  std::sort(result.triangles.begin(), result.triangles.end());
+  result.triangles = sorted_triangles(mesh.triangles, place, result.vertices.size());
   return result;
 }
 
 Topology measure_topology(const Mesh& mesh) {
   const Welding welding = weld_and_count(mesh);
-  const Mesh& welded = welding.mesh;
-  const EdgeTable edges(welded.vertices.size(), welded.triangles);
-  Topology topology;
+  const EdgeTable edges(welding.mesh.vertices.size(), welding.mesh.triangles);
+  Topology topology = measure_welded(welding.mesh, edges);
   topology.vertices = mesh.vertices.size();
-  topology.triangles = mesh.triangles.size();
   topology.duplicate_vertices = welding.duplicate_vertices;
   topology.unreferenced_vertices = welding.unreferenced_vertices;
+  return topology;
+}
+
+Topology measure_welded(const Mesh& welded, const EdgeTable& edges) {
+  Topology topology;
+  topology.vertices = welded.vertices.size();
+  topology.triangles = welded.triangles.size();
   topology.components = label_components(welded, edges).count;
   count_edges(topology, edges);
   count_triangles(topology, welded);

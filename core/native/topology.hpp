@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "edge_table.hpp"
 #include "mesh.hpp"
 
 namespace satcheck {
@@ -29,6 +30,9 @@ struct Topology {
 
 Topology measure_topology(const Mesh& mesh);
 
+// The same of a welded mesh whose edges are known.
+Topology measure_welded(const Mesh& welded, const EdgeTable& edges);
+
 // Vertices of equal coordinates become one (-0.0 == 0.0), unreferenced ones are dropped; the order
 // of vertices and triangles is kept.
 Mesh weld(const Mesh& mesh);
@@ -39,6 +43,9 @@ bool is_welded(const Mesh& mesh);
 // The same triangles in an order that depends on nothing but their coordinates: vertices ascending,
 // each triangle from its lowest one on, triangles ascending. Copies of a vertex stay apart.
 Mesh sort(const Mesh& mesh);
+
+// sort(weld(mesh)), for less.
+Mesh weld_and_sort(const Mesh& mesh);
 
 // The parts connected through shared edges of the welded mesh, in order of their first triangle.
 std::vector<Mesh> split_components(const Mesh& mesh);

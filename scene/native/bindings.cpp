@@ -63,7 +63,7 @@ NB_MODULE(_readers, m) {
       .def_ro("offset", &ReadError::offset, "Byte offset from 0, or -1.");
 
   m.def("read_obj", &read<read_obj>, nb::arg("data"), "Wavefront OBJ; polygons as fans.");
-  m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL; three vertices a facet, not welded.");
+  m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.");
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
 }

@@ -2,6 +2,7 @@
 // attribute bytes are ignored: the corners carry the orientation.
 #include "builder.hpp"
 #include "bytes.hpp"
+#include "corners.hpp"
 #include "readers.hpp"
 #include "text.hpp"
 
@@ -13,26 +14,41 @@ constexpr std::size_t facet_size = 50;   // normal, three corners, two attribute
 constexpr std::size_t normal_size = 12;
 constexpr std::size_t count_offset = 80;
 
+// Facets that are read together, so that looking up their corners need not wait for memory.
+constexpr std::size_t block_size = 16;
+
 MeshData read_binary(std::string_view bytes, std::size_t count) {
   if (count > static_cast<std::size_t>(max_vertices) / 3) {
     fail(code::too_large, std::to_string(count) + " facets are more than 32-bit vertex numbers can hold");
   }
   MeshData mesh;
   mesh.precision = Precision::float32;
-  mesh.vertices.reserve(count * 9);
+  const std::size_t expected = count / 2;  // vertices: of a closed surface of few handles
+  mesh.vertices.reserve(expected * 3);
   mesh.triangles.reserve(count * 3);
-  for (std::size_t facet = 0; facet < count; ++facet) {
-    const std::size_t corners = header_size + facet * facet_size + normal_size;
-    for (std::size_t i = 0; i < 9; ++i) {
-      const std::size_t offset = corners + i * sizeof(float);
-      const float value = load<float>(bytes.data() + offset);
-      if (!std::isfinite(value)) {
-        fail_at_byte(code::non_finite, "non-finite coordinate in facet " + std::to_string(facet + 1),
-                     static_cast<std::int64_t>(offset));
+  Corners<float> corners(expected);
+  std::array<Corners<float>::Point, 3 * block_size> points;
+  std::array<std::uint64_t, 3 * block_size> hashes;
+  for (std::size_t first = 0; first < count; first += block_size) {
+    const std::size_t last = std::min(first + block_size, count);
+    std::size_t size = 0;
+    for (std::size_t facet = first; facet < last; ++facet) {
+      const std::size_t start = header_size + facet * facet_size + normal_size;
+      for (std::size_t i = 0; i < 9; ++i) {
+        const std::size_t offset = start + i * sizeof(float);
+        const float value = load<float>(bytes.data() + offset);
+        if (!std::isfinite(value)) {
+          fail_at_byte(code::non_finite, "non-finite coordinate in facet " + std::to_string(facet + 1),
+                       static_cast<std::int64_t>(offset));
+        }
+        points[size + i / 3][i % 3] = value;
       }
-      mesh.vertices.push_back(value);
+      for (std::size_t i = size; i < size + 3; ++i) corners.fetch(hashes[i] = corners.hash(points[i]));
+      size += 3;
     }
-    for (std::size_t i = 0; i < 3; ++i) mesh.triangles.push_back(static_cast<std::uint32_t>(facet * 3 + i));
+    for (std::size_t i = 0; i < size; ++i) {
+      mesh.triangles.push_back(corners.number(points[i], hashes[i], mesh.vertices));
+    }
   }
   return mesh;
 }
@@ -112,11 +128,12 @@ class AsciiStlReader {
     }
     for (int corner = 0; corner < 3; ++corner) {
       expect("vertex");
-      mesh_.triangles.push_back(static_cast<std::uint32_t>(mesh_.vertices.size() / 3));
-      for (int axis = 0; axis < 3; ++axis) {
+      Corners<double>::Point point;
+      for (double& coordinate : point) {
         const std::string_view word = any("a coordinate");
-        mesh_.vertices.push_back(parse_coordinate(word, words_.line(), mesh_));
+        coordinate = parse_coordinate(word, words_.line(), mesh_);
       }
+      mesh_.triangles.push_back(corners_.number(point, corners_.hash(point), mesh_.vertices));
     }
     expect("endloop");
     expect("endfacet");
@@ -124,6 +141,7 @@ class AsciiStlReader {
 
   StlWords words_;
   MeshData mesh_;
+  Corners<double> corners_{0};
 };
 
 bool looks_like_ascii(std::string_view bytes) {

@@ -11,7 +11,7 @@ namespace satcheck::scene {
 // coordinates, normals, lines and points are not geometry here.
 ReadOutcome read_obj(std::string_view bytes);
 
-// Binary STL (recognised by its size, 84 + 50 n) or ASCII STL; three vertices a facet, not welded.
+// Binary STL (recognised by its size, 84 + 50 n) or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.
 ReadOutcome read_stl(std::string_view bytes);
 
 // PLY 1.0: ascii, binary_little_endian, binary_big_endian.

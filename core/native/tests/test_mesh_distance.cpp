@@ -124,6 +124,10 @@ void convexity() {
   const double rounded = convexity_defect(uv_sphere(30), 1e-9);
   CHECK(rounded >= 0 && rounded < 1e-11);
   CHECK(std::isinf(convexity_defect(reversed(unit), 1)));
+  Mesh layers = unit;  // its faces twice outward and once inward: the same solid
+  append(layers, unit);
+  append(layers, reversed(unit));
+  CHECK(convexity_defect(layers, 0) == 0);
   Mesh open = unit;
   open.triangles.pop_back();
   CHECK(std::isinf(convexity_defect(open, 1)));

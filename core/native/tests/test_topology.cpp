@@ -46,6 +46,7 @@ void broken_boxes() {
   t = measure_topology(mixed);
   CHECK(t.closed && t.manifold && !t.oriented && !t.solid && t.misoriented_edges == 3);
   CHECK(measure_topology(orient(mixed)).volume == 1);
+  CHECK(measure_topology(orient(reversed(mixed))).volume == 1);
 
   Mesh doubled = unit;
   append(doubled, reversed(unit));
