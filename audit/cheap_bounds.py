@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from satcheck import core
 from satcheck.audit.boxes import box_escape
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.frozen import frozen
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class WayOut:
     """length: of the nominal translation along -normal; upper: that length rounded outward; by:
     the shapes that it frees."""

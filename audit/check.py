@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +19,7 @@ from satcheck.audit.roster import Known, Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene.drawing import DRAWINGS
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ DEFAULT_SETTINGS = Settings()
 Progress = Callable[[int, int], None]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Examined:
     finding: Finding
     issues: tuple[Issue, ...] = ()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
+
+from satcheck.core.frozen import frozen
 
 Vector = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Curve:
     """A polyline along which the surfaces cross or touch; a closed one does not repeat its start.
 
@@ -20,7 +21,7 @@ class Curve:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Patch:
     """A flat polygon in which faces of both surfaces lie.
 
@@ -35,7 +36,7 @@ class Patch:
     area: float
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class ContactTotals:
     """Everything there is, listed or not."""
 
@@ -47,7 +48,7 @@ class ContactTotals:
     triangle_pairs: int = 0
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Contacts:
     """The common points of two surfaces: curves by falling length, patches by falling area, points.
 

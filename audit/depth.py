@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -10,13 +9,14 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector, Witness
 from satcheck.audit.verify import Escape, verified_escape
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
     from satcheck.audit.ladder import Contact
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Depth:
     """World units: lower <= true depth <= upper.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.contact_report import Contacts
@@ -21,6 +20,7 @@ from satcheck.audit.severity import judged
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.touch_band import estimate_is_within, move_within
 from satcheck.audit.unseen import unseen_inside
+from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.depth import Depth

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -12,12 +11,13 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector, Witness
 from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Gap:
     """The distance, world units, to rounding: lower <= true distance <= upper (inf: unknown).
 

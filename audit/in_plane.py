@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -12,6 +11,7 @@ from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS, Relation
 from satcheck.core.conventions import Plane, axes_of, axis_across
+from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.ladder import Contact

@@ -8,7 +8,6 @@ case: what it could not prove is then an estimate, and it can only err towards "
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -18,6 +17,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Relation, Vector
 from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
@@ -29,7 +29,7 @@ RELATION_OF_OUTCOME: dict[str, Relation] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Contact:
     """How two bodies relate, without a touch band.
 

@@ -5,14 +5,15 @@ t runs from 0 to 1; lengths are in the units of the files.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal
+
+from satcheck.core.frozen import frozen
 
 Interval = tuple[float, float]
 Relation = Literal["separated", "near", "touching", "penetrating", "indeterminate"]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Place:
     """How far a body has come, in its motion's own terms: degrees turned, the length moved, or t on
     a path of poses."""
@@ -25,7 +26,7 @@ class Place:
         return {"body": self.body, "term": self.term, "value": self.value + 0.0}
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class WorstPose:
     """The deepest pose of bodies that overlap, else the nearest. distance, depth: proven bounds of
     the least distance, or the greatest depth, over the whole motion; the end that is worse is
@@ -45,7 +46,7 @@ class WorstPose:
         }
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Sweep:
     """A pair over its whole motion.
 

@@ -7,11 +7,11 @@ it does not, the oriented box is the world box, which rung 0 has already tried.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.tolerances import ORTHOGONALITY, rounding_pad
+from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     PosedBox = tuple[core.Box, RigidPose]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class OrientedBox:
     """turned: not along the world's axes. posed: None where the transform shears."""
 

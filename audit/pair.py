@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from satcheck.audit.boxes import diagonal, largest_coordinate
@@ -11,6 +10,7 @@ from satcheck.audit.planner import Asked
 from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.conventions import axes_of
+from satcheck.core.frozen import derived, frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Pair:
     """tolerance: half width of the touch band, world units.
 
@@ -35,7 +35,7 @@ class Pair:
     meter: VolumeMeter | None = None
     peers: Peers | None = None
     paths: Paths | None = None
-    tolerance: float = field(init=False)
+    tolerance: float = derived()
 
     def __post_init__(self) -> None:
         tolerance = self.asked.tolerance

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import TypeVar
 
 from satcheck import core
 from satcheck.audit.pair import Pair
+from satcheck.core.frozen import frozen
 
 T = TypeVar("T")
 
@@ -22,7 +22,7 @@ PARALLEL_PAIRS = 8
 SLICE = 2048
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class InTurn:
     """jobs: threads, 0 for one a core. keep: what is made of the bodies, for another check."""
 

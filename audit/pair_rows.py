@@ -6,15 +6,15 @@ What rules say of fifty million pairs is then counted by the words of the machin
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.rules import Rule
 
 # Which side of a rule a body is on; it may be on both.
 A, B = 1, 2
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Kind:
     """sides: number of a rule -> on which sides of it the bodies are, in the order of the rules."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -10,12 +9,13 @@ from satcheck.audit.boxes import Box
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Part:
     """A convex body in the world frame, with its box."""
 
@@ -23,7 +23,7 @@ class Part:
     bounds: Box
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Covering:
     """Convex parts that stand for a mesh: they stick out of it by at most `outside`, and it out of
     them by at most `missing`; world units."""

@@ -6,11 +6,11 @@ The stages look here, and nowhere else, whether they are called for.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 
 from satcheck.audit.report import Effect
 from satcheck.audit.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.settings import Settings
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene.rules import Rule, Severity
 
 # The key by which a rule asks for an effect.
@@ -24,7 +24,7 @@ MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Asked:
     """What is asked about one pair. Lengths and volumes in the units of the scene.
 

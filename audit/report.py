@@ -8,11 +8,11 @@ no common interior; `mtv` is the translation to add to A. What was not asked for
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from satcheck.audit.contact_report import Contacts
 from satcheck.audit.contact_report import Vector as Vector
+from satcheck.core.frozen import frozen
 from satcheck.scene.rules import SEVERITIES as SEVERITIES
 from satcheck.scene.rules import Rule
 from satcheck.scene.rules import Severity as Severity
@@ -48,13 +48,13 @@ CROSS_CHECK = "cross-check"
 OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Tool:
     name: str
     version: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class PairCounts:
     """total = pruned + decided + allowed + indeterminate.
 
@@ -69,7 +69,7 @@ class PairCounts:
     indeterminate: int
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Summary:
     """by_relation counts every pair that is not allowed; pruned pairs count as separated.
 
@@ -87,7 +87,7 @@ class Summary:
     sweeps_undecided: int = 0
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class PartError:
     """Proven upper bounds, world units: how far parts stick out of the mesh, and it out of them."""
 
@@ -95,7 +95,7 @@ class PartError:
     missing: float
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class BodyReport:
     """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
 
@@ -123,7 +123,7 @@ class BodyReport:
     shape: Mapping[str, Any] | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Stage:
     """One step of a pair's plan: what ran, what it found, what it cost, why it settled nothing."""
 
@@ -133,7 +133,7 @@ class Stage:
     detail: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Witness:
     """World points, one per body: where the gap is smallest, or a common point."""
 
@@ -141,7 +141,7 @@ class Witness:
     b: Vector
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen(kw_only=True)
 class Finding:
     """One pair.
 
@@ -188,7 +188,7 @@ class Finding:
     baseline_state: None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class EffectReport:
     """What a check computes beyond reading files, over all pairs.
 
@@ -203,7 +203,7 @@ class EffectReport:
     microseconds: float
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Issue:
     """Something about the input or the run, with a stable code."""
 
@@ -214,7 +214,7 @@ class Issue:
     message: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Exempt:
     """What the scene does not ask about, and does not count: pairs within these groups, and pairs
     of static bodies."""
@@ -223,7 +223,7 @@ class Exempt:
     static_pairs: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Report:
     """pose: of the robots, joint -> value; None without robots. motions: those of
     the scene, as JSON values.
@@ -244,7 +244,7 @@ class Report:
     pose: Mapping[str, float | list[float]] | None = None
     motions: tuple[Mapping[str, Any], ...] = ()
     truncated: None = None
-    tracebacks: tuple[str, ...] = field(default=())
+    tracebacks: tuple[str, ...] = ()
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the fixed key order of the schema; no `microseconds` without timings."""

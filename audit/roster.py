@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from satcheck.audit.boxes import Box
@@ -17,6 +16,7 @@ from satcheck.audit.placed_body import (
 from satcheck.audit.report import Issue
 from satcheck.audit.rule_book import RuleBook, Subject
 from satcheck.audit.settings import Settings
+from satcheck.core.frozen import frozen
 from satcheck.scene import Body
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from satcheck.scene.rules import Rule
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Lost:
     """A body that takes part in pairs, none of which can be decided."""
 
@@ -36,7 +36,7 @@ class Lost:
     static: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Roster:
     """Bodies by index, in the order given: each is either placed or lost. ids follow it, and so
     does the book of rules."""

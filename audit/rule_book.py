@@ -8,16 +8,16 @@ those of bits in rows of the matrix of pairs, one row a kind.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
 
 from satcheck.audit.pair_rows import A, B, Kind, PairRows, ones
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene.rules import KEYS, Rule, Selector
 
 # More pairs of kinds than this are not listed.
 _MOST_KINDS = 1_000_000
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Terms:
     """Of each key the rule that decides it for a pair, the last that sets it; None: none does."""
 
@@ -36,7 +36,7 @@ class Terms:
 NO_TERMS = Terms()
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Subject:
     """A body, as rules see it."""
 

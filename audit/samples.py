@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
 from satcheck.audit import report_values
@@ -22,6 +22,7 @@ from satcheck.audit.report import (
 from satcheck.audit.roster import Known
 from satcheck.audit.rule_book import RuleBook
 from satcheck.audit.settings import Settings
+from satcheck.core.frozen import as_dict, frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -32,7 +33,7 @@ SCHEMA = "satcheck.samples/1"
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Sample:
     """One pose. number: from 1. findings: the pairs that are not plainly separated there."""
 
@@ -82,7 +83,7 @@ class PairTally:
             self.undecided += 1
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Samples:
     """What `check_poses` found.
 
@@ -101,7 +102,7 @@ class Samples:
     pairs: tuple[PairTally, ...]
     issues: tuple[Issue, ...]
     seed: int | None = None
-    tracebacks: tuple[str, ...] = field(default=())
+    tracebacks: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
@@ -129,11 +130,11 @@ class Samples:
                 {"id": body.id, "file": body.file, "sha256": body.sha256, "shape": body.shape}
                 for body in self.bodies
             ],
-            "exempt": asdict(self.exempt),
+            "exempt": as_dict(self.exempt),
             "rules": [report_values.rule(rule) for rule in self.rules],
             "samples": [_sample_values(sample, timings) for sample in self.samples],
-            "pairs": [asdict(pair) for pair in self.pairs if not pair.settled],
-            "issues": [asdict(issue) for issue in self.issues],
+            "pairs": [as_dict(pair) for pair in self.pairs if not pair.settled],
+            "issues": [as_dict(issue) for issue in self.issues],
         }
 
 
@@ -214,7 +215,7 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
         "pose": sample.posture.pose(),
         "verdict": sample.verdict,
         "findings": [report_values.finding(finding, timings) for finding in sample.findings],
-        "issues": [asdict(issue) for issue in sample.issues],
+        "issues": [as_dict(issue) for issue in sample.issues],
     }
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Literal
 
 from satcheck.core.conventions import PLANES, Plane
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
 ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
@@ -26,7 +26,7 @@ LIST_PRUNED_BODIES = 16
 CONTACT_POINTS = 100_000
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Settings:
     """Lengths are in the units of the files. None means "not asked for" unless said otherwise.
 

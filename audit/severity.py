@@ -8,17 +8,17 @@ warning at least, whatever they say.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
 
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Asked
 from satcheck.audit.report import OVERLAPS, SEVERITIES, Finding, Severity, Undecided
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.core.frozen import frozen, replace
 
 CLEARANCE_RULE = "clearance"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Judgement:
     """A severity, the rule that decided it, and what was left open, with the reason."""
 
@@ -74,7 +74,7 @@ def _limited(finding: Finding, asked: Asked) -> Judgement:
     return Judgement("note", ", ".join(dict.fromkeys(limit.rule for limit in limits)))
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class _Limit:
     """What the pair has is between least and greatest (None: not known), and may have at most
     `most`."""

@@ -5,13 +5,13 @@ to say: a contact that is meant and one that is a fault look the same.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
 from satcheck.audit.roster import Known
+from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.audit.samples import PairTally, Samples
@@ -26,7 +26,7 @@ Why = Literal["adjacent", "always", "contact", "never"]
 Names = tuple[str, str]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Suggestion:
     """One pair that no rule allows, ids in the order of the bodies.
 
@@ -43,7 +43,7 @@ class Suggestion:
     contacts: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Suggestions:
     """poses: how many random ones were checked. undecided: pairs of which something was not.
     may_meet: links of which some bodies met in some of the poses, or may have.

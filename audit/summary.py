@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from satcheck._version import __version__
@@ -25,6 +24,7 @@ from satcheck.audit.report import (
 )
 from satcheck.audit.roster import Lost, Roster
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import fields
 
 if TYPE_CHECKING:
     from satcheck.audit.settings import FailOn
@@ -93,7 +93,7 @@ def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
 
 
 def _health(health: MeshHealth) -> Health:
-    return {field.name: _finite(getattr(health, field.name)) for field in fields(health)}
+    return {name: _finite(getattr(health, name)) for name in fields(health)}
 
 
 def _lost_report(body: Lost) -> BodyReport:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from satcheck import core
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import LENGTHENING_ULPS, UNIT_ROUNDOFF
+from satcheck.core.frozen import frozen
 
 FREE = frozenset({"separated", "touching"})
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Escape:
     """A translation of A, world units. verified: A's mesh, moved, has no common interior with B.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
@@ -11,9 +10,10 @@ from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
 from satcheck.audit.tolerances import UNIT_ROUNDOFF, VOLUME_ROUNDOFFS
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class CommonVolume:
     """volume and error: None where refused; refusal: why."""
 

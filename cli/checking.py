@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +12,7 @@ import click
 from satcheck.cli import exit_codes
 from satcheck.cli.lengths import in_units_of
 from satcheck.cli.output import CannotWrite, Document, talk
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.report import Report
@@ -33,7 +33,7 @@ SMALL_TRIANGLES = 1000
 COLLECT_AFTER = 50_000
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Choices:
     """What the command line asked for."""
 

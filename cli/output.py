@@ -9,9 +9,8 @@ import re
 import shutil
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
+from typing import NamedTuple, TextIO
 
 import click
 
@@ -22,8 +21,7 @@ _READER_LEFT = (errno.EPIPE, errno.EINVAL)
 _COLOUR = re.compile(r"(\x1b\[[0-9;]*m)")
 
 
-@dataclass(frozen=True, slots=True)
-class Page:
+class Page(NamedTuple):
     """What the reader of a table can show."""
 
     width: int

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import click
+
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Posing:
     """What the command line asked for."""
 

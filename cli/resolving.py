@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
 from satcheck.cli.lengths import in_units_of
 from satcheck.cli.output import Document, talk, write_file
+from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.audit import Report, Settings
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 SCENE_SUFFIXES = frozenset({".json", ".toml"})
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Choices:
     """What the command line asked for."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -11,6 +10,7 @@ import click
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import settings_of
 from satcheck.cli.output import Document, talk
+from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.samples import Samples

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +10,7 @@ import click
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
 from satcheck.cli.output import Document
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.stability import Stability
@@ -23,7 +23,7 @@ _EXIT_CODES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Choices:
     """What the command line asked for."""
 

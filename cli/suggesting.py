@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,13 +12,14 @@ from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
 from satcheck.cli.output import Document, talk, write_file
 from satcheck.cli.posing import Posing, poses_of
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.suggest import Suggestions
     from satcheck.scene import Scene
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Choices:
     """What the command line asked for."""
 

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import dataclass
 from types import TracebackType
 from typing import Final
 
 from satcheck.core._native import Mesh
 from satcheck.core.blocks import pack_blocks
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 from satcheck.core.worker import Worker, WorkerError
 
 _SERVER: Final = "satcheck.core.manifold_server"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class OverlapVolume:
     """volume: in float64. error: what moving both surfaces by the tolerance of the Boolean changes
     at most; an estimate of how far off it is, not a proof."""

@@ -16,9 +16,10 @@ import os
 import struct
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
+
+from satcheck.core.frozen import frozen
 
 DIRECTORY_VARIABLE: Final = "SATCHECK_CACHE_DIR"
 _SUBDIRECTORY: Final = "decompositions"  # the user's directory may hold other things: never touched
@@ -29,7 +30,7 @@ _HEADER: Final = struct.Struct("<8s32s32s")  # magic, key, SHA-256 of the payloa
 _MAGIC: Final = b"SATPARTS"
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class CacheInfo:
     """path: where the entries are; bytes: their total size."""
 

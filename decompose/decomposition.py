@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import time
-from dataclasses import replace
 from typing import Final
 
 from satcheck.core import Mesh, Polytope
+from satcheck.core.frozen import replace
 from satcheck.decompose import errors
 from satcheck.decompose.cache import Cache
 from satcheck.decompose.errors import DecompositionError

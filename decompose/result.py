@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
 from typing import Final
 
 from satcheck.core import Mesh, Polytope
 from satcheck.core.blocks import pack_blocks, unpack_blocks
+from satcheck.core.frozen import frozen
 from satcheck.decompose.settings import DecompositionSettings
 
 NOT_SOLID: Final = "decomposition-not-solid"
@@ -19,7 +19,7 @@ _NUMBERS: Final = struct.Struct("<ddd")
 _COUNTS: Final = struct.Struct("<QQ")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Note:
     """Something a reader of the result should know; `code` is stable."""
 
@@ -27,7 +27,7 @@ class Note:
     message: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Decomposition:
     """A mesh as convex parts, in the mesh's frame and units, with their measured error.
 

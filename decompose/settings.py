@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import struct
-from dataclasses import dataclass
 from typing import Final, Self
 
+from satcheck.core.frozen import frozen
 from satcheck.decompose.errors import BAD_SETTING, DecompositionError
 
 _SEED_LIMIT: Final = 1 << 32  # CoACD's seed is a C unsigned int
 _LAYOUT: Final = struct.Struct("<dIIII")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class DecompositionSettings:
     """CoACD's parameters.
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from satcheck.core import Mesh, Topology
+from satcheck.core.frozen import frozen
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.resolution import FLOAT64_ROUNDING
@@ -21,7 +21,7 @@ Transform = tuple[float, ...]
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class MeshFile:
     """One mesh file, flattened into one mesh in file units, or one mesh of it.
 
@@ -42,8 +42,8 @@ class MeshFile:
     format: str
     resolution: float
     units: str | None
-    mesh: Mesh = field(repr=False)
-    topology: Topology = field(repr=False)
+    mesh: Mesh
+    topology: Topology
     health: MeshHealth
     issues: tuple[Issue, ...]
     part: str | None = None
@@ -52,7 +52,7 @@ class MeshFile:
     deviation: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Body:
     """A mesh file, or a primitive shape, placed in the world.
 
@@ -91,7 +91,7 @@ class Body:
         return self.file.resolution * largest_stretch(self.transform) + step
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Unreadable:
     """A body that could not be loaded, and why."""
 
@@ -103,7 +103,7 @@ class Unreadable:
     static: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Scene:
     """Everything that was asked to be checked, in the order given.
 

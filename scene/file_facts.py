@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
+from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body
 from satcheck.scene.issue import Issue
 from satcheck.scene.units import is_unit

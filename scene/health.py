@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from satcheck.core import Mesh, Topology, inspect
+from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class MeshHealth:
     """The mesh as read, welded. Edges are counted where triangles meet.
 
@@ -37,7 +36,7 @@ class MeshHealth:
     solid: bool
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Examined:
     """A welded mesh, wound outward where that could be decided, and what was found on the way.
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from satcheck.core.frozen import frozen
 from satcheck.scene.codes import CODES, Severity
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Issue:
     """A finding about an input. `code` is one of `codes.CODES` and decides the severity.
 

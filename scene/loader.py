@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.file_facts import issues_of_files, units_of_files

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from dataclasses import dataclass
 from itertools import pairwise
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -23,7 +23,7 @@ Quaternion = tuple[float, float, float, float]
 NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Translation:
     """M(t) moves by t * vector. vector: world, may be zero."""
 
@@ -33,7 +33,7 @@ class Translation:
         _require_finite("the vector of a translation", self.vector, 3)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Rotation:
     """M(t) turns by t * degrees about the line through `point` along `axis`, world.
 
@@ -53,7 +53,7 @@ class Rotation:
             raise _refused("the axis of a rotation must not be zero")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Waypoint:
     """A rigid pose: world = turn(orientation) * (x, y, z) + position, (x, y, z) as placed.
 
@@ -72,7 +72,7 @@ class Waypoint:
             raise _refused("the orientation of a waypoint must not be zero")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class PosePath:
     """M(t) runs through the waypoints, the first at time 0, the last at time 1.
 
@@ -95,7 +95,7 @@ class PosePath:
 Path = Translation | Rotation | PosePath
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Motion:
     """Bodies that move together, rigidly, along one path. bodies: their ids, each once."""
 

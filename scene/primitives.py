@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from array import array
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
 
 from satcheck.core import Mesh
+from satcheck.core.frozen import fields, frozen
 
 Point = tuple[float, float, float]
 Values = dict[str, str | float | list[float]]
@@ -19,7 +19,7 @@ Values = dict[str, str | float | list[float]]
 DEFAULT_SEGMENTS = 64
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Box:
     """size: its whole extent along x, y and z."""
 
@@ -29,7 +29,7 @@ class Box:
         _validate(self)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Sphere:
     """All points at most `radius` from the origin."""
 
@@ -39,7 +39,7 @@ class Sphere:
         _validate(self)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Capsule:
     """All points at most `radius` from a segment of `length`, the caps not counted, along z."""
 
@@ -50,7 +50,7 @@ class Capsule:
         _validate(self)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Cylinder:
     """height: from one flat end to the other."""
 
@@ -61,7 +61,7 @@ class Cylinder:
         _validate(self)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Cone:
     """radius: of its base, at z = -height / 2; the apex is at z = height / 2."""
 
@@ -72,7 +72,7 @@ class Cone:
         _validate(self)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Ellipsoid:
     """radii: along x, y and z."""
 
@@ -102,9 +102,9 @@ def is_curved(shape: Primitive) -> bool:
 def values_of(shape: Primitive) -> Values:
     """{"type": "box", "size": [x, y, z]} and the like: as a scene file states the shape."""
     values: Values = {"type": type(shape).__name__.lower()}
-    for field in fields(shape):
-        size = getattr(shape, field.name)
-        values[field.name] = list(map(float, size)) if field.name in _TRIPLES else float(size)
+    for name in fields(shape):
+        size = getattr(shape, name)
+        values[name] = list(map(float, size)) if name in _TRIPLES else float(size)
     return values
 
 
@@ -117,7 +117,7 @@ def primitive_of(values: object) -> Primitive:
     if form is None:
         raise ValueError(f"type should be one of {', '.join(PRIMITIVES)}, not {kind!r}")
     sizes = {key: value for key, value in values.items() if key != "type"}
-    wanted = [field.name for field in fields(form)]
+    wanted = fields(form)
     if sorted(sizes) != sorted(wanted):
         raise ValueError(
             f"a {kind} has {' and '.join(wanted)}, not {', '.join(sizes) or 'nothing'}"
@@ -200,14 +200,14 @@ def _circle(segments: int) -> list[tuple[float, float]]:
 
 
 def _validate(shape: Primitive) -> None:
-    for field in fields(shape):
-        value = getattr(shape, field.name)
-        wanted = 3 if field.name in _TRIPLES else 1
+    for name in fields(shape):
+        value = getattr(shape, name)
+        wanted = 3 if name in _TRIPLES else 1
         numbers = value if isinstance(value, tuple) else (value,)
         if isinstance(value, tuple) != (wanted == 3) or len(numbers) != wanted:
             what = "three numbers" if wanted == 3 else "a number"
-            raise ValueError(f"{field.name} should be {what}")
+            raise ValueError(f"{name} should be {what}")
         if not all(type(number) in (int, float) for number in numbers):
-            raise ValueError(f"{field.name} holds something else than numbers")
+            raise ValueError(f"{name} holds something else than numbers")
         if not all(number > 0 and math.isfinite(number) for number in numbers):
-            raise ValueError(f"{field.name} should be positive and finite")
+            raise ValueError(f"{name} should be positive and finite")

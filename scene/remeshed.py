@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import replace
 
 from satcheck.core import Mesh
+from satcheck.core.frozen import replace
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.health import examine
 

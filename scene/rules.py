@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Literal, get_args
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
@@ -28,7 +28,7 @@ _BRACKETED = re.compile(r"\[(.)\]", re.DOTALL)
 _SPECIAL = re.compile(r"[*?\[]")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Selector:
     """Bodies by the glob of their ids, "arm/*", or of their groups, "group:links*".
 
@@ -72,7 +72,7 @@ class Selector:
         return any(map(self.pattern().match, names))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen(kw_only=True)
 class Rule:
     """What is asked of the pairs with one body in each selector. None: the rule does not say.
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+
+from satcheck.core.frozen import frozen
 
 # Micrometres of one unit: whole numbers, so that a conversion rounds once.
 MICROMETRES = {"um": 1, "mm": 1_000, "cm": 10_000, "m": 1_000_000, "in": 25_400, "ft": 304_800}
@@ -26,7 +27,7 @@ _SYNONYMS = {
 _LENGTH = re.compile(r"\s*(\+?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*", re.ASCII)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Length:
     """A length >= 0 as written. unit None: in the units of the files."""
 

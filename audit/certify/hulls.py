@@ -7,10 +7,10 @@ which face is worth expanding next, so there is nothing to tune and no tolerance
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from satcheck.core.frozen import frozen
 from satcheck.verify.exact import Point, Vector, cross, dot, nearest_to_origin, sub
 from satcheck.verify.relations import Pair
 
@@ -18,7 +18,7 @@ MOST_EXPANSIONS = 2000
 Vertex = tuple[int, int]  # a_i - b_j
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Nearest:
     """point: of the Minkowski difference A - B, next to the origin, on the lattice; weights: of the
     vertex differences that it is made of."""
@@ -27,7 +27,7 @@ class Nearest:
     weights: dict[Vertex, Fraction]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Expanded:
     """axis: along which the bodies do not overlap, or overlap least; vertices, faces: the polytope
     around the origin, where there is one."""

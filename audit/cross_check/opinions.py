@@ -9,7 +9,6 @@ nothing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 from satcheck import core
@@ -19,13 +18,14 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import CROSS_CHECK, OVERLAPS
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 
 DISAGREEMENT = "cross-check-disagreement"
 
 Standing = Literal["agrees", "disagrees", "no answer"]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Opinion:
     """theirs: what the peer answered, or why it gave no answer that counts. ours: the same, proven;
     empty where there is nothing to compare."""

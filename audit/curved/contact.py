@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from satcheck.audit.boxes import holds as box_holds
 from satcheck.audit.curved.signed import convex_pair
 from satcheck.audit.ladder import Contact
+from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.pair import Pair

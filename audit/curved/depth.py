@@ -3,8 +3,6 @@ around it. What frees the outer mesh frees the shape, and no less than frees the
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from satcheck.audit.curved.around import mesh_around
 from satcheck.audit.depth import Depth, measure_depth
 from satcheck.audit.ladder import settle
@@ -13,6 +11,7 @@ from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS
 from satcheck.core import Mesh
+from satcheck.core.frozen import replace
 from satcheck.scene.remeshed import remeshed
 
 

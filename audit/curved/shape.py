@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from satcheck import core
 from satcheck.audit.boxes import Box
 from satcheck.audit.oriented_box import quaternion_of
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, ORTHOGONALITY, UNIT_ROUNDOFF
+from satcheck.core.frozen import frozen
 from satcheck.scene.primitives import (
     Capsule,
     Cone,
@@ -23,7 +23,7 @@ Vector = tuple[float, float, float]
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class CurvedShape:
     """shape: in its own frame; pose: rigid. slack: no point of the body is farther from where the
     pose puts it than this, world units. primitive: the shape's sizes, scaling folded in."""

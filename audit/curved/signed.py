@@ -7,10 +7,10 @@ and the answer says that it is not exact.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
+from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.audit.placed_body import PlacedBody
@@ -22,7 +22,7 @@ ORIGIN: Vector = (0.0, 0.0, 0.0)
 Outcome = Literal["separated", "touching", "penetrating", "undecided"]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Signed:
     """A signed distance with bounds that hold for the bodies; fields as of core.PairResult.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -11,9 +10,10 @@ import numpy.typing as npt
 from satcheck import core
 from satcheck.audit.curved.shape import CurvedShape
 from satcheck.audit.curved.signed import AT_ORIGIN, ORIGIN, Signed, Vector, signed
+from satcheck.core.frozen import frozen, replace
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Nearest:
     """The triangles of a mesh against a curved shape.
 

@@ -14,16 +14,16 @@ nothing can be proven, an overlap is looked for beyond; without one the answer i
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.nudges import Nudges
 from satcheck.audit.report import OVERLAPS, Finding
 from satcheck.audit.verify import FREE
+from satcheck.core.frozen import frozen
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Impact:
     """lower, upper: of the first t at which the bodies overlap by more than the touch band. Before
     lower they do not; at upper they do, None where no overlap was found.

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
 from typing import Any
 
 from satcheck.audit.boxes import Box
 from satcheck.audit.motion.swept import swept_box
 from satcheck.audit.motion.track import track_of
 from satcheck.audit.report import Issue
+from satcheck.core.frozen import as_dict, frozen
 from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Paths:
     """How the bodies of a pair move; None: not at all. Not both."""
 
@@ -46,7 +46,7 @@ class Movers:
     def values(self) -> tuple[dict[str, Any], ...]:
         """The motions as JSON values: the kind of the path, and what it is made of."""
         return tuple(
-            {"bodies": list(one.bodies), "kind": KINDS[type(one.path)], **asdict(one.path)}
+            {"bodies": list(one.bodies), "kind": KINDS[type(one.path)], **as_dict(one.path)}
             for one in self._motions
         )
 

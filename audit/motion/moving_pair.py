@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -17,6 +16,7 @@ from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import ALWAYS, Asked
 from satcheck.audit.tolerances import TOUCH_FRACTION
+from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,7 +35,7 @@ class BudgetSpent(Unanswerable):
         super().__init__("the budget of the sweep was spent")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Obstacle:
     """time: nothing is in the way for so long, in t. triangles: of A and B, what then is; None
     where nothing is, or where only the hulls were asked."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from dataclasses import dataclass
 from itertools import pairwise
 
 from satcheck import core
@@ -25,6 +24,7 @@ from satcheck.audit.motion.turn import (
     unit,
 )
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.core.frozen import frozen
 from satcheck.scene.motion import Path, Rotation, Translation
 
 Vector = tuple[float, float, float]
@@ -45,7 +45,7 @@ RATE_ROUNDOFFS = 128
 LEG_ROUNDOFFS = 16
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Piece:
     """start <= t <= end. centre, velocity: at start, per unit of t. turn: at start; axis, degrees:
     what the body turns by until the end, about the centre, world. pivot: comes to lie there."""
@@ -76,7 +76,7 @@ class Piece:
         return self.axis[0] * rate, self.axis[1] * rate, self.axis[2] * rate
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Track:
     """The pieces of a motion, from t = 0 to t = 1 without a hole."""
 

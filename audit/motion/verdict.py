@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from satcheck.audit.motion.movers import Paths
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.motion_report import Sweep
@@ -12,6 +10,7 @@ from satcheck.audit.plan import Plan
 from satcheck.audit.report import SEVERITIES, Finding
 from satcheck.audit.severity import CLEARANCE_RULE, Judgement
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.core.frozen import replace
 
 
 def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Finding:

@@ -11,7 +11,6 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from satcheck.audit.finding import examine
@@ -20,13 +19,14 @@ from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import ALWAYS
 from satcheck.audit.report import OVERLAPS
+from satcheck.core.frozen import frozen, replace
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
 # An interval whose least bound is below this share of the best figure is halved in any case.
 WORTHLESS = 0.5
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Worst:
     """lower <= least signed distance over the motion <= upper, which is that at `time`."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
@@ -22,6 +21,7 @@ from satcheck.audit.resolve.wall import BodyPair
 from satcheck.audit.roster import place
 from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import added, scaled
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ WAY_OUT_BUDGET = 0.03
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Opinion:
     """What a pair says where it is.
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from satcheck import core
 from satcheck.audit.report import Vector
 from satcheck.audit.resolve.wall import Wall
 from satcheck.audit.vectors import added, dot, scaled
+from satcheck.core.frozen import frozen
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 # Of the longest way that a wall asks for: by what a wall may be missed and still is no sign that
@@ -17,7 +17,7 @@ MISSED = 1e-3
 NOISE = 1e-13
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Motion:
     """broken: walls that are not kept, because they exclude each other, the worst first."""
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, Literal
 
 from satcheck.audit import report_values
 from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
+from satcheck.core.frozen import frozen
 
 SCHEMA = "satcheck.resolution/1"
 
@@ -26,7 +26,7 @@ def is_objected(finding: Finding) -> bool:
     return finding.severity == "error" or (finding.severity == "warning" and known)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Move:
     """translation: of the body in the world, units of the scene. length: of it."""
 
@@ -35,7 +35,7 @@ class Move:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Left:
     """A pair that still is not as asked, and why nothing was done about it."""
 
@@ -45,7 +45,7 @@ class Left:
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Resolution:
     """moves: of the bodies that were moved, in the order of the scene. pinned: those that had to
     stay. found: pairs that overlapped, or were closer than the clearance, before. rounds: how often

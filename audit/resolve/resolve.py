@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from satcheck.audit.check import check
 from satcheck.audit.report import Report, Vector
@@ -15,6 +14,7 @@ from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import dot
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import replace
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from satcheck import core
 from satcheck.audit.check import check
@@ -14,13 +13,14 @@ from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Report, 
 from satcheck.audit.settings import Settings
 from satcheck.audit.stability.variant import Rows, Variant
 from satcheck.audit.triangles import crossing_depth
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene import Body, Scene
 
 MIRRORED: dict[Relation, Relation] = {"contains": "inside", "inside": "contains"}
 NESTED = frozenset({"contains", "inside"})
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Answer:
     """relation: the exact one; indeterminate, with a reason, where it is not proven.
 
@@ -61,8 +61,6 @@ def ask(variant: Variant, settings: Settings) -> Answer:
 def _with_reach(settings: Settings, largest: float) -> Settings:
     """Measures every gap: a clearance beyond any, a power of two, so that it scales with the pair;
     no touch band, because the exact relation is what is asked."""
-    from dataclasses import replace
-
     reach = math.ldexp(1.0, math.frexp(largest)[1] + 2)
     return replace(settings, clearance=reach, tolerance=0.0, list_pruned=True, jobs=1)
 

@@ -10,20 +10,20 @@ close it is not compared.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
 from typing import Literal
 
 from satcheck.audit.report import OVERLAPS
 from satcheck.audit.stability.answer import NESTED, Answer
 from satcheck.audit.stability.bounds import rounding_of_figures
 from satcheck.audit.stability.variant import Variant
+from satcheck.core.frozen import fields, frozen
 
 Judgement = Literal["same", "within", "beyond", "undecided"]
 # Not part of the answer: how it was come by.
 UNCOMPARED = frozenset({"largest", "convex", "reason", "hold"})
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Comparison:
     """relation_changed: and may, where the judgement is within. change: of the signed distance, in
     units of the files, None where one answer has no figure. bound: how much of it was allowed.
@@ -58,9 +58,9 @@ def compare(asked: Answer, seen: Answer, variant: Variant) -> Comparison:
 
 def _must_be_equal(asked: Answer, seen: Answer) -> Comparison:
     beyond = tuple(
-        field.name
-        for field in fields(Answer)
-        if field.name not in UNCOMPARED and getattr(asked, field.name) != getattr(seen, field.name)
+        name
+        for name in fields(Answer)
+        if name not in UNCOMPARED and getattr(asked, name) != getattr(seen, name)
     )
     change = 0.0 if asked.signed == seen.signed else _change(asked, seen)
     changed = "relation" in beyond

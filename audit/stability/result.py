@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal
 
 from satcheck.audit.report import Relation, Vector
 from satcheck.audit.stability.answer import Answer
 from satcheck.audit.stability.comparison import Comparison, Judgement
 from satcheck.audit.stability.variant import Family
+from satcheck.core.frozen import frozen
 
 SCHEMA = "satcheck.stability/1"
 
@@ -17,7 +17,7 @@ Verdict = Literal["stable", "changed", "undecided"]
 JUDGEMENTS: tuple[Judgement, ...] = ("same", "within", "undecided", "beyond")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Sample:
     """how: what was done, for people."""
 
@@ -26,7 +26,7 @@ class Sample:
     comparison: Comparison
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class FamilyResult:
     """samples: none where the family has nothing to say about this pair, see `skipped`."""
 
@@ -59,7 +59,7 @@ class FamilyResult:
         return max((one.comparison.bound for one in self.samples), default=0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Stability:
     """a, b: the names of the files. asked: the answer to the question as given."""
 

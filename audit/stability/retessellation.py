@@ -6,7 +6,6 @@ arithmetic; the middle of an edge is tried where it is a float64 first.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -14,6 +13,7 @@ from numpy.random import Generator
 from numpy.typing import NDArray
 
 from satcheck.core import Mesh
+from satcheck.core.frozen import frozen
 
 Triangles = NDArray[np.uint32]
 Exact = tuple[Fraction, Fraction, Fraction]
@@ -22,7 +22,7 @@ Exact = tuple[Fraction, Fraction, Fraction]
 TRIES = 8
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Retessellated:
     """rounded: a middle was no float64, so the surface is off by its rounding there."""
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from satcheck.core.frozen import frozen
 from satcheck.scene import Body, MeshFile
 
 Family = Literal[
@@ -22,7 +22,7 @@ IDENTITY: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 UNMOVED = (0.0, 0.0, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Variant:
     """how: for people. a, b: in the order asked.
 
@@ -43,7 +43,7 @@ class Variant:
     identical: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Question:
     """The pair as asked: two mesh files, in place."""
 

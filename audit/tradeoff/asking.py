@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -17,6 +16,7 @@ from satcheck.audit.settings import Settings
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.tradeoff.memory import ChildMemory
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 from satcheck.scene import Body
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 Bodies = tuple[Body, Body]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Asked:
     """The answer of a ladder.
 
@@ -47,7 +47,7 @@ class Asked:
     failure: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Measured:
     """The volume in common, and about how far it is off.
 

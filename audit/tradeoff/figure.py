@@ -6,13 +6,13 @@ Signed distance: > 0 a gap, < 0 an overlap, as deep as the shortest translation 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from satcheck.audit.ladder import Contact
 from satcheck.audit.report import OVERLAPS, Finding, Relation
+from satcheck.core.frozen import frozen
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Figure:
     """value: the figure a rung gives. low, high: what it leaves open; None: no bound."""
 
@@ -25,7 +25,7 @@ class Figure:
         return None if self.low is None or self.high is None else self.high - self.low
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Truth:
     """What the exact rung has proven; relation, figure: None where it has not, reason says why.
 

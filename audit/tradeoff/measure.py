@@ -7,7 +7,7 @@ import shutil
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 
@@ -17,6 +17,7 @@ from satcheck.audit.tradeoff.asking import Asked, Bodies, Measured, ask, ask_par
 from satcheck.audit.tradeoff.figure import Truth, figure_of, plain, truth_of
 from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, State, Times, with_front
 from satcheck.audit.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
+from satcheck.core.frozen import replace
 
 SPENT = "budget"
 # What one run of convex parts may take whatever the budget: the default of a check.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from statistics import median
 from typing import Any, Literal
 
@@ -10,13 +9,14 @@ from satcheck.audit.report import OVERLAPS, Relation, Tool
 from satcheck.audit.tradeoff.figure import Figure, Truth
 from satcheck.audit.tradeoff.pareto import front
 from satcheck.audit.tradeoff.rungs import Rung
+from satcheck.core.frozen import frozen, replace
 
 SCHEMA = "satcheck.tradeoff/1"
 
 State = Literal["answered", "failed", "not run"]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Times:
     """Seconds of every run, in the order in which they ran; one at least."""
 
@@ -32,7 +32,7 @@ class Times:
         return {key: 1e6 * value for key, value in micro.items()} | {"runs": len(self.runs)}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@frozen(kw_only=True)
 class Row:
     """A rung and what came of it.
 
@@ -104,7 +104,7 @@ class Row:
         }
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Picked:
     """The rung by which a plain check settles the relation, and what each step before it said."""
 
@@ -112,7 +112,7 @@ class Picked:
     why: str
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class PairTradeoff:
     """picked: None where the budget was spent before anything ran."""
 
@@ -143,7 +143,7 @@ class PairTradeoff:
         }
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Tradeoff:
     """left_out: how many more pairs have boxes that meet. spent: seconds."""
 

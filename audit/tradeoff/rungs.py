@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from satcheck.audit.settings import Accuracy
+from satcheck.core.frozen import frozen
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Rung:
     """accuracy: where the ladder ends; None: the Boolean, which is no rung of it.
 

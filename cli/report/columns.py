@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rich.cells import cell_len, chop_cells
@@ -16,6 +15,7 @@ from rich.cells import cell_len, chop_cells
 from satcheck.audit.report import OVERLAPS
 from satcheck.cli.report.numbers import duration, number, vector
 from satcheck.cli.report.words import contacts, depth, in_motion
+from satcheck.core.frozen import frozen
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ GAP = 2  # ... and without one
 _PIECES = re.compile(r"[^\s_./-]*[\s_./-]*")
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Column:
     """Cells in the order of the findings. folds: figures, which may be broken between numbers."""
 
@@ -48,7 +48,7 @@ class Column:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Layout:
     """Columns with their widths, as they fit a page."""
 

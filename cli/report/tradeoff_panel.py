@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING
 
 from satcheck.cli.report.numbers import duration, number
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.tradeoff import PairTradeoff, Row
@@ -28,7 +28,7 @@ _REACH = 7.0  # a marker and the air around it
 _KINDS = {0: "proven", 1: "guess", 2: "wrong"}
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class TimeAxis:
     """Decades of seconds, first and last, that all panels share."""
 
@@ -53,7 +53,7 @@ def time_axis(pairs: Sequence[PairTradeoff]) -> TimeAxis:
     return TimeAxis(first, max(math.ceil(math.log10(max(known, default=1.0))), first + 1))
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class _Errors:
     """The vertical axis: decades of error from the top down, then the lanes."""
 
@@ -74,7 +74,7 @@ class _Errors:
         return _TITLE + self.height + 2 * _LANE
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class _Dot:
     row: Row
     x: float

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
 from typing import Literal
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 
 Point = tuple[float, float]
@@ -20,7 +20,7 @@ FLATNESS = 2.0**-14
 MAX_SEGMENTS = 4096  # of one curve
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Contour:
     """A closed polygon, drawing units; the last corner joins the first.
 
@@ -37,7 +37,7 @@ class Contour:
         return Contour(points, self.deviation * math.hypot(a, b, d, e))
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class DrawnShape:
     """What lies within the contours by the fill rule. name: unique in the drawing."""
 
@@ -46,7 +46,7 @@ class DrawnShape:
     rule: FillRule
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Drawing:
     """units: of its coordinates, where the file says so. ignored: what was left out, in words."""
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.drawing.contour import Contour, DrawnShape, Point
 from satcheck.scene.errors import MeshFileError
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Sheet:
     """points: (n, 2); triangles: (m, 3), signed as above. deviation: as of the contours."""
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import Transform
 from satcheck.scene.issue import Issue
 from satcheck.scene.motion import Motion
@@ -12,7 +12,7 @@ from satcheck.scene.primitives import Primitive
 from satcheck.scene.rules import Rule
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class MeshPath:
     """path: for messages and reports. location: on disk."""
 
@@ -23,7 +23,7 @@ class MeshPath:
 NO_MESH = MeshPath("", Path())
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class BodyEntry:
     """One body as the scene file describes it.
 
@@ -40,7 +40,7 @@ class BodyEntry:
     pinned: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class SceneFile:
     """ids are as written; rules and motions speak of the bodies of this file alone."""
 

@@ -4,8 +4,8 @@ are about its own bodies alone."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 
+from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body, Unreadable
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import SceneFile

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
+
+from satcheck.core.frozen import frozen
 
 Key = str | int
 Keys = tuple[Key, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Place:
     """Offsets in the text: where the key or, in a list, the item starts; the value's extent.
 

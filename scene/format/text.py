@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -21,15 +20,17 @@ _MAX_BYTES = 256 << 20  # a million bodies
 _TOML_PLACE = re.compile(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)", re.DOTALL)
 
 
-@dataclass(frozen=True)
 class Parsed:
     """path: for messages. repeated_keys: JSON objects had a key twice, of which the last counts."""
 
-    path: str
-    location: Path
-    text: str
-    document: Any
-    repeated_keys: bool
+    def __init__(
+        self, path: str, location: Path, text: str, document: Any, repeated_keys: bool
+    ) -> None:
+        self.path = path
+        self.location = location
+        self.text = text
+        self.document = document
+        self.repeated_keys = repeated_keys
 
     @cached_property
     def positions(self) -> Positions:

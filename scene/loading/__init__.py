@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 from satcheck.core import Mesh
+from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
@@ -17,7 +17,7 @@ from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.resolution import file_resolution, placement_step
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class ReadLimits:
     """What reading one file may take, of which the file itself may be a quarter of the megabytes.
 

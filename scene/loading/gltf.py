@@ -12,9 +12,9 @@ import json
 import math
 import sys
 from array import array
-from dataclasses import replace
 from typing import Any, NoReturn
 
+from satcheck.core.frozen import replace
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_buffers import Accessors, integer, items, member, split_glb

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass, replace
 from pathlib import Path
 
 from satcheck.core import Mesh
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.issue import Issue, issue
@@ -28,7 +28,7 @@ _CORNER = Mesh.from_bytes(
 )
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Node:
     """A mesh of a file where the file places it, or why it cannot be used.
 
@@ -41,7 +41,7 @@ class Node:
     transform: Matrix | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Nodes:
     """All nodes of a file, in its order, and warnings that belong to none of them."""
 

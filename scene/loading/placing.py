@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import Matrix
@@ -18,7 +18,7 @@ _CUT = "..."
 Key = TypeVar("Key", bound=Hashable)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Instance(Generic[Key]):
     """Part `key` at `matrix` (None: as it is). path: the names that lead to it, unique."""
 

@@ -13,9 +13,9 @@ import json
 import struct
 from array import array
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
 
@@ -26,7 +26,7 @@ _MATRIX = struct.Struct("<12d")
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Request:
     """A file to read: its format, its bytes, the directory its references start from and whether
     they may leave it, and whether all of it is wanted as one mesh."""

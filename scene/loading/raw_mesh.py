@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Literal
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 
 Precision = Literal["written-digits", "float32", "float64"]
 Matrix = tuple[float, ...]  # row-major 4x4 for column vectors
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RawMesh:
     """What a reader found, in file units, not welded.
 
@@ -21,8 +21,8 @@ class RawMesh:
     units: as the file declares them, or None. warnings: (code, message).
     """
 
-    vertices: bytes = field(repr=False)
-    triangles: bytes = field(repr=False)
+    vertices: bytes
+    triangles: bytes
     precision: Precision
     decimals: int = 0
     significant: int = 0
@@ -30,7 +30,7 @@ class RawMesh:
     warnings: tuple[tuple[str, str], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RawPart:
     """One mesh of a file in its own coordinates, or why it cannot be used. name: unique there."""
 
@@ -38,7 +38,7 @@ class RawPart:
     mesh: RawMesh | MeshFileError
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RawNode:
     """Part number `part` where the file places it. path: unique there; None: the whole file."""
 
@@ -47,7 +47,7 @@ class RawNode:
     matrix: Matrix | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RawScene:
     """The meshes of a file and where they are placed; every part is placed at least once.
 

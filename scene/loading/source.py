@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.regular_file import size_of
 
@@ -51,7 +51,7 @@ _FIRST_WORDS = (
 _TEXT_HEAD_BYTES = 4096
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Source:
     """A mesh file as it lies on disk.
 
@@ -62,7 +62,7 @@ class Source:
     location: Path
     format: str
     sha256: str
-    data: bytes = field(repr=False)
+    data: bytes
 
 
 def read_source(

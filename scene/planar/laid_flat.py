@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from satcheck.core import Mesh
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable, largest_stretch
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError

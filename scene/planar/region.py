@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from satcheck.core import Mesh
 from satcheck.core.conventions import Plane, axes_of
+from satcheck.core.frozen import frozen
 from satcheck.scene.planar.turns import Floats, Indices, turns
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Region:
     """The points where the signs of the triangles do not add up to 0. points: (n, 2), each once;
     triangles: (m, 3), none of area 0."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
 from itertools import combinations, product
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene.bodies import Scene, Transform
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
@@ -23,7 +23,7 @@ SAME_LINK = "one rigid link"
 _SHOWN = 5
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Part:
     """One <collision> that becomes a body. offset: its geometry in the frame of the link.
 
@@ -36,7 +36,7 @@ class Part:
     source: Path | Primitive | MeshFileError
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class RobotBody:
     """A body of the scene, readable or not, that a link of a robot carries."""
 
@@ -45,7 +45,7 @@ class RobotBody:
     offset: Transform
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class SceneRobot:
     """A robot, the bodies that it moves, and the SRDF about it."""
 

@@ -6,9 +6,9 @@ vectors. Nothing here knows files or values of joints.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import Transform
 from satcheck.scene.primitives import Primitive
 
@@ -16,7 +16,7 @@ Vector = tuple[float, float, float]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class MeshReference:
     """A mesh file by its URI as written. scale: of its x, y, z; negative ones mirror."""
 
@@ -24,7 +24,7 @@ class MeshReference:
     scale: Vector
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class UnknownShape:
     """Geometry that is not read, and what there is to say about it."""
 
@@ -34,7 +34,7 @@ class UnknownShape:
 Geometry = MeshReference | Primitive | UnknownShape
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Collision:
     """One <collision> of a link. origin: its pose in the link's frame. line: in the URDF."""
 
@@ -44,7 +44,7 @@ class Collision:
     line: int
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Link:
     """A rigid body. visual: whether it has geometry for display."""
 
@@ -53,7 +53,7 @@ class Link:
     visual: bool
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Limits:
     """What a joint may do: radians, or metres of a prismatic one; lower <= upper."""
 
@@ -61,7 +61,7 @@ class Limits:
     upper: float
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Mimic:
     """Value = multiplier * value of `joint` + offset."""
 
@@ -70,7 +70,7 @@ class Mimic:
     offset: float
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Joint:
     """Carries the link `child` in the frame of the link `parent`.
 
@@ -98,7 +98,7 @@ class Joint:
         return self.freedoms > 0 and self.mimic is None
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Robot:
     """A tree of links, checked.
 

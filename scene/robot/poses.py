@@ -12,12 +12,12 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.robot.kinematics import Values
@@ -31,7 +31,7 @@ _SAME = 1e-6
 _MAX_BYTES = 256 << 20
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Posture:
     """A complete pose. joints: of every joint that moves. issues: about it.
 

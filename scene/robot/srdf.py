@@ -6,14 +6,14 @@ what may collide, and are passed over.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
+from satcheck.core.frozen import frozen
 from satcheck.scene.robot.kinematics import Values
 from satcheck.scene.robot.xml_tree import Element, read_tree
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class State:
     """A <group_state>: values of some joints under a name."""
 
@@ -22,7 +22,7 @@ class State:
     joints: dict[str, Values]
 
 
-@dataclass(frozen=True, slots=True)
+@frozen
 class Srdf:
     """file: path as given. robot: the name of the robot that it is about.
 

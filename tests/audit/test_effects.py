@@ -5,7 +5,6 @@ Each counter is also seen to count where its effect is asked for.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ import pytest
 
 from satcheck import core, decompose
 from satcheck.audit import Report, Settings, check
+from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Scene, Selector, load_scene
 from tests.audit.shapes import (
     bracket,

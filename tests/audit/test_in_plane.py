@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -14,6 +13,7 @@ import pytest
 from satcheck.audit import Finding, Settings, check
 from satcheck.core import Mesh, Surface, sat_polygons
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene, load_scene
 from satcheck.scene.planar.laid_flat import laid_flat
 from satcheck.scene.primitives import Box, Sphere, mesh_of

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 
 import pytest
 
 from satcheck.audit import Finding, PairCounts, Report, Settings, Stage, Summary, Tool
+from satcheck.core.frozen import replace
 
 FINDING = Finding(
     id="0123456789ab",

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import combinations
 
 import pytest
 
 from satcheck.audit.roster import Known, place
 from satcheck.audit.settings import Settings
+from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene, Unreadable
 from satcheck.scene.issue import issue
 from satcheck.scene.primitives import Box

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from itertools import combinations
 
 import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.audit.report import Finding, Report
+from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Scene, Selector, load_scene
 from tests.audit.shapes import bracket, open_box, placed_scene, pose, scene_of, unit_box, write
 from tests.audit.test_kettle import KETTLE, SNOWFLAKE

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from satcheck.audit import check
 from satcheck.audit.suggest import Suggestions, suggest
+from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Selector, load_scene
 from satcheck.scene.robot import joint_samples
 from tests.audit.shapes import open_box, scene_of, unit_box

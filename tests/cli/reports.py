@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from satcheck.audit.contact_report import Contacts, ContactTotals, Curve, Patch
 from satcheck.audit.report import (
     BodyReport,
@@ -17,6 +15,7 @@ from satcheck.audit.report import (
     Tool,
     Witness,
 )
+from satcheck.core.frozen import replace
 
 PENETRATING = Finding(
     id="block|block_pushed",

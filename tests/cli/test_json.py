@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 
 import pytest
 from jsonschema import Draft202012Validator
@@ -11,6 +10,7 @@ from jsonschema import Draft202012Validator
 from satcheck.audit import Contacts, Report
 from satcheck.cli.report import json as report_json
 from satcheck.cli.report.schema import text
+from satcheck.core.frozen import replace
 from tests.cli import reports
 
 SCHEMA = json.loads(text())

@@ -7,13 +7,13 @@ import stat
 import subprocess
 import sys
 import threading
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from satcheck.core import Mesh
+from satcheck.core.frozen import replace
 from satcheck.core.worker import run_isolated
 from satcheck.decompose import Cache, Decomposition, DecompositionError, computation, decompose
 from satcheck.decompose import errors as codes

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene
 from satcheck.scene.primitives import Box, Sphere
 from satcheck.scene.shape_file import shape_file

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
@@ -12,6 +11,7 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.audit.rule_book import RuleBook, Subject
+from satcheck.core.frozen import replace
 from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.primitives import Box
 from satcheck.scene.shape_file import shape_file

@@ -6,7 +6,6 @@ The interval is wider than rounding by as much as A moves while it sinks in by t
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -16,6 +15,7 @@ from satcheck.audit.finding import examine
 from satcheck.audit.motion.impact import first_impact, overlaps
 from satcheck.audit.motion.limits import SHORTEST_STEP
 from satcheck.audit.plan import Plan
+from satcheck.core.frozen import replace
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 from tests.audit.motion.pairs import hull_of, moving
 from tests.audit.shapes import box, bracket, moved, unit_box

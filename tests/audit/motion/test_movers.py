@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import jsonschema
@@ -14,6 +13,7 @@ from satcheck.audit import Settings, check
 from satcheck.cli.output import Page
 from satcheck.cli.report import table
 from satcheck.cli.report.schema import text as schema_text
+from satcheck.core.frozen import replace
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from satcheck.scene.rules import Rule, Selector
 from satcheck.verify import verify

@@ -326,8 +326,7 @@ def test_a_moved_body_does_not_end_inside_an_open_one(tmp_path) -> None:
 
 
 def test_rules_decide_what_is_resolved(tmp_path) -> None:
-    from dataclasses import replace
-
+    from satcheck.core.frozen import replace
     from satcheck.scene import Rule, Selector
 
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.75), "c": unit_at(5)})

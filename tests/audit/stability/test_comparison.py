@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +9,7 @@ import pytest
 from satcheck.audit.stability.answer import Answer
 from satcheck.audit.stability.comparison import compare
 from satcheck.audit.stability.variant import Variant, body
+from satcheck.core.frozen import replace
 from tests.audit.shapes import scene_of, unit_box
 
 APART = Answer("separated", 1.0, convex=True, gap=0.5, hold=0.5, quality="exact")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +11,7 @@ from satcheck.audit import Settings
 from satcheck.audit.stability import FAMILIES, probe
 from satcheck.audit.stability import answer as answer_module
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import replace
 from satcheck.scene import load_scene
 from tests.audit.shapes import bracket, moved, open_box, placed_scene, pose, scene_of, unit_box
 
