@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import json
+import math
+import random
+import struct
 
+import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.audit import Contacts, Report
+from satcheck.cli._json import text
 from satcheck.cli.report import json as report_json
-from satcheck.cli.report.schema import text
+from satcheck.cli.report.schema import text as schema_text
 from satcheck.core.frozen import replace
 from tests.cli import reports
 
-SCHEMA = json.loads(text())
+SCHEMA = json.loads(schema_text())
 FULL = reports.report(
     reports.PENETRATING,
     reports.BOUNDED,
@@ -34,6 +39,50 @@ def text_of(report: Report, *, timings: bool) -> str:
 def test_the_pieces_are_the_document() -> None:
     for report in (FULL, reports.report(bodies=()), reports.report()):
         assert text_of(report, timings=True) == report_json.document(report.to_dict(True))
+
+
+def test_numbers_are_written_as_python_shows_them() -> None:
+    rng = random.Random(7)
+    anything = (struct.unpack("<d", rng.randbytes(8))[0] for _ in range(20_000))
+    numbers = [number for number in anything if math.isfinite(number)]
+    numbers += [rng.uniform(-1, 1) * 10.0 ** rng.randint(-8, 20) for _ in range(20_000)]
+    numbers += [float(f"1e{exponent}") for exponent in range(-320, 309)]
+    assert text(numbers) == f"[{', '.join(map(repr, numbers))}]"
+
+
+def test_the_layout_of_values() -> None:
+    values = {"none": {}, "list": [], "rows": [[1, 2.5], [True, None]], "mixed": (1, {"a": "b"})}
+    assert text(values) == (
+        '{\n  "none": {},\n  "list": [],\n  "rows": [\n    [1, 2.5],\n    [true, null]\n  ],\n'
+        '  "mixed": [\n    1,\n    {\n      "a": "b"\n    }\n  ]\n}'
+    )
+    assert text({"a": 1}, 2) == '{\n      "a": 1\n    }'
+    assert text(10**30) == str(10**30)
+
+
+@pytest.mark.parametrize("name", ['\x00\x1f\n\t"\\/\x7f', "\u00e4\U0001f600", "\ud800 lone", ""])
+def test_any_name_reads_back(name: str) -> None:
+    assert json.loads(text({name: name})) == {name: name}
+    assert text(name) == json.dumps(name, ensure_ascii=False)
+
+
+@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
+def test_a_number_that_json_has_not_is_refused(number: float) -> None:
+    with pytest.raises(ValueError, match="no JSON form for the number"):
+        text({"a": [1.0, number]})
+
+
+@pytest.mark.parametrize("value", [{1: 2}, {"a": {1, 2}}, [b""], np.float64(1.0)])
+def test_what_is_no_json_value_is_refused(value: object) -> None:
+    with pytest.raises(TypeError, match="no JSON form for a"):
+        text(value)
+
+
+def test_a_value_that_holds_itself_is_refused() -> None:
+    endless: list[object] = []
+    endless.append(endless)
+    with pytest.raises(RecursionError):
+        text(endless)
 
 
 def test_the_schema_is_one() -> None:
