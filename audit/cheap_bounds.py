@@ -7,7 +7,6 @@ from satcheck.audit.boxes import box_escape
 from satcheck.audit.ladder import Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.report import Vector
-from satcheck.audit.tolerances import rounding_pad
 from satcheck.core.frozen import frozen
 
 
@@ -43,5 +42,4 @@ def gap_around(pair: Pair, contact: Contact) -> float:
     surfaces meet. 0.0 for other pairs."""
     if contact.relation not in ("contains", "inside"):
         return 0.0
-    gap = core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
-    return max(gap - rounding_pad(pair.largest_coordinate), 0.0)
+    return core.nested_depth(pair.a.geometry, pair.b.geometry)

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.climb import climb_all, leaves_work
 from satcheck.audit.effects import effects_of
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.pair import Pair
-from satcheck.audit.pair_queue import InTurn
+from satcheck.audit.pair_queue import InTurn, Steps
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import Asked, Planner
 from satcheck.audit.report import Finding, Issue, Report
@@ -25,6 +26,7 @@ from satcheck.scene.drawing import DRAWINGS
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
     from satcheck.audit.motion.movers import Movers
+    from satcheck.core import Climb
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Scene
 
@@ -142,7 +144,7 @@ def _examine_all(
             )
             for (i, j), one in zip(close, asked, strict=True)
         ]
-        for k, one in turn.each(pairs, _examine):
+        for k, one in turn.each(pairs, Steps(climb_all, _examine, leaves_work)):
             done[k] = one
             if progress is not None:
                 progress(len(done), len(pairs))
@@ -169,11 +171,11 @@ def _peers(settings: Settings) -> Peers:
     return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
 
 
-def _examine(pair: Pair) -> Examined:
+def _examine(pair: Pair, climb: Climb | None = None) -> Examined:
     """One pair, come what may: a failure here must not take the other pairs with it."""
     plan = Plan()
     try:
-        finding = examine(pair, plan)
+        finding = examine(pair, plan, climb)
         if pair.paths is not None:
             from satcheck.audit.motion.verdict import with_sweep
 

@@ -24,6 +24,7 @@ from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.depth import Depth
+    from satcheck.core import Climb
 
 ID_DIGITS = 12
 
@@ -34,9 +35,9 @@ def finding_id(a: str, b: str) -> str:
     return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
 
 
-def examine(pair: Pair, plan: Plan) -> Finding:
-    """Everything asked about one pair. Warnings go to the plan."""
-    contact = settle(pair, plan)
+def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
+    """Everything asked about one pair. Warnings go to the plan. climb: where it has been made."""
+    contact = settle(pair, plan, climb)
     gap, unseen = 0.0, None
     if contact.relation in OVERLAPS:
         finding = _overlapping(pair, contact, plan)

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from satcheck import core
-from satcheck.audit.ladder import Contact
+from satcheck.audit.ladder import BAND, Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector, Witness
@@ -14,6 +13,7 @@ from satcheck.audit.tolerances import rounding_pad
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
+    from satcheck import core
     from satcheck.audit.curved.signed import Signed
 
 
@@ -50,14 +50,17 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
     asked = pair.asked.wants("distance")
     stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
-    found = core.mesh_distance(pair.a.surface(), pair.b.surface(), limit)
+    assert contact.climb is not None
+    assert contact.climb.gap is not None
+    found, cost = contact.climb.gap, contact.climb.nanoseconds[BAND]
     if math.isinf(found.distance):
-        plan.record(stage, "beyond", f"more than {limit:.6g} apart")
+        plan.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
         return Gap(limit, math.inf, math.inf)
-    if _is_void(pair, found):
-        plan.record(stage, "lower bound", "to a wall without thickness: no part of the body")
+    if contact.climb.gap_is_void:
+        # From the outside no face within the material can be nearest.
+        plan.add(stage, "lower bound", "to a wall without thickness: no part of the body", cost)
         return Gap(found.distance, math.inf, math.inf)
-    plan.record(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}")
+    plan.add(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}", cost)
     return Gap(
         found.distance,
         found.distance,
@@ -65,13 +68,6 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
         _direction(found.witness_a, found.witness_b),
         Witness(found.witness_a, found.witness_b),
     )
-
-
-def _is_void(pair: Pair, found: core.MeshDistance) -> bool:
-    """Whether the distance may be that of a wall that bounds no material. From the outside no face
-    within the material can be nearest."""
-    ends = ((pair.a, found.triangle_a), (pair.b, found.triangle_b))
-    return any(body.surface().has_void(triangle) for body, triangle in ends)
 
 
 def _convex_gap(result: core.PairResult | Signed) -> Gap:

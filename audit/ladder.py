@@ -8,11 +8,10 @@ case: what it could not prove is then an estimate, and it can only err towards "
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from satcheck import core
-from satcheck.audit.boxes import holds
-from satcheck.audit.oriented_box import nothing_new
+from satcheck.audit.climb import climb
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Relation, Vector
@@ -22,11 +21,26 @@ from satcheck.core.frozen import frozen
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
 
-RELATION_OF_OUTCOME: dict[str, Relation] = {
+T = TypeVar("T")
+
+# The words of the core for a relation.
+RELATION_NAMED: dict[str, Relation] = {
     "separated": "separated",
     "touching": "touching",
     "penetrating": "penetrating",
+    "contains": "contains",
+    "inside": "inside",
+    "coincident": "coincident",
 }
+# Result and detail of the stage.
+WORDS_OF_ORIENTED_BOXES: dict[str, tuple[str, str]] = {
+    "apart": ("separated", ""),
+    "meet": ("meet", ""),
+    "sheared": ("skipped", "a transform shears: the carried box is no box"),
+    "unturned": ("skipped", "neither body is turned: its oriented box is its world box"),
+}
+# Places in the times of a climb.
+BOXES, ORIENTED, HULLS, NESTING, TRIANGLES, BAND = range(6)
 
 
 @frozen
@@ -37,7 +51,8 @@ class Contact:
     gap_lower: a proven lower bound of their distance, 0.0 where none is known.
     convex: the signed distance, where both bodies are convex and it therefore says everything.
     crossing: indices of one triangle of each body that meet; point: a common point, rounded.
-    reason: why it is not proven, where that is no matter of --accuracy.
+    reason: why it is not proven, where that is no matter of --accuracy. climb: what the rungs of
+    the core found, where it came so far.
     """
 
     relation: Relation
@@ -47,11 +62,15 @@ class Contact:
     crossing: tuple[int, int] | None = None
     point: Vector | None = None
     reason: str | None = None
+    climb: core.Climb | None = None
 
 
-def settle(pair: Pair, plan: Plan) -> Contact:
-    """The relation of the pair by the lowest rung that settles what is asked."""
-    contact = _settled(pair, plan)
+def settle(pair: Pair, plan: Plan, found: core.Climb | None = None) -> Contact:
+    """The relation of the pair by the lowest rung that settles what is asked.
+
+    found: its climb, where it has been made; the rungs are then only put into words.
+    """
+    contact = _settled(pair, plan, climb(pair) if found is None else found)
     plane = pair.settings.planar
     if plane is None:
         return contact
@@ -60,25 +79,27 @@ def settle(pair: Pair, plan: Plan) -> Contact:
     return refine_nesting(pair, contact, plane, plan)
 
 
-def _settled(pair: Pair, plan: Plan) -> Contact:
-    gap = boxes_apart(pair, plan)
+def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
+    gap = _boxes(plan, found)
     if gap > pair.asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
     if pair.curved:
         from satcheck.audit.curved.contact import settle_curved
 
         return settle_curved(pair, plan) if pair.may("hull") else _apart_or_guess(gap)
-    if _oriented_boxes_apart(pair, plan):
+    if _oriented_boxes_apart(plan, found):
         return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
     if not pair.may("hull"):
         return _apart_or_guess(gap)
-    if _outlines_apart(pair, plan):
-        return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
-    contact = _convex(pair, plan) if pair.both_convex else _hulls(pair, plan, gap)
+    if pair.outlined:
+        if _outlines_apart(pair, plan):
+            return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
+        found = climb(pair, "hull")
+    contact = _convex(plan, found) if found.both_convex else _hulls(plan, found, gap)
     if contact is not None:
         return contact
     if pair.may("exact"):
-        return _triangles(pair, plan)
+        return _triangles(plan, found)
     if pair.may("parts"):
         from satcheck.audit.parts_only import settle_by_parts
 
@@ -91,28 +112,28 @@ def _apart_or_guess(gap: float) -> Contact:
 
 
 def boxes_apart(pair: Pair, plan: Plan) -> float:
-    """Rung 0: a lower bound of the gap of the world boxes, 0.0 when they meet."""
+    """Rung 0 alone: a lower bound of the gap of the world boxes, 0.0 when they meet."""
     gap = core.box_gap(pair.a.bounds, pair.b.bounds)
-    if gap > 0:
-        plan.record("aabb", "separated", f"world boxes apart by at least {gap:.6g}")
-    else:
-        plan.record("aabb", "meet", "world boxes meet")
+    plan.record("aabb", *_words_of_boxes(gap))
     return gap
 
 
-def _oriented_boxes_apart(pair: Pair, plan: Plan) -> bool:
+def _boxes(plan: Plan, found: core.Climb) -> float:
+    plan.add("aabb", *_words_of_boxes(found.box_gap), found.nanoseconds[BOXES])
+    return found.box_gap
+
+
+def _words_of_boxes(gap: float) -> tuple[str, str]:
+    if gap > 0:
+        return "separated", f"world boxes apart by at least {gap:.6g}"
+    return "meet", "world boxes meet"
+
+
+def _oriented_boxes_apart(plan: Plan, found: core.Climb) -> bool:
     """Whether the files' own boxes, placed, are apart by more than was asked about."""
-    pads, gap = (pair.a.resolution, pair.b.resolution), pair.asked_gap
-    if sum(pads) < gap:  # as a rule it is not, and a body keeps its box for all its pairs
-        pads = (0.5 * gap, 0.5 * gap)
-    a, b = pair.a.oriented_box(pads[0]), pair.b.oriented_box(pads[1])
-    if a.posed is None or b.posed is None or not (a.turned or b.turned):
-        plan.record("obb", "skipped", nothing_new(a, b))
-        return False
-    (shape_a, pose_a), (shape_b, pose_b) = a.posed, b.posed
-    result = core.check_pair(shape_a, shape_b, pose_a, pose_b, query="overlap")
-    apart = result.outcome == "separated"
-    plan.record("obb", "separated" if apart else "meet", result.feature if apart else "")
+    result, detail = WORDS_OF_ORIENTED_BOXES[found.boxes]
+    apart = found.boxes == "apart"
+    plan.add("obb", result, found.box_feature if apart else detail, found.nanoseconds[ORIENTED])
     return apart
 
 
@@ -135,62 +156,58 @@ def _edge_of(found: core.PolygonResult) -> str:
     return f"outlines, edge {edge} of {body}"
 
 
-def _convex(pair: Pair, plan: Plan) -> Contact | None:
+def _asked(result: T | None) -> T:
+    """Of a rung that the climb got to."""
+    assert result is not None
+    return result
+
+
+def _convex(plan: Plan, found: core.Climb) -> Contact | None:
     """Everything about two convex bodies; None when the solver could not decide."""
-    result = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
-    plan.record("hull", result.outcome, f"both convex: {result.method} {result.feature}".rstrip())
+    result = _asked(found.hulls)
+    detail = f"both convex: {result.method} {result.feature}".rstrip()
+    plan.add("hull", result.outcome, detail, found.nanoseconds[HULLS])
     if result.outcome == "undecided":
         return None
-    relation = RELATION_OF_OUTCOME[result.outcome]
-    if relation == "penetrating":
-        relation = _containment(pair, plan)
-    return Contact(relation, True, max(result.lower or 0.0, 0.0), result)
+    relation = RELATION_NAMED[result.outcome]
+    if found.nesting is not None:
+        detail = "one world box holds the other"
+        plan.add("containment", found.nesting, detail, found.nanoseconds[NESTING])
+        # The surfaces differ from the hulls by the rounding of the pose: a relation without a
+        # common interior can then only mean a graze, which the hulls have already settled.
+        if found.nesting in ("contains", "inside", "coincident"):
+            relation = RELATION_NAMED[found.nesting]
+    return Contact(relation, True, max(result.lower or 0.0, 0.0), result, climb=found)
 
 
-def _containment(pair: Pair, plan: Plan) -> Relation:
-    """Refine "penetrating" of two convex bodies; only nested boxes can hold nested bodies."""
-    if not (holds(pair.a.bounds, pair.b.bounds) or holds(pair.b.bounds, pair.a.bounds)):
-        return "penetrating"
-    found = core.mesh_relation(pair.a.surface(), pair.b.surface())
-    plan.record("containment", found.relation, "one world box holds the other")
-    # The surfaces differ from the hulls by the rounding of the pose: a relation without a common
-    # interior can then only mean a graze, which the hulls have already settled.
-    nested = found.relation in ("contains", "inside", "coincident")
-    return _relation(found.relation) if nested else "penetrating"
-
-
-def _hulls(pair: Pair, plan: Plan, box_lower: float) -> Contact | None:
+def _hulls(plan: Plan, found: core.Climb, box_lower: float) -> Contact | None:
     """Apart, if the hulls of the whole meshes are; None otherwise."""
-    a, b = pair.a.hull_shape(), pair.b.hull_shape()
-    overlap = core.check_pair(a, b, query="overlap")
-    if overlap.outcome != "separated":
-        result = "undecided" if overlap.outcome == "undecided" else "meet"
-        plan.record("hull", result, "not both convex: hulls prove only separation")
+    result = _asked(found.hulls)
+    if result.outcome != "separated":
+        outcome = "undecided" if result.outcome == "undecided" else "meet"
+        detail = "not both convex: hulls prove only separation"
+        plan.add("hull", outcome, detail, found.nanoseconds[HULLS])
         return None
-    distance = core.check_pair(a, b, query="distance")
-    lower = max(distance.lower or 0.0, box_lower)
-    plan.record("hull", "separated", f"hulls apart by at least {lower:.6g}")
-    return Contact("separated", True, lower)
+    lower = max(result.lower or 0.0, box_lower)
+    detail = f"hulls apart by at least {lower:.6g}"
+    plan.add("hull", "separated", detail, found.nanoseconds[HULLS])
+    return Contact("separated", True, lower, climb=found)
 
 
-def _triangles(pair: Pair, plan: Plan) -> Contact:
-    found = core.mesh_relation(pair.a.surface(), pair.b.surface())
-    detail = f"{found.box_tests} box tests, {found.triangle_tests} triangle tests"
+def _triangles(plan: Plan, found: core.Climb) -> Contact:
+    surfaces = _asked(found.triangles)
+    detail = f"{surfaces.box_tests} box tests, {surfaces.triangle_tests} triangle tests"
     crossing = None
-    if found.triangle_a >= 0 and found.triangle_b >= 0:
-        crossing = (found.triangle_a, found.triangle_b)
-        detail += f", triangles {found.triangle_a} and {found.triangle_b} meet"
-    if not found.proven:
+    if surfaces.triangle_a >= 0 and surfaces.triangle_b >= 0:
+        crossing = (surfaces.triangle_a, surfaces.triangle_b)
+        detail += f", triangles {surfaces.triangle_a} and {surfaces.triangle_b} meet"
+    if not surfaces.proven:
         detail += ", sampled in a degenerate contact"
-    plan.record("triangles", found.relation, detail)
-    return Contact(_relation(found.relation), found.proven, crossing=crossing, point=found.point)
-
-
-def _relation(name: str) -> Relation:
-    known: dict[str, Relation] = {
-        **RELATION_OF_OUTCOME,
-        "contains": "contains",
-        "inside": "inside",
-        "coincident": "coincident",
-    }
-    return known[name]
+    plan.add("triangles", surfaces.relation, detail, found.nanoseconds[TRIANGLES])
+    return Contact(
+        RELATION_NAMED[surfaces.relation],
+        surfaces.proven,
+        crossing=crossing,
+        point=surfaces.point,
+        climb=found,
+    )

@@ -69,6 +69,16 @@ class Pair:
         return self.a.curved is not None or self.b.curved is not None
 
     @property
+    def triangles(self) -> int:
+        """Of both, in their files."""
+        return self.a.shared.triangles + self.b.shared.triangles
+
+    @property
+    def outlined(self) -> bool:
+        """In a check in a plane: both are convex polygons."""
+        return self.a.body.file.outline is not None and self.b.body.file.outline is not None
+
+    @property
     def both_solid(self) -> bool:
         return self.a.solid and self.b.solid
 

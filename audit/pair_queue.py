@@ -1,25 +1,45 @@
 """The order in which pairs are examined, on all cores, and when what was made of a body is let go.
 
 Pairs are taken along a curve through space, so that those of one body come close to each other: of
-many bodies only a few have a surface in memory at a time.
+many bodies only a few have a surface in memory at a time. They are taken in batches: the core
+climbs the ladder with all pairs of one at a time, then each is put into words. What still takes
+time then, a depth for instance, goes to threads.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from typing import TypeVar
+from contextlib import ExitStack
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
 from satcheck.audit.pair import Pair
 from satcheck.core.frozen import frozen
 
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+C = TypeVar("C")
 T = TypeVar("T")
 
 # Below this many pairs, starting threads costs more than they save.
 PARALLEL_PAIRS = 8
-# Pairs handed to the threads at a time: no more results wait for their turn than these.
-SLICE = 2048
+# The most pairs of a batch: no more results wait for their turn, and nobody waits longer to be
+# heard with Ctrl-C. And the most triangles of its pairs for each thread, about as many seconds and
+# gigabytes as there are tens of millions.
+BATCH_PAIRS = 2048
+BATCH_TRIANGLES = 500_000
+
+
+@frozen
+class Steps(Generic[C, T]):
+    """What is done about pairs. climb_all(pairs, threads): about a batch at once. examine(pair,
+    climb): one by one. leaves_work(pair, climb): whether that takes time."""
+
+    climb_all: Callable[[Sequence[Pair], int], Sequence[C]]
+    examine: Callable[[Pair, C], T]
+    leaves_work: Callable[[Pair, C], bool]
 
 
 @frozen
@@ -29,17 +49,25 @@ class InTurn:
     jobs: int
     keep: bool = False
 
-    def each(self, pairs: Sequence[Pair], examine: Callable[[Pair], T]) -> Iterator[tuple[int, T]]:
+    def each(self, pairs: Sequence[Pair], steps: Steps[C, T]) -> Iterator[tuple[int, T]]:
         """(k, examine(pairs[k])) of every pair, near ones after each other."""
         order = _along_curve(pairs)
         left = Counter(id(body) for pair in pairs for body in (pair.a, pair.b))
-        results = _results([pairs[k] for k in order], examine, self.jobs)
-        for k, one in zip(order, results, strict=True):
-            for body in (pairs[k].a, pairs[k].b):
-                left[id(body)] -= 1
-                if not (left[id(body)] or self.keep):
-                    body.let_go()
-            yield k, one
+        threads = self._threads(len(pairs))
+        with ExitStack() as stack:
+            workers = _Workers(threads, stack)
+            for batch in _batches(pairs, order, threads):
+                for k, one in zip(batch, workers.do([pairs[k] for k in batch], steps), strict=True):
+                    for body in (pairs[k].a, pairs[k].b):
+                        left[id(body)] -= 1
+                        if not (left[id(body)] or self.keep):
+                            body.let_go()
+                    yield k, one
+
+    def _threads(self, pairs: int) -> int:
+        import os
+
+        return min(self.jobs or os.cpu_count() or 1, pairs) if pairs >= PARALLEL_PAIRS else 1
 
 
 def _along_curve(pairs: Sequence[Pair]) -> list[int]:
@@ -51,18 +79,49 @@ def _along_curve(pairs: Sequence[Pair]) -> list[int]:
     return sorted(range(len(pairs)), key=ends.__getitem__)
 
 
-def _results(pairs: list[Pair], examine: Callable[[Pair], T], jobs: int) -> Iterator[T]:
-    import os
+def _batches(pairs: Sequence[Pair], order: Sequence[int], threads: int) -> Iterator[list[int]]:
+    batch: list[int] = []
+    triangles = 0
+    for k in order:
+        batch.append(k)
+        triangles += pairs[k].triangles
+        is_heavy = triangles >= threads * BATCH_TRIANGLES and len(batch) >= threads
+        if is_heavy or len(batch) == BATCH_PAIRS:
+            yield batch
+            batch, triangles = [], 0
+    if batch:
+        yield batch
 
-    threads = min(jobs or os.cpu_count() or 1, len(pairs))
-    if threads <= 1 or len(pairs) < PARALLEL_PAIRS:
-        yield from map(examine, pairs)
-        return
-    from concurrent.futures import ThreadPoolExecutor
 
-    pool = ThreadPoolExecutor(threads)
-    try:
-        for start in range(0, len(pairs), SLICE):
-            yield from pool.map(examine, pairs[start : start + SLICE])
-    finally:
-        pool.shutdown(cancel_futures=True)
+class _Workers:
+    """The threads of one run, started when the first pair needs them."""
+
+    def __init__(self, threads: int, stack: ExitStack) -> None:
+        self._threads = threads
+        self._stack = stack
+        self._pool: Executor | None = None
+
+    def do(self, pairs: list[Pair], steps: Steps[C, T]) -> Iterator[T]:
+        climbs = steps.climb_all(pairs, self._threads)
+        heavy = [
+            k
+            for k, (pair, found) in enumerate(zip(pairs, climbs, strict=True))
+            if steps.leaves_work(pair, found)
+        ]
+        if self._threads == 1 or len(heavy) < PARALLEL_PAIRS:
+            yield from map(steps.examine, pairs, climbs)
+            return
+        examined = self._started().map(
+            steps.examine, [pairs[k] for k in heavy], [climbs[k] for k in heavy]
+        )
+        is_heavy = set(heavy)
+        for k, (pair, found) in enumerate(zip(pairs, climbs, strict=True)):
+            yield next(examined) if k in is_heavy else steps.examine(pair, found)
+
+    def _started(self) -> Executor:
+        if self._pool is None:
+            from concurrent.futures import ThreadPoolExecutor
+
+            self._pool = ThreadPoolExecutor(self._threads)
+            self._stack.callback(self._pool.shutdown, cancel_futures=True)
+        return self._pool

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class Part:
     """A convex body in the world frame, with its box."""
 
-    shape: core.Hull
+    shape: core.Shape
     bounds: Box
 
 
@@ -86,4 +86,4 @@ def _placed(part: core.Polytope, body: PlacedBody) -> Part:
     mesh = part.to_mesh()
     if body.body.transform is not None:
         mesh = mesh.transformed(body.body.transform)
-    return Part(core.Hull(mesh.convex_hull()), mesh.bounds)
+    return Part(core.Shape(mesh.convex_hull()), mesh.bounds)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
 from satcheck.audit.boxes import Box
-from satcheck.audit.oriented_box import OrientedBox, oriented_box
 from satcheck.audit.settings import Settings
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.shape import CurvedShape
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 MeshKey = tuple[str, str, str | None]
 
-# Held while a body gets its World, which makes nothing yet.
+# Held while a body gets its geometry, which makes nothing yet.
 _MAKING = Lock()
 
 
@@ -50,70 +50,48 @@ def mesh_key(file: MeshFile) -> MeshKey:
     return file.path, file.sha256, file.part
 
 
+@frozen
 class Work:
     """What was done for the bodies of one file, counted.
 
     hierarchies: built; refits: fitted again to placed vertices; decompositions: asked for.
     """
 
-    __slots__ = ("_lock", "decompositions", "hierarchies", "refits")
-
-    def __init__(self) -> None:
-        self._lock = Lock()
-        self.hierarchies = self.refits = self.decompositions = 0
-
-    def add(self, what: str) -> None:
-        with self._lock:
-            setattr(self, what, getattr(self, what) + 1)
+    hierarchies: int
+    refits: int
+    decompositions: int
 
 
 class SharedMesh:
     """What all bodies made of one mesh share, in file coordinates.
 
-    convex(): closed, consistently outward, and exactly convex. An affine map keeps that, up to the
-    one rounding of each world coordinate: the body is then taken as the hull of its world vertices.
-    covers_once(): a solid that covers no point twice, so that its volume is that of its mesh.
-    surface(): its tree is fitted again for each body, and only the boxes change.
-    hull(), hull_points(): as it lies in the file; what an affine map leaves of it.
+    geometry: its tree, its hull, whether it is convex. covers_once(): a solid that covers no point
+    twice, so that its volume is that of its mesh.
     """
 
     __slots__ = (
-        "convex",
+        "_decompositions",
         "covers_once",
         "decomposition",
         "file",
-        "hull",
-        "hull_points",
-        "hull_shape",
+        "geometry",
         "shape",
-        "surface",
-        "work",
+        "triangles",
     )
 
     def __init__(self, file: MeshFile, settings: Settings) -> None:
         self.file = file
-        self.work = Work()
-        self.convex = Once(self._convex)
-        self.surface = Once(lambda: self._built(core.Surface(file.mesh, file.health.solid)))
-        self.hull = Once(lambda: file.mesh.convex_hull())
-        self.hull_shape = Once(lambda: core.Hull(self.hull()))
-        self.hull_points = Once(lambda: core.HullPoints(file.mesh))
-        self.covers_once = Once(lambda: core.covers_once(self.surface()))
+        self.triangles = file.mesh.triangle_count
+        self.geometry = core.Geometry(file.mesh, file.health.solid)
+        self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))
         self.shape = Once(self._shape)
+        self._decompositions = 0
 
-    def _built(self, surface: core.Surface) -> core.Surface:
-        self.work.add("hierarchies")
-        return surface
-
-    def surface_at(self, mesh: core.Mesh) -> core.Surface:
-        """The surface of the placed mesh."""
-        surface = self.surface().refit(mesh)
-        self.work.add("refits" if surface.refitted else "hierarchies")
-        return surface
-
-    def _convex(self) -> bool:
-        return self.file.health.solid and self.file.mesh.convexity_defect(0.0) == 0.0
+    @property
+    def work(self) -> Work:
+        geometry = self.geometry
+        return Work(geometry.hierarchies, geometry.refits, self._decompositions)
 
     def _shape(self) -> Shape:
         """As the checker of certificates sees it."""
@@ -125,7 +103,7 @@ class SharedMesh:
         """A failure is an answer too: it is not tried again for the next pair."""
         from satcheck.decompose import Cache, DecompositionError, decompose
 
-        self.work.add("decompositions")
+        self._decompositions += 1
         directory = settings.cache_directory
         cache = Cache(None if directory is None else Path(directory)) if settings.cache else None
         try:
@@ -154,29 +132,6 @@ def _curved(body: Body) -> CurvedShape | None:
     return curved_shape(body.shape, body.transform)
 
 
-class World:
-    """What is made of a body in the world once a pair asks for it.
-
-    mesh: each coordinate rounded once. hull: of all its vertices, with its faces; hull_shape: the
-    same as a shape, as a rule without faces.
-    """
-
-    __slots__ = ("checked", "hull", "hull_shape", "mesh", "surface")
-
-    def __init__(self, body: Body, shared: SharedMesh) -> None:
-        placed = body.transform is not None
-        self.mesh = Once(body.world_mesh)
-        self.surface = Once(lambda: shared.surface_at(self.mesh()) if placed else shared.surface())
-        self.hull = Once(lambda: self.mesh().convex_hull() if placed else shared.hull())
-        self.hull_shape = Once(lambda: self._shape(body, shared) if placed else shared.hull_shape())
-        self.checked = Once(lambda: _checked(body, shared))
-
-    def _shape(self, body: Body, shared: SharedMesh) -> core.Hull:
-        assert body.transform is not None
-        hull = shared.hull_points().placed(body.transform)
-        return hull or core.Hull(self.hull())
-
-
 def _checked(body: Body, shared: SharedMesh) -> Placed:
     from satcheck.verify.bodies import place_shape
 
@@ -192,8 +147,8 @@ class PlacedBody:
     """
 
     __slots__ = (
-        "_oriented",
-        "_world",
+        "_checked",
+        "_geometry",
         "body",
         "bounds",
         "curved",
@@ -214,46 +169,47 @@ class PlacedBody:
             self.bounds = self.curved.bounds()
         self.resolution = body.resolution_world
         self.solid = body.file.health.solid
-        self._world: World | None = None
-        self._oriented: tuple[float, OrientedBox] | None = None
+        self._geometry: core.PlacedGeometry | None = None
+        self._checked: Placed | None = None
 
-    def _made(self) -> World:
-        world = self._world
-        if world is None:
+    @property
+    def geometry(self) -> core.PlacedGeometry:
+        """What the core makes of the body in the world, once a pair asks for it."""
+        geometry = self._geometry
+        if geometry is None:
             with _MAKING:
-                world = self._world = self._world or World(self.body, self.shared)
-        return world
+                geometry = self._geometry = self._geometry or core.PlacedGeometry(
+                    self.shared.geometry, self.body.transform, self.bounds, self.resolution
+                )
+        return geometry
 
     def let_go(self) -> None:
         """Forget what was made; it is made again should somebody ask."""
-        self._world = self._oriented = None
-
-    def oriented_box(self, pad: float) -> OrientedBox:
-        """Kept for the next pair, which as a rule asks for the same pad."""
-        kept = self._oriented
-        if kept is None or kept[0] != pad:
-            kept = self._oriented = (pad, oriented_box(self.body, pad))
-        return kept[1]
+        self._geometry = self._checked = None
 
     @property
     def mesh(self) -> core.Mesh:
-        return self._made().mesh()
+        return self.geometry.mesh
 
     def surface(self) -> core.Surface:
-        return self._made().surface()
+        return self.geometry.surface()
 
     def hull(self) -> core.Polytope:
-        return self._made().hull()
+        return self.geometry.hull()
 
-    def hull_shape(self) -> core.Hull:
-        return self._made().hull_shape()
+    def hull_shape(self) -> core.Shape:
+        return self.geometry.hull_shape()
 
     def checked(self) -> Placed:
-        return self._made().checked()
+        """The body as the checker of certificates sees it."""
+        checked = self._checked
+        if checked is None:
+            checked = self._checked = _checked(self.body, self.shared)
+        return checked
 
     @property
     def convex(self) -> bool:
-        return self.shared.convex()
+        return self.shared.geometry.convex
 
     @property
     def largest_stretch(self) -> float:

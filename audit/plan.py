@@ -25,6 +25,11 @@ class Plan:
         self.stages.append(Stage(stage, result, elapsed, detail))
         self._since = now
 
+    def add(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
+        """A stage that ran elsewhere."""
+        elapsed = nanoseconds / NANOSECONDS_PER_MICROSECOND
+        self.stages.append(Stage(stage, result, elapsed, detail))
+
     def complain(self, code: str, body: str | None, message: str) -> None:
         """A warning about this pair; the same one from several pairs is reported once."""
         self.issues.append(Issue(code, "warning", body, None, message))

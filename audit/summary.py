@@ -131,7 +131,7 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         triangles=file.mesh.triangle_count,
         health=health,
         resolution=body.resolution,
-        convex=body.shared.convex.known,
+        convex=body.shared.geometry.known_convex,
         parts=None if parts is None else len(parts.parts),
         part_error=None if parts is None else PartError(parts.outside, parts.missing),
         shape=_shape(shape),

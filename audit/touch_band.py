@@ -15,7 +15,7 @@ import math
 
 from satcheck import core
 from satcheck.audit.cheap_bounds import WayOut, gap_around, way_out_of_hulls
-from satcheck.audit.ladder import Contact
+from satcheck.audit.ladder import BAND, Contact
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
@@ -49,9 +49,9 @@ def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
     """
     if pair.tolerance == 0:
         return None
-    lower = max(crossing_depth(pair, contact.crossing), gap_around(pair, contact))
+    lower, cost = _least_depth(pair, contact)
     if lower > pair.tolerance:
-        plan.record("touch-band", "deeper", f"{_band(pair)}: at least {lower:.3g} deep")
+        plan.add("touch-band", "deeper", f"{_band(pair)}: at least {lower:.3g} deep", cost)
         return None
     hulls = way_out_of_hulls(pair)
     nudges = _Nudges(pair)
@@ -65,6 +65,14 @@ def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
     else:
         plan.record("touch-band", "within", f"{_band(pair)}: {math.hypot(*move):.3g} frees A")
     return move
+
+
+def _least_depth(pair: Pair, contact: Contact) -> tuple[float, int]:
+    """What proves a depth at once, and what it cost where the climb has looked for it."""
+    found = contact.climb
+    if found is not None and found.least_depth is not None:
+        return found.least_depth, found.nanoseconds[BAND]
+    return max(crossing_depth(pair, contact.crossing), gap_around(pair, contact)), 0
 
 
 def _band(pair: Pair) -> str:

@@ -6,7 +6,6 @@ import math
 
 from satcheck import core
 from satcheck.audit.boxes import Box
-from satcheck.audit.oriented_box import quaternion_of
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, ORTHOGONALITY, UNIT_ROUNDOFF
 from satcheck.core.frozen import frozen
 from satcheck.scene.primitives import (
@@ -161,3 +160,36 @@ def rows_of(quaternion: tuple[float, ...]) -> list[Vector]:
         (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
         (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
     ]
+
+
+def quaternion_of(
+    x: tuple[float, ...], y: tuple[float, ...], z: tuple[float, ...]
+) -> tuple[float, float, float, float]:
+    """(qx, qy, qz, qw) of the rotation with these columns; a mirrored one has its z turned round,
+    which leaves a box about its centre as it is.
+
+    Method: Stanley W. Shepperd, "Quaternion from Rotation Matrix" (1978): divide by the largest of
+    the four candidates.
+    """
+    handed = (
+        x[0] * (y[1] * z[2] - y[2] * z[1])
+        - x[1] * (y[0] * z[2] - y[2] * z[0])
+        + x[2] * (y[0] * z[1] - y[1] * z[0])
+    )
+    if handed < 0:
+        z = (-z[0], -z[1], -z[2])
+    squares = (
+        1 + x[0] - y[1] - z[2],
+        1 - x[0] + y[1] - z[2],
+        1 - x[0] - y[1] + z[2],
+        1 + x[0] + y[1] + z[2],
+    )
+    rows = (
+        (squares[0], y[0] + x[1], z[0] + x[2], y[2] - z[1]),
+        (y[0] + x[1], squares[1], z[1] + y[2], z[0] - x[2]),
+        (z[0] + x[2], z[1] + y[2], squares[2], x[1] - y[0]),
+        (y[2] - z[1], z[0] - x[2], x[1] - y[0], squares[3]),
+    )
+    row = rows[squares.index(max(squares))]
+    length = math.hypot(*row)
+    return row[0] / length, row[1] / length, row[2] / length, row[3] / length

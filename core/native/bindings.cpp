@@ -13,12 +13,14 @@
 #include "hull_points.hpp"
 #include "numeric_range.hpp"
 #include "sat_polygon.hpp"
+#include "words.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck;
 
 namespace satcheck {
 void bind_broad_phase(nb::module_& m);
+void bind_climb(nb::module_& m);
 void bind_resolve(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
@@ -77,21 +79,6 @@ MethodChoice method_from(const std::string& name) {
   if (name == "sat") return MethodChoice::sat;
   if (name == "gjk") return MethodChoice::gjk;
   throw std::invalid_argument("method is \"auto\", \"sat\" or \"gjk\", not \"" + name + "\"");
-}
-
-const char* name_of(Outcome outcome) {
-  constexpr const char* names[] = {"separated", "touching", "penetrating", "undecided"};
-  return names[static_cast<int>(outcome)];
-}
-
-const char* name_of(Method method) {
-  constexpr const char* names[] = {"none", "sat", "gjk", "epa", "exact"};
-  return names[static_cast<int>(method)];
-}
-
-const char* name_of(Feature feature) {
-  constexpr const char* names[] = {"none", "face-a", "face-b", "edge-edge", "vertices", "curved"};
-  return names[static_cast<int>(feature)];
 }
 
 const char* name_of(Reason reason) { return reason == Reason::none ? "" : "bounds-not-closed"; }
@@ -328,6 +315,7 @@ NB_MODULE(_native, m) {
   bind_pair_result(m);
   bind_pair_results(m);
   bind_polygons(m);
+  bind_climb(m);
   m.def(
       "check_pair",
       [](const Shape& a, const Shape& b, const std::optional<std::vector<double>>& pose_a,

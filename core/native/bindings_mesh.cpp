@@ -26,6 +26,7 @@
 #include "polytope.hpp"
 #include "surface.hpp"
 #include "topology.hpp"
+#include "words.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -270,25 +271,13 @@ meets no other triangle of the surface but at shared corners and edges.)")
            "point"_a, ReleaseGil());
 }
 
-const char* relation_name(Relation relation) {
-  switch (relation) {
-    case Relation::separated: return "separated";
-    case Relation::touching: return "touching";
-    case Relation::penetrating: return "penetrating";
-    case Relation::contains: return "contains";
-    case Relation::inside: return "inside";
-    case Relation::coincident: return "coincident";
-  }
-  return "";
-}
-
 std::int64_t triangle_number(std::uint32_t triangle) {
   return triangle == kNoTriangle ? -1 : static_cast<std::int64_t>(triangle);
 }
 
 void bind_mesh_relation(nb::module_& m) {
   nb::class_<MeshRelation>(m, "MeshRelation")
-      .def_prop_ro("relation", [](const MeshRelation& r) { return relation_name(r.relation); })
+      .def_prop_ro("relation", [](const MeshRelation& r) { return name_of(r.relation); })
       .def_ro("proven", &MeshRelation::proven)
       .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })

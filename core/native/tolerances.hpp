@@ -64,6 +64,24 @@ inline constexpr double kShallow = 1e-7;
 // stage takes over. On facets of ordinary shape float64 leaves 1e-14 to 1e-13; slivers cost it more.
 inline constexpr double kWidestInterval = 1e-12;
 
+// A short chain of operations on coordinates (a rotation, a translation, a scaling about a point: fewer than 16
+// roundings of at most one roundoff of the largest intermediate each, which is below 4 times the largest
+// coordinate) stays within this many roundoffs of that coordinate.
+inline constexpr double kChainRoundoffs = 64;
+
+inline double chain_rounding(double largest_coordinate) {
+  return kChainRoundoffs * kUnitRoundoff * largest_coordinate;
+}
+
+// Columns of a transform whose cosines are below this count as perpendicular: the box that it carries is
+// then padded by the same fraction of its size, which covers what the cosines neglect.
+inline constexpr double kOrthogonality = 1e-12;
+
+// How far the rounding of a pose moves a point at most, as a fraction of the largest of its coordinates and
+// those of the translation: 3 products, 2 sums and the translation make 6 roundings a coordinate, times
+// sqrt(3) for the vector.
+inline constexpr double kPlacementError = 11 * kUnitRoundoff;
+
 // Vertices this close to a support plane, as a fraction of the scale, belong to the contact feature.
 inline constexpr double kSameFeature = 1e-10;
 

@@ -118,7 +118,7 @@ def test_instances_are_decomposed_once(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("allowed", [True, False])
 def test_allowed_pairs_have_no_narrow_phase(tmp_path, monkeypatch, allowed):
-    counters = [Counter(monkeypatch, core, name) for name in ("check_pair", "mesh_relation")]
+    counters = [Counter(monkeypatch, core, name) for name in ("climb", "climb_all")]
     scene = concave(tmp_path)
     report = check(replace(scene, rules=(rule("a", "b", allowed=allowed),)))
     assert (sum(one.calls for one in counters) == 0) == allowed

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from satcheck.audit.pair_queue import PARALLEL_PAIRS, SLICE, InTurn
+from satcheck.audit.pair_queue import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, InTurn, Steps
 
 
 @dataclass(eq=False)
@@ -22,6 +22,7 @@ class FakeBody:
 class FakePair:
     a: FakeBody
     b: FakeBody
+    triangles: int = 24
 
 
 def chain(count):
@@ -31,12 +32,44 @@ def chain(count):
     return bodies, [FakePair(bodies[k], bodies[k + 1]) for k in order]
 
 
+def steps(examine, heavy=lambda _: False):
+    """The climb of a pair is the pair itself."""
+    return Steps(
+        climb_all=lambda pairs, _: list(pairs),
+        examine=lambda pair, climb: examine(pair) if climb is pair else None,
+        leaves_work=lambda pair, _: heavy(pair),
+    )
+
+
+@pytest.mark.parametrize("every", [None, 1, 3])
 @pytest.mark.parametrize("jobs", [1, 3])
-@pytest.mark.parametrize("count", [1, PARALLEL_PAIRS + 1, SLICE + 100])
-def test_every_pair_has_its_result(jobs, count):
+@pytest.mark.parametrize("count", [1, PARALLEL_PAIRS + 1, BATCH_PAIRS + 100])
+def test_every_pair_has_its_result(jobs, count, every):
     _, pairs = chain(count)
-    found = dict(InTurn(jobs).each(pairs, id))
+    heavy = {id(pair) for pair in pairs[::every]} if every else set()
+    found = dict(InTurn(jobs).each(pairs, steps(id, lambda pair: id(pair) in heavy)))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
+
+
+@pytest.mark.parametrize("jobs", [1, 3])
+def test_batches_are_bounded_in_pairs_and_in_triangles(jobs):
+    _, pairs = chain(BATCH_PAIRS + 100)
+    for pair in pairs[:40]:
+        pair.triangles = BATCH_TRIANGLES
+    batches = []
+
+    def climb_all(batch, threads):
+        assert threads == jobs
+        batches.append(list(batch))
+        return batch
+
+    done = steps(id)
+    assert len(list(InTurn(jobs).each(pairs, Steps(climb_all, done.examine, done.leaves_work))))
+    assert sum(map(len, batches)) == len(pairs)
+    assert max(map(len, batches)) <= BATCH_PAIRS
+    assert len(batches) > 40 // (jobs + 1)
+    for batch in batches:
+        assert sum(pair.triangles for pair in batch[:-1]) < jobs * BATCH_TRIANGLES
 
 
 def test_a_body_is_let_go_after_its_last_pair():
@@ -49,7 +82,7 @@ def test_a_body_is_let_go_after_its_last_pair():
             met[id(body)] += 1
 
     most = 0
-    for _ in InTurn(1).each(pairs, meet):
+    for _ in InTurn(1).each(pairs, steps(meet)):
         most = max(most, sum(met[id(body)] > 0 and not body.gone for body in bodies))
     assert all(body.gone == [True] for body in bodies)
     assert most <= 4
@@ -57,9 +90,9 @@ def test_a_body_is_let_go_after_its_last_pair():
 
 def test_what_another_check_needs_is_kept():
     bodies, pairs = chain(20)
-    assert len(list(InTurn(1, keep=True).each(pairs, id))) == 20
+    assert len(list(InTurn(1, keep=True).each(pairs, steps(id)))) == 20
     assert not any(body.gone for body in bodies)
 
 
 def test_no_pairs_at_all():
-    assert list(InTurn(0).each([], id)) == []
+    assert list(InTurn(0).each([], steps(id))) == []

@@ -62,9 +62,9 @@ def test_a_body_where_its_file_puts_it_shares_the_surface_of_the_file(tmp_path):
     file = file_of(tmp_path, shapes.bracket())
     mesh = SharedMesh(file, QUICK)
     body = PlacedBody(Body("a", "", file), mesh)
-    assert body.surface() is mesh.surface()
-    assert body.hull() is mesh.hull()
-    assert body.hull_shape() is mesh.hull_shape()
+    assert body.surface() is mesh.geometry.surface()
+    assert body.hull() is mesh.geometry.hull()
+    assert body.hull_shape() is mesh.geometry.hull_shape()
     assert body.mesh is file.mesh
     assert (mesh.work.hierarchies, mesh.work.refits) == (1, 0)
 
