@@ -86,4 +86,4 @@ def _placed(part: core.Polytope, body: PlacedBody) -> Part:
     mesh = part.to_mesh()
     if body.body.transform is not None:
         mesh = mesh.transformed(body.body.transform)
-    return Part(core.Shape(mesh.convex_hull()), mesh.bounds)
+    return Part(core.Hull(mesh.convex_hull()), mesh.bounds)

@@ -39,15 +39,17 @@ def stages(report: Report) -> set[str]:
 
 
 class Counter:
-    """Counts the calls of a function of a module, and lets them through."""
+    """Counts the calls of a function of a module, lets them through, and keeps their results."""
 
     def __init__(self, patch: pytest.MonkeyPatch, owner: Any, name: str) -> None:
         self.calls = 0
+        self.results: list[Any] = []
         original = getattr(owner, name)
 
         def counted(*args: Any, **keys: Any) -> Any:
             self.calls += 1
-            return original(*args, **keys)
+            self.results.append(original(*args, **keys))
+            return self.results[-1]
 
         patch.setattr(owner, name, counted)
 
@@ -80,9 +82,10 @@ def test_depth_not_asked_no_depth_search(tmp_path, monkeypatch, depth, calls):
 @pytest.mark.parametrize(("clearance", "calls"), [(None, 0), (3.0, 1)])
 def test_no_clearance_no_distance(tmp_path, monkeypatch, clearance, calls):
     """With a touch band of no width the gap is of no interest at all."""
-    distance = Counter(monkeypatch, core, "mesh_distance")
+    climbs = Counter(monkeypatch, core, "climb_all")
     report = check(notched(tmp_path), Settings(tolerance=0.0, clearance=clearance))
-    assert distance.calls == calls == ran(report).get("distance", 0)
+    measured = sum(one.gap is not None for one in climbs.results[0])
+    assert measured == calls == ran(report).get("distance", 0)
     assert (report.findings[0].distance is not None) == (clearance is not None)
 
 

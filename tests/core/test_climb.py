@@ -10,63 +10,61 @@ import pytest
 
 from satcheck import core
 
-CUBE = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4)] + [
-    (2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)
-]  # fmt: skip
+Matrix = tuple[float, ...]
+Corner = tuple[float, float, float]
+Question = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, bool]
+
+BOX = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4)]
+BOX += [(2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
 
 
-def box_mesh(low, high):
-    points = [
-        (x, y, z) for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])
-    ]
-    return points, CUBE
-
-
-def mesh_of(*parts):
-    points, triangles = [], []
-    for part_points, part_triangles in parts:
-        triangles += [tuple(i + len(points) for i in t) for t in part_triangles]
-        points += part_points
+def boxes(*bounds: tuple[Corner, Corner]) -> core.Mesh:
+    points: list[Corner] = []
+    triangles: list[tuple[int, ...]] = []
+    for (x0, y0, z0), (x1, y1, z1) in bounds:
+        triangles += [tuple(i + len(points) for i in t) for t in BOX]
+        points += [(x, y, z) for z in (z0, z1) for y in (y0, y1) for x in (x0, x1)]
     return core.Mesh(np.array(points, dtype=float), np.array(triangles, dtype=np.int32))
 
 
-def two_boxes():
-    """In one mesh, so that it is not convex."""
-    return mesh_of(box_mesh((-1, -1, -1), (1, 0, 1)), box_mesh((-1, 2, -1), (1, 3, 1)))
+CUBE = boxes(((-1, -1, -1), (1, 1, 1)))
+TWO_BOXES = boxes(((-1, -1, -1), (1, 0, 1)), ((-1, 2, -1), (1, 3, 1)))  # not convex
 
 
-def turned(rng):
+def turned(rng: random.Random) -> Matrix:
     angle = rng.uniform(-3, 3)
     c, s = math.cos(angle), math.sin(angle)
     x, y, z = (rng.uniform(-2, 2) for _ in range(3))
     return (c, -s, 0.0, x, s, c, 0.0, y, 0.0, 0.0, 1.0, z, 0.0, 0.0, 0.0, 1.0)
 
 
-def crowd(count, seed=3):
-    rng = random.Random(seed)
-    shared = [
-        core.Geometry(two_boxes(), True),
-        core.Geometry(mesh_of(box_mesh((-1, -1, -1), (1, 1, 1))), True),
-    ]
+def crowd(count: int) -> list[core.PlacedGeometry]:
+    rng = random.Random(3)
+    meshes = (TWO_BOXES, CUBE)
+    shared = [core.Geometry(mesh, True) for mesh in meshes]
     bodies = []
     for k in range(count):
         matrix = turned(rng)
-        mesh = (two_boxes, lambda: mesh_of(box_mesh((-1, -1, -1), (1, 1, 1))))[k % 2]()
-        bounds = mesh.transformed(matrix).bounds
+        bounds = meshes[k % 2].transformed(matrix).bounds
         bodies.append(core.PlacedGeometry(shared[k % 2], matrix, bounds, 1e-12))
     return bodies
 
 
-def questions(bodies, tolerance=1e-9):
+def questions(bodies: list[core.PlacedGeometry], tolerance: float = 1e-9) -> list[Question]:
     return [
         (a, b, tolerance, tolerance, False) for k, a in enumerate(bodies) for b in bodies[k + 1 :]
     ]
 
 
-def test_rungs_say_what_they_say_alone():
+def climbed(pairs: list[Question]) -> list[core.Climb]:
+    found = core.climb_all(pairs)
+    return [one for one in found if one is not None]
+
+
+def test_rungs_say_what_they_say_alone() -> None:
     pairs = questions(crowd(24))
     seen = {"hulls": 0, "triangles": 0, "boxes": 0}
-    for (a, b, *_), found in zip(pairs, core.climb_all(pairs), strict=True):
+    for (a, b, *_), found in zip(pairs, climbed(pairs), strict=True):
         relation = core.mesh_relation(a.surface(), b.surface())
         if found.triangles is not None:
             seen["triangles"] += 1
@@ -77,45 +75,46 @@ def test_rungs_say_what_they_say_alone():
             assert relation.relation == "separated"
         else:
             seen["hulls"] += 1
-            query = "depth" if found.both_convex else "distance"
-            alone = core.check_pair(a.hull_shape(), b.hull_shape(), query=query)
+            shapes = a.hull_shape(), b.hull_shape()
+            alone = core.check_pair(*shapes, query="depth" if found.both_convex else "distance")
+            assert found.hulls is not None
             assert (found.hulls.outcome, found.hulls.distance) == (alone.outcome, alone.distance)
     assert min(seen.values()) > 10
 
 
-def test_a_proven_depth_is_no_more_than_the_way_out():
+def test_a_proven_depth_is_no_more_than_the_way_out() -> None:
     pairs = questions(crowd(16))
-    found = [(pair, one) for pair, one in zip(pairs, core.climb_all(pairs), strict=True)]
-    deep = [(pair, one) for pair, one in found if one.least_depth]
-    assert len(deep) > 5
-    for (a, b, *_), one in deep:
+    depths = [one.least_depth or 0.0 for one in climbed(pairs)]
+    assert sum(depth > 0 for depth in depths) > 5
+    for (a, b, *_), depth in zip(pairs, depths, strict=True):
         out = core.check_pair(a.hull_shape(), b.hull_shape(), query="depth")
-        assert 0 < one.least_depth <= -out.lower
+        assert depth <= max(-(out.lower or 0.0), 0.0)
 
 
 @pytest.mark.parametrize("threads", [2, 5])
-def test_threads_change_nothing(threads):
+def test_threads_change_nothing(threads: int) -> None:
     pairs = questions(crowd(20))
 
-    def said(found):
+    def said(found: list[core.Climb | None]) -> list[object]:
         return [
             (one.box_gap, one.boxes, one.least_depth, one.triangles and one.triangles.point)
             for one in found
+            if one is not None
         ]
 
     assert said(core.climb_all(pairs, threads=threads)) == said(core.climb_all(pairs, threads=1))
 
 
-def test_the_last_rung_ends_the_climb():
+def test_the_last_rung_ends_the_climb() -> None:
     (pair, *_) = questions(crowd(2))
-    by = {last: core.climb(pair, "aabb", last) for last in ("aabb", "obb", "hull")}
-    assert (by["aabb"].boxes, by["aabb"].hulls) == ("", None)
-    assert by["obb"].hulls is None
-    assert by["hull"].triangles is None
+    lowest = core.climb(pair, last="aabb")
+    assert (lowest.boxes, lowest.hulls) == ("", None)
+    assert core.climb(pair, last="obb").hulls is None
+    assert core.climb(pair, last="hull").triangles is None
     assert core.climb(pair, "hull", "hull").boxes == ""
 
 
-def test_a_pair_that_fails_takes_no_other_with_it():
+def test_a_pair_that_fails_takes_no_other_with_it() -> None:
     bodies = crowd(6)
     sheet = core.Mesh(np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0.5)]), np.array([(0, 1, 2)]))
     bodies.append(core.PlacedGeometry(core.Geometry(sheet, True), None, sheet.bounds, 0.0))
@@ -127,20 +126,20 @@ def test_a_pair_that_fails_takes_no_other_with_it():
         core.climb(failed[0])
 
 
-def test_arguments_are_checked():
+def test_arguments_are_checked() -> None:
     (pair, *_) = questions(crowd(2))
     with pytest.raises(ValueError, match="a rung is"):
-        core.climb_all([pair], "parts")
-    with pytest.raises(TypeError):
-        core.climb_all([(pair[0], None, 0.0, 0.0, False)])
+        core.climb_all([pair], "parts")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="lacks a body"):
+        core.climb_all([(pair[0], None, 0.0, 0.0, False)])  # type: ignore[list-item]
     a, b = pair[0].surface(), pair[1].surface()
     with pytest.raises(IndexError):
         core.crossing_depth(a, b, 10**6, 0)
 
 
-def test_a_body_where_its_file_puts_it_shares_what_its_mesh_has():
-    shared = core.Geometry(two_boxes(), True)
-    body = core.PlacedGeometry(shared, None, two_boxes().bounds, 0.0)
+def test_a_body_where_its_file_puts_it_shares_what_its_mesh_has() -> None:
+    shared = core.Geometry(TWO_BOXES, True)
+    body = core.PlacedGeometry(shared, None, TWO_BOXES.bounds, 0.0)
     surface, shape = shared.surface(), shared.hull_shape()
     assert body.surface() is surface
     assert body.hull_shape() is shape
