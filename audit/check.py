@@ -130,7 +130,7 @@ def _examine_all(
     asked = [planner.asked(i, j) for i, j in close]
     with ExitStack() as stack:
         measures = any(one.wants("volume") for one in asked)
-        meter = stack.enter_context(_volume_meter(settings)) if measures else None
+        meter = stack.enter_context(volume_meter(settings)) if measures else None
         peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
         pairs = [
             Pair(
@@ -159,7 +159,7 @@ def _with_asked(
         yield (asked if one.finding.motion is None else asked.swept()), one.finding
 
 
-def _volume_meter(settings: Settings) -> VolumeMeter:
+def volume_meter(settings: Settings) -> VolumeMeter:
     from satcheck.core.overlap_volume import VolumeMeter
 
     return VolumeMeter(seconds=settings.volume_seconds, megabytes=settings.volume_megabytes)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.boxes import Box
@@ -14,39 +14,27 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import Planner
-from satcheck.audit.report import OVERLAPS, Finding, Vector
-from satcheck.audit.resolve.resolution import is_objected
-from satcheck.audit.resolve.separation import longer, nudge, way_outside
+from satcheck.audit.report import Vector
+from satcheck.audit.resolve.opinion import Opinion, is_objected, is_overlap_excused, opinion_of
 from satcheck.audit.resolve.wall import BodyPair
 from satcheck.audit.roster import place
 from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import added, scaled
-from satcheck.core.frozen import frozen, replace
+from satcheck.core.frozen import replace
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Body, Scene
 
-# What a way out may cost here: one that is a few percent too long is shortened with the others.
+# What a way out may cost among many: one that is a few percent too long is shortened with the
+# others.
 WAY_OUT_WIDTH = 0.25
 WAY_OUT_BUDGET = 0.03
+# Seconds of a slow machine that the ways out of few overlaps may take together.
+CAREFUL_BUDGET = 16.0
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
-
-
-@frozen
-class Opinion:
-    """What a pair says where it is.
-
-    unseen: a body that was moved may lie in another one, which has no inside to check. push: of an
-    overlap, of a gap below the clearance, out of an inside that nobody can see: a translation of
-    the first body that ends it; None: none was found. excused: nobody objects to what they do where
-    the scene has them, overlap within the touch band, for instance.
-    """
-
-    kind: Literal["free", "overlap", "near", "unseen", "undecided"]
-    push: Vector | None = None
-    excused: bool = False
 
 
 class Crowd:
@@ -57,8 +45,16 @@ class Crowd:
     bodies that may be moved.
     """
 
-    def __init__(self, scene: Scene, settings: Settings, staying: frozenset[str]) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        settings: Settings,
+        staying: frozenset[str],
+        meter: VolumeMeter | None = None,
+    ) -> None:
+        """meter: needed where rules limit the volume of overlaps."""
         # The verdicts of a check, and with every overlap a way out.
+        self._settings, self._meter = settings, meter
         self._asked = replace(
             settings,
             depth=True,
@@ -79,6 +75,14 @@ class Crowd:
         self._excused: set[BodyPair] = set()
         self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, Opinion]] = {}
         self.settle()
+
+    def look_closely(self, overlaps: int) -> None:
+        """From here on ways out are as short as those of a check, as far as the budget goes for so
+        many; those that are known are looked for again."""
+        own = self._settings
+        budget = min(own.depth_budget, CAREFUL_BUDGET / max(overlaps, 1))
+        self._asked = replace(self._asked, depth_width=own.depth_width, depth_budget=budget)
+        self._known = {pair: said for pair, said in self._known.items() if said[2].push is None}
 
     def move(self, offsets: dict[int, Vector]) -> None:
         """Put these bodies at these translations from home."""
@@ -108,7 +112,7 @@ class Crowd:
     def pair(self, pair: BodyPair) -> Pair:
         """Without a touch band."""
         asked = replace(self._planner.asked(*self._members(pair)), tolerance=0.0)
-        return Pair(self.placed[pair[0]], self.placed[pair[1]], self._asked, asked)
+        return Pair(self.placed[pair[0]], self.placed[pair[1]], self._asked, asked, self._meter)
 
     def clearance(self, pair: BodyPair) -> float:
         return self._planner.asked(*self._members(pair)).clearance or 0.0
@@ -167,25 +171,11 @@ class Crowd:
         if at_home or pair in self._excused:
             asked = self._planner.asked(*self._members(pair))
             found = examine(replace(strict, asked=asked), Plan())
-            if not is_objected(found) and found.relation != "indeterminate":
-                overlap = found.exact_relation in OVERLAPS
-                return Opinion("free", excused=overlap or found.undecided is not None)
-            return _said(strict, found)
-        return _said(strict, examine(strict, Plan()))
-
-
-def _said(pair: Pair, found: Finding) -> Opinion:
-    clearance = pair.asked.clearance or 0.0
-    if found.relation == "indeterminate":
-        return Opinion("undecided")
-    if not is_objected(found):
-        push = way_outside(pair) if found.severity == "warning" else None
-        return Opinion("free" if push is None else "unseen", push)
-    if found.relation in OVERLAPS:
-        return Opinion("overlap", found.mtv and longer(found.mtv, clearance))
-    if found.normal is None:
-        return Opinion("near", nudge(pair, clearance))
-    return Opinion("near", scaled(found.normal, (found.distance or 0.0) - clearance))
+            objected = is_objected(found, self._asked.fail_on)
+            if not objected and found.relation != "indeterminate":
+                return Opinion("free", excused=is_overlap_excused(found))
+            return opinion_of(strict, found)
+        return opinion_of(strict, examine(strict, Plan()))
 
 
 def translated(body: Body, offset: Vector) -> Body:

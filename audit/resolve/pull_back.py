@@ -16,6 +16,7 @@ from satcheck.audit.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.islands import islands
 from satcheck.audit.resolve.least_motion import least_motion
+from satcheck.audit.resolve.opinion import may_overlap
 from satcheck.audit.resolve.separation import separation
 from satcheck.audit.resolve.wall import BodyPair, Wall
 from satcheck.audit.tolerances import rounding_pad
@@ -42,12 +43,15 @@ def pull_back(crowd: Crowd, left: Collection[BodyPair]) -> None:
 
 
 def walled(crowd: Crowd, pair: BodyPair) -> Wall | None:
-    """The wall between two bodies where they are; None where no direction is known."""
-    found = separation(crowd.pair(pair))
+    """The wall between two bodies where they are, as far off as they may come closer or overlap;
+    None where no direction is known."""
+    asked = crowd.pair(pair)
+    found = separation(asked)
     if found is None:
         return None
     normal, gap = found
-    return Wall(*pair, normal, dot(normal, crowd.offset(pair)) - gap + crowd.clearance(pair))
+    room = max(0.0, gap - crowd.clearance(pair) + may_overlap(asked))
+    return Wall(*pair, normal, dot(normal, crowd.offset(pair)) - room)
 
 
 def swept(start: Box, end: Box) -> Box:

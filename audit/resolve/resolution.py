@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from satcheck.audit import report_values
 from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
+from satcheck.audit.resolve.opinion import is_objected
+from satcheck.audit.settings import FailOn
 from satcheck.core.frozen import frozen
 
 SCHEMA = "satcheck.resolution/1"
@@ -18,12 +20,6 @@ _VERDICTS: dict[str, Verdict] = {
     "fail": "unresolved",
     "incomplete": "incomplete",
 }
-
-
-def is_objected(finding: Finding) -> bool:
-    """Whether a check finds fault with what the pair is known to be."""
-    known = finding.relation in OVERLAPS or finding.undecided is None
-    return finding.severity == "error" or (finding.severity == "warning" and known)
 
 
 @frozen
@@ -37,7 +33,8 @@ class Move:
 
 @frozen
 class Left:
-    """A pair that still is not as asked, and why nothing was done about it."""
+    """A pair that still is not as asked, and why nothing was done about it. relation: of the bodies
+    as they are placed, or the worst on their way if that is what is wrong."""
 
     a: str
     b: str
@@ -48,14 +45,16 @@ class Left:
 @frozen
 class Resolution:
     """moves: of the bodies that were moved, in the order of the scene. pinned: those that had to
-    stay. found: pairs that overlapped, or were closer than the clearance, before. rounds: how often
-    bodies were pushed. left: what could not be resolved. report: of a check of the moved scene; the
-    verdict is its own.
+    stay. overlaps, gaps: pairs that a check of the scene as it was fails on, because they overlap
+    beyond what rules allow, or are closer than their clearance. rounds: how often bodies were
+    pushed. left: what could not be resolved. report: of a check of the moved scene; the verdict is
+    its own.
     """
 
     moves: tuple[Move, ...]
     pinned: tuple[str, ...]
-    found: int
+    overlaps: int
+    gaps: int
     rounds: int
     left: tuple[Left, ...]
     report: Report
@@ -65,9 +64,13 @@ class Resolution:
         return _VERDICTS[self.report.summary.verdict]
 
     @property
+    def found(self) -> int:
+        return self.overlaps + self.gaps
+
+    @property
     def remaining(self) -> tuple[Finding, ...]:
         """What the check of the moved scene still objects to."""
-        return tuple(filter(is_objected, self.report.findings))
+        return objected(self.report)
 
     @property
     def flush(self) -> int:
@@ -96,6 +99,7 @@ class Resolution:
             "summary": {
                 "verdict": self.verdict,
                 "found": self.found,
+                "gaps": self.gaps,
                 "remaining": len(self.remaining),
                 "flush": self.flush,
                 "moved": len(self.moves),
@@ -124,6 +128,12 @@ class Resolution:
             },
             "issues": [report_values.issue(issue) for issue in report.issues],
         }
+
+
+def objected(report: Report) -> tuple[Finding, ...]:
+    """The findings that this check fails on, or whose limits it cannot decide."""
+    fail_on = cast("FailOn", report.settings["fail_on"])
+    return tuple(finding for finding in report.findings if is_objected(finding, fail_on))
 
 
 def _counts(by_relation: Mapping[Relation, int]) -> dict[str, int]:

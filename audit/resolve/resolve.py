@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import ExitStack
 
-from satcheck.audit.check import check
-from satcheck.audit.report import Report, Vector
+from satcheck.audit.check import check, volume_meter
+from satcheck.audit.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
 from satcheck.audit.resolve.pull_back import pull_back
-from satcheck.audit.resolve.resolution import Left, Move, Resolution, is_objected
+from satcheck.audit.resolve.reasons import left_pairs, reasons
+from satcheck.audit.resolve.resolution import Move, Resolution
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import dot
@@ -24,9 +27,6 @@ ITERATIONS = 50
 # share is none.
 FEW = 64
 TIE = 1e-9
-
-BOTH_STAY = "both bodies stay"
-NO_WAY = "no way out was found"
 
 
 def resolve(
@@ -58,21 +58,27 @@ def resolve(
     if iterations < 0:
         raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
     staying = _staying(scene, pins)
-    crowd = Crowd(scene, settings, staying)
-    before = crowd.opinions(crowd.close_pairs())
-    crowd.settle()
-    found = sum(said.kind in ("overlap", "near") for said in before.values())
-    rounds = _shortest(crowd, found <= FEW, max_motion or math.inf, iterations, progress)
+    with ExitStack() as stack:
+        meter = stack.enter_context(volume_meter(settings)) if _limits_volume(scene) else None
+        crowd = Crowd(scene, settings, staying, meter)
+        kinds = Counter(said.kind for said in crowd.opinions(crowd.close_pairs()).values())
+        few = kinds["overlap"] + kinds["near"] <= FEW
+        if few:
+            crowd.look_closely(kinds["overlap"])
+            crowd.opinions(crowd.close_pairs())
+        crowd.settle()
+        rounds = _shortest(crowd, few, max_motion or math.inf, iterations, progress)
+        why = reasons(crowd, staying, rounds.left)
     moves = _moves(scene, crowd)
     moved = moved_scene(scene, {move.body: move.translation for move in moves})
     report = check(moved, proof_of(settings))
-    left = {frozenset(crowd.home[i].id for i in pair): why for pair, why in rounds.left.items()}
     return Resolution(
         moves=moves,
         pinned=tuple(body.id for body in scene.bodies if body.id in staying),
-        found=found,
+        overlaps=kinds["overlap"],
+        gaps=kinds["near"],
         rounds=rounds.count,
-        left=tuple(_left(report, staying, left)),
+        left=tuple(left_pairs(report, why)),
         report=report,
     )
 
@@ -94,6 +100,10 @@ def _shortest(
     assert best is not None
     crowd.move(dict(enumerate(best[2])))
     return best[1]
+
+
+def _limits_volume(scene: Scene) -> bool:
+    return any(rule.max_volume is not None for rule in scene.rules)
 
 
 def proof_of(settings: Settings) -> Settings:
@@ -127,16 +137,6 @@ def _moves(scene: Scene, crowd: Crowd) -> tuple[Move, ...]:
         for body in scene.bodies
         if (offset := by_id.get(body.id, ORIGIN)) != ORIGIN
     )
-
-
-def _left(
-    report: Report, staying: frozenset[str], known: dict[frozenset[str], str]
-) -> Iterator[Left]:
-    for finding in report.findings:
-        if is_objected(finding):
-            pair = frozenset((finding.a, finding.b))
-            why = BOTH_STAY if pair <= staying else known.get(pair, NO_WAY)
-            yield Left(finding.a, finding.b, finding.relation, why)
 
 
 def moved_scene(scene: Scene, translations: dict[str, Vector]) -> Scene:

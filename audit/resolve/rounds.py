@@ -19,10 +19,11 @@ from collections.abc import Callable, Sequence
 
 from satcheck.audit.boxes import largest_coordinate
 from satcheck.audit.report import Vector
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd, Opinion
+from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.free_slot import Slots
 from satcheck.audit.resolve.islands import islands
 from satcheck.audit.resolve.least_motion import least_motion
+from satcheck.audit.resolve.opinion import Opinion
 from satcheck.audit.resolve.pull_back import swept, walled
 from satcheck.audit.resolve.separation import longer, out_of_hull
 from satcheck.audit.resolve.wall import BodyPair, Wall

@@ -8,7 +8,9 @@ from itertools import product
 from satcheck import core
 from satcheck.audit.boxes import diagonal
 from satcheck.audit.cheap_bounds import way_out_of_hulls
+from satcheck.audit.finding import examine
 from satcheck.audit.pair import Pair
+from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import scaled, unit
@@ -19,11 +21,16 @@ def separation(pair: Pair) -> tuple[Vector, float] | None:
 
     Of bodies whose hulls are apart it is that of a separating plane: A may move along the plane and
     away from it as far as it likes. Of others it is that of their nearest points, which says as
-    much for small translations only.
+    much for small translations only. Of an overlap within limits it is the way out, and the gap is
+    the depth, negative.
     """
     found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
     if found.outcome in ("separated", "touching") and found.normal is not None:
         return scaled(found.normal, -1.0), max(found.lower or 0.0, 0.0)
+    if pair.asked.limited:
+        way = examine(pair, Plan()).mtv
+        if way is not None and any(way):
+            return unit(way), -math.hypot(*way)
     near = core.mesh_distance(pair.a.surface(), pair.b.surface())
     (ax, ay, az), (bx, by, bz) = near.witness_a, near.witness_b
     step = (ax - bx, ay - by, az - bz)

@@ -66,7 +66,18 @@ def _left_line(left: Left) -> str:
     )
 
 
-_RELATIONS = {"penetrating": "penetrate", "coincident": "coincide"}
+_RELATIONS = {
+    "penetrating": "penetrate",
+    "coincident": "coincide",
+    "near": "are closer than their clearance",
+}
+
+
+def _found(found: Resolution) -> str:
+    """`2 overlaps, 3 gaps below their clearance`."""
+    gaps = counted(found.gaps, "gap below its clearance", "gaps below their clearance")
+    overlaps = counted(found.overlaps, "overlap")
+    return ", ".join([overlaps] * (found.overlaps > 0) + [gaps] * (found.gaps > 0))
 
 
 def _motion_line(found: Resolution) -> str:
@@ -77,8 +88,9 @@ def _motion_line(found: Resolution) -> str:
     if count := len(found.pinned):
         stays = f" {counted(count, 'body', 'bodies')} had to stay."
     if not found.found:
-        return f"Nothing overlaps: nothing was moved.{stays}"
-    done = counted(found.found, "overlap")
+        apart = "as the bodies are placed" if found.report.motions else "beyond what is allowed"
+        return f"Nothing overlaps {apart}: nothing was moved.{stays}"
+    done = _found(found)
     if not found.moves:
         return f"{done}: nothing was moved.{stays}"
     return (

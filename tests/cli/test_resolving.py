@@ -135,3 +135,26 @@ position = [0.75, 0.0, 0.0]  # too close
     ran = satcheck("resolve", str(scene), "-o", str(moved))
     assert ran.code == 0, ran.err
     assert moved.read_text() == text.replace("0.75", "1.0")
+
+
+def test_overlaps_and_gaps_are_counted_apart(tmp_path: Path) -> None:
+    scene = scene_of_boxes(tmp_path, 0, 0.75, 5, 6.25)
+    ran = satcheck("resolve", scene, "--clearance", "0.5")
+    assert ran.code == 0, ran.err
+    assert "1 overlap, 1 gap below its clearance: 4 bodies moved" in ran.out
+
+
+def test_a_hit_on_the_way_is_said_to_be_left(tmp_path: Path) -> None:
+    scene = tmp_path / "door.toml"
+    scene.write_text("""\
+schema = "satcheck.scene/1"
+bodies = [
+    {id = "door", shape = {type = "box", size = [1, 1, 1]}},
+    {id = "post", shape = {type = "box", size = [1, 1, 1]}, position = [3, 0, 0]},
+]
+motion = [{bodies = "door", translation = [5, 0, 0]}]
+""")
+    ran = satcheck("resolve", str(scene))
+    assert ran.code == 1
+    assert "left: door and post penetrate: only while they move, and motions are" in ran.out
+    assert "Nothing overlaps as the bodies are placed: nothing was moved." in ran.out

@@ -1,0 +1,70 @@
+"""What a pair says of where its bodies are: whether anybody objects, and which way ends that."""
+
+from __future__ import annotations
+
+import math
+from typing import Literal
+
+from satcheck.audit.pair import Pair
+from satcheck.audit.report import OVERLAPS, SEVERITIES, Finding, Vector
+from satcheck.audit.resolve.separation import longer, nudge, way_outside
+from satcheck.audit.settings import FailOn
+from satcheck.audit.vectors import scaled
+from satcheck.core.frozen import frozen
+
+
+@frozen
+class Opinion:
+    """What a pair says where it is.
+
+    unseen: a body that was moved may lie in another one, which has no inside to check. push: of an
+    overlap, of a gap below the clearance, out of an inside that nobody can see: a translation of
+    the first body that ends it; None: none was found. excused: nobody objects to what they do where
+    the scene has them, overlap within the touch band, for instance.
+    """
+
+    kind: Literal["free", "overlap", "near", "unseen", "undecided"]
+    push: Vector | None = None
+    excused: bool = False
+
+
+def is_objected(finding: Finding, fail_on: FailOn) -> bool:
+    """Whether a check fails on what the pair is known to be, or cannot tell whether an overlap is
+    within its limits."""
+    if finding.undecided == "limit" and finding.relation in OVERLAPS:
+        return True
+    grave = SEVERITIES[: SEVERITIES.index(fail_on) + 1]
+    return finding.severity in grave and (finding.undecided is None or finding.severity == "error")
+
+
+def opinion_of(pair: Pair, found: Finding) -> Opinion:
+    """found: what was found where the bodies are."""
+    clearance = pair.asked.clearance or 0.0
+    if found.relation == "indeterminate":
+        return Opinion("undecided")
+    if not is_objected(found, pair.settings.fail_on):
+        push = way_outside(pair) if found.undecided == "inside" else None
+        return Opinion("free" if push is None else "unseen", push)
+    if found.relation in OVERLAPS:
+        return Opinion("overlap", found.mtv and longer(found.mtv, clearance - may_overlap(pair)))
+    if found.normal is None:
+        return Opinion("near", nudge(pair, clearance))
+    return Opinion("near", scaled(found.normal, (found.distance or 0.0) - clearance))
+
+
+def may_overlap(pair: Pair) -> float:
+    """How deep the bodies may overlap. Where depth is an interval, less than the limit by its
+    width, so that the interval can end below the limit. A limit of the volume is no length."""
+    if pair.asked.max_depth is None or pair.asked.max_volume is not None:
+        return 0.0
+    width = 0.0 if pair.both_convex else pair.settings.depth_width
+    return pair.asked.max_depth * (1 - width)
+
+
+def is_overlap_excused(found: Finding) -> bool:
+    """Nobody objects to an overlap, or to what nobody can see."""
+    return found.exact_relation in OVERLAPS or found.undecided is not None
+
+
+def length_of(push: Vector | None) -> float:
+    return math.hypot(*push) if push else 0.0
