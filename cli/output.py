@@ -6,7 +6,6 @@ import contextlib
 import errno
 import os
 import re
-import shutil
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -144,11 +143,17 @@ def _talk_descriptor() -> int:
     return 2
 
 
+def _terminal_width() -> int:
+    from shutil import get_terminal_size
+
+    return get_terminal_size().columns
+
+
 def _page(stream: TextIO) -> Page:
     terminal = stream.isatty()
     encoding = (stream.encoding or "").lower().replace("-", "").replace("_", "")
     return Page(
-        width=shutil.get_terminal_size().columns if terminal else UNBOUNDED_WIDTH,
+        width=_terminal_width() if terminal else UNBOUNDED_WIDTH,
         # https://no-color.org: any non-empty value
         colour=terminal and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb",
         unicode=encoding.startswith("utf"),

@@ -9,6 +9,7 @@ classes share their methods but for `__init__`, and that is compiled for the fir
 from __future__ import annotations
 
 from collections.abc import Callable
+from operator import attrgetter
 from typing import Any, Literal, NoReturn, TypeVar, cast, dataclass_transform, overload
 
 T = TypeVar("T")
@@ -76,7 +77,8 @@ def _frozen(cls: type[T], kw_only: bool) -> type[T]:
     defaults = {name: space.pop(name) for name in names if name in space}
     given = tuple(name for name in names if defaults.get(name) is not _DERIVED)
     space = _SHARED | space
-    space |= {"__slots__": names, "__qualname__": cls.__qualname__, "_given": given}
+    space |= {"__slots__": names, "__qualname__": cls.__qualname__}
+    space |= {"_given": given, "_values": attrgetter(*names)}
     if not kw_only:
         space["__match_args__"] = given
 
@@ -106,18 +108,14 @@ def _initialiser(
     return made
 
 
-def _values(value: Any) -> tuple[Any, ...]:
-    return tuple([getattr(value, name) for name in fields(value)])
-
-
-def _equal(self: object, other: object) -> Any:
+def _equal(self: Any, other: Any) -> Any:
     if other.__class__ is not self.__class__:
         return NotImplemented
-    return _values(self) == _values(other)
+    return self._values(self) == self._values(other)
 
 
-def _hash(self: object) -> int:
-    return hash(_values(self))
+def _hash(self: Any) -> int:
+    return hash(self._values(self))
 
 
 def _shown(self: object) -> str:
@@ -136,7 +134,7 @@ def _refuse(self: object, name: str, *_: object) -> NoReturn:
 
 def _reduced(self: object) -> tuple[Callable[..., object], tuple[object, ...]]:
     """For copies and pickles: the fields as they are."""
-    return _restored, (type(self), *_values(self))
+    return _restored, (type(self), *[getattr(self, name) for name in fields(self)])
 
 
 def _restored(cls: type[T], *values: Any) -> T:

@@ -96,12 +96,15 @@ class MeshFiles:
         """path: the file that states it."""
         from satcheck.scene.shape_file import shape_file
 
-        if (shape, path) not in self._shapes:
+        key = shape, path
+        found = self._shapes.get(key)
+        if found is None:
             try:
-                self._shapes[shape, path] = shape_file(shape, path)
+                found = shape_file(shape, path)
             except MeshFileError as error:
-                self._shapes[shape, path] = error
-        return self._shapes[shape, path]
+                found = error
+            self._shapes[key] = found
+        return found
 
 
 def _meant(part: str, known: Iterable[str | None]) -> str:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
-from click.shell_completion import CompletionItem
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -28,6 +30,8 @@ def form_of(form: str | None, output: Path | None) -> str:
 
 def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:
     """Files, and before the first of them the names of the commands."""
+    from click.shell_completion import CompletionItem
+
     files = [CompletionItem(start, type="file")]
     group = ctx.parent.command if ctx.parent else None
     if not start or ctx.params.get("paths") or not isinstance(group, click.Group):

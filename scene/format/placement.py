@@ -10,7 +10,15 @@ from satcheck.scene.bodies import Transform
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.rotation import Quaternion, Rotation, of_euler, of_quaternion
 from satcheck.scene.format.table import Table
-from satcheck.scene.format.values import Triple, items, number, quadruple, shown, triple
+from satcheck.scene.format.values import (
+    Triple,
+    items,
+    number,
+    numbers,
+    quadruple,
+    shown,
+    triple,
+)
 
 # A matrix whose determinant is this small against the product of its row lengths is singular up
 # to the rounding of its own entries.
@@ -70,28 +78,33 @@ def matrix(rows: Any) -> Transform:
     """Four rows of four numbers, affine and not singular."""
     if not is_4x4(rows):
         raise Wrong(f"4 rows of 4 numbers expected, not {shown(rows)}")
-    found = tuple(value for row in items(rows, lambda row: items(row, number)) for value in row)
+    found = sixteen(rows)
     if (fault := singular(found)) is not None:
         raise Wrong(fault, code="singular-transform")
     return found
+
+
+def sixteen(rows: list[list[Any]]) -> Transform:
+    """Row by row, of rows that are 4x4; Wrong names the first that is no finite number."""
+    first, second, third, fourth = rows
+    found = numbers([*first, *second, *third, *fourth])
+    if found is None:
+        found = [value for row in items(rows, lambda row: items(row, number)) for value in row]
+    return tuple(found)
 
 
 def singular(transform: Transform) -> str | None:
     """Why a body cannot be placed by these finite numbers, None if it can."""
     if transform[12:] != (0.0, 0.0, 0.0, 1.0):
         return "the last row should be 0 0 0 1"
-    rows = [transform[0:3], transform[4:7], transform[8:11]]
-    lengths = [math.hypot(*row) for row in rows]
-    if 0.0 in lengths:
+    a, b, c, _, d, e, f, _, g, h, i, _ = transform[:12]
+    one, two, three = math.hypot(a, b, c), math.hypot(d, e, f), math.hypot(g, h, i)
+    if 0.0 in (one, two, three):
         return "singular transform: it scales by 0"
-    a, b, c = (
-        tuple(value / length for value in row) for row, length in zip(rows, lengths, strict=True)
-    )
-    determinant = (
-        a[0] * (b[1] * c[2] - b[2] * c[1])
-        - a[1] * (b[0] * c[2] - b[2] * c[0])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
-    )
+    a, b, c = a / one, b / one, c / one
+    d, e, f = d / two, e / two, f / two
+    g, h, i = g / three, h / three, i / three
+    determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     return "singular transform: it flattens space" if abs(determinant) < _SINGULAR else None
 
 

@@ -17,11 +17,11 @@ from typing import Any
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.mesh_places import MeshPlaces
-from satcheck.scene.format.placement import is_4x4, singular
+from satcheck.scene.format.placement import is_4x4, singular, sixteen
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.remarks import unknown_groups, unknown_units
 from satcheck.scene.format.text import Parsed
-from satcheck.scene.format.values import items, meant, number
+from satcheck.scene.format.values import meant
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.rules import Rule, Selector
 
@@ -147,7 +147,7 @@ class _Reader:
         if not is_4x4(rows):
             raise self._error("bad-scene", '"transform" should be 4 rows of 4 numbers', body)
         try:
-            values = tuple(value for row in rows for value in items(row, number))
+            values = sixteen(rows)
         except Wrong as wrong:
             what = "a non-finite number" if wrong.code == "non-finite" else "something else"
             message = f"the transform holds {what}, where numbers are expected"

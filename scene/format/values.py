@@ -60,12 +60,19 @@ def _numbers(value: Any, count: int, word: str) -> list[float]:
         raise Wrong(f"{word} numbers expected, not {shown(value)}")
     if len(value) != count:
         raise Wrong(f"{word} numbers expected, not {len(value)}")
-    try:
-        found = list(map(float, value)) if _NUMBERS.issuperset(map(type, value)) else []
-    except OverflowError:
-        found = []
     # One by one only to name the one at fault: a large scene has a million of them.
-    return found if found and all(map(math.isfinite, found)) else items(value, number)
+    return numbers(value) or items(value, number)
+
+
+def numbers(values: list[Any]) -> list[float] | None:
+    """Each as a finite float64; None where one is something else."""
+    if not _NUMBERS.issuperset(map(type, values)):
+        return None
+    try:
+        found = list(map(float, values))
+    except OverflowError:
+        return None
+    return found if all(map(math.isfinite, found)) else None
 
 
 def items(values: list[Any], read: Reader[T]) -> list[T]:

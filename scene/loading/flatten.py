@@ -58,7 +58,10 @@ def concatenate(parts: list[tuple[bytes, bytes, Matrix | None]]) -> tuple[bytes,
         if matrix is not None:
             part_vertices, part_triangles = _placed(part_vertices, part_triangles, matrix)
         vertices.append(part_vertices)
-        triangles.extend(index + offset for index in array("I", part_triangles))
+        if offset == 0:
+            triangles.frombytes(part_triangles)
+        else:
+            triangles.extend(index + offset for index in array("I", part_triangles))
         offset += len(part_vertices) // 24
     return b"".join(vertices), triangles.tobytes()
 

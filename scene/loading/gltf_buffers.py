@@ -117,10 +117,12 @@ class Accessors:
         code = values.typecode
         if code == "I":
             raise MeshFileError("bad-record", f"accessor {index}: positions of type uint32")
-        if code == "f" and not all(map(math.isfinite, values)):
-            raise MeshFileError("non-finite", f"accessor {index}: non-finite coordinates")
-        if not normalized or code == "f":
-            return array("d", values)
+        if code == "f" or not normalized:
+            coordinates = array("d", values)
+            # Of float32 numbers no sum overflows: one is not finite where the sum is not.
+            if not math.isfinite(sum(coordinates)):
+                raise MeshFileError("non-finite", f"accessor {index}: non-finite coordinates")
+            return coordinates
         one = next(largest for known, largest in _COMPONENTS.values() if known == code)
         return array("d", (max(value / one, -1.0) for value in values))
 
