@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report import CROSS_CHECK, OVERLAPS, RELATIONS
+from satcheck.audit.report import CROSS_CHECK, INTERNAL_ERROR, OVERLAPS, RELATIONS
 from satcheck.cli.report.words import by_surfaces, counted, depth
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import Report
+    from satcheck.audit.report import Finding, Report
 
 _WORDS = {"contains": "containing"}
 
@@ -55,12 +55,18 @@ def _found(report: Report) -> list[str]:
     return found
 
 
+def _overlaps(finding: Finding) -> bool:
+    """As the bodies are placed, or on their way."""
+    return finding.relation in OVERLAPS or _is_hit(finding)
+
+
+def _is_hit(finding: Finding) -> bool:
+    return finding.motion is not None and finding.motion.relation == "penetrating"
+
+
 def _hits(report: Report) -> list[str]:
     """Of pairs that do not overlap as they are placed."""
-    hits = sum(
-        f.motion is not None and f.motion.relation == "penetrating" and f.relation not in OVERLAPS
-        for f in report.findings
-    )
+    hits = sum(_is_hit(f) and f.relation not in OVERLAPS for f in report.findings)
     return (
         [f"{counted(hits, 'pair')} {'hits' if hits == 1 else 'hit'} while moving."] if hits else []
     )
@@ -84,14 +90,15 @@ def _worst(report: Report) -> list[str]:
 
 def _left_open(report: Report) -> list[str]:
     """`No collision.` only where everything that was asked was checked."""
-    surfaces = sum(by_surfaces(finding) for finding in report.findings)
     limits = []
-    if surfaces:
+    if surfaces := sum(by_surfaces(finding) for finding in report.findings):
         verb = "was" if surfaces == 1 else "were"
         limits.append(f"{counted(surfaces, 'pair')} {verb} checked by surfaces only")
-    if unsure := report.summary.limits_undecided:
-        whose = "its" if unsure == 1 else "their"
-        limits.append(f"{counted(unsure, 'pair')} may exceed {whose} limits")
+    unsure = Counter(_overlaps(f) for f in report.findings if f.undecided == "limit")
+    for overlap, what in ((True, "exceed {} limits"), (False, "be closer than {} clearance")):
+        if count := unsure[overlap]:
+            whose = "its" if count == 1 else "their"
+            limits.append(f"{counted(count, 'pair')} may {what.format(whose)}")
     if moving := report.summary.sweeps_undecided:
         limits.append(f"{counted(moving, 'pair')} may hit while moving")
     if report.summary.verdict == "fail":
@@ -128,5 +135,11 @@ def _cross_check(report: Report) -> list[str]:
 
 
 def _errors(report: Report) -> list[str]:
-    count = sum(issue.severity == "error" for issue in report.issues)
-    return [f"{counted(count, 'input')} could not be used."] if count else []
+    errors = [issue.code for issue in report.issues if issue.severity == "error"]
+    faults = errors.count(INTERNAL_ERROR)
+    said = []
+    if inputs := len(errors) - faults:
+        said.append(f"{counted(inputs, 'input')} could not be used.")
+    if faults:
+        said.append(f"{counted(faults, 'pair')} failed by an internal error.")
+    return said

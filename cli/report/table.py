@@ -60,12 +60,20 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
 
 
 def _shown(report: Report) -> Sequence[Finding]:
-    """What could be examined; of more than ROWS only what is not plainly separated."""
+    """What could be examined; of more than ROWS only what is not plainly separated, at rest and on
+    the way."""
     lost = {body.id for body in report.bodies if is_lost(body)}
     findings = [f for f in report.findings if f.a not in lost and f.b not in lost]
     if len(findings) <= ROWS:
         return findings
-    return [f for f in findings if f.relation != "separated" or (f.reason and not by_surfaces(f))]
+    return [f for f in findings if _is_told(f)]
+
+
+def _is_told(finding: Finding) -> bool:
+    swept = finding.motion
+    if finding.relation != "separated" or (swept is not None and swept.relation != "separated"):
+        return True
+    return finding.reason is not None and not by_surfaces(finding)
 
 
 def _pairs(layout: Layout, *, unicode: bool) -> Table:

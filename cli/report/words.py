@@ -60,7 +60,11 @@ def contacts(finding: Finding) -> str:
 
 
 def by_surfaces(finding: Finding) -> bool:
-    """Whether one body may lie inside the other, which has no inside to check."""
+    """Whether one body may lie inside the other, or come to lie there, which has no inside to
+    check."""
+    swept = finding.motion
+    if swept is not None and swept.relation != "indeterminate" and swept.reason is not None:
+        return True
     return any((stage.stage, stage.result) == UNSEEN for stage in finding.plan)
 
 

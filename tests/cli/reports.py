@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from satcheck.audit.contact_report import Contacts, ContactTotals, Curve, Patch
+from satcheck.audit.motion_report import Sweep
 from satcheck.audit.report import (
     BodyReport,
     Finding,
@@ -118,6 +119,7 @@ CONTACTS = Contacts(
     triangle_pairs=((3, 4), (3, 5)),
     totals=ContactTotals(1, 4.0, 1, 1.0, 1, 2),
 )
+SWEPT = replace(SEPARATED, id="block|passer", b="passer", motion=Sweep("separated", 0.0, 1.0))
 CROSSING = replace(
     PENETRATING,
     id="block|crossing",

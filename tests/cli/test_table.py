@@ -7,6 +7,8 @@ import re
 import pytest
 
 from satcheck.audit import Contacts
+from satcheck.audit.motion_report import Sweep
+from satcheck.audit.report import INTERNAL_ERROR, Issue
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import ROWS, render
@@ -20,6 +22,7 @@ from tests.cli.reports import (
     PENETRATING,
     SEPARATED,
     SURFACES,
+    SWEPT,
     TOUCHING,
     UNDECIDED,
     report,
@@ -152,6 +155,14 @@ def test_many_separated_pairs_are_counted() -> None:
     assert f"{ROWS} more pairs, all separated" in text
 
 
+def test_what_hits_on_the_way_is_shown_among_many() -> None:
+    many = [replace(SEPARATED, id=str(i), b=f"far{i}") for i in range(ROWS)]
+    hit = replace(SWEPT, severity="error", motion=Sweep("penetrating", 0.0, 0.5, (0.25, 0.5)))
+    text = shown(hit, *many)
+    assert "passer" in text
+    assert f"{ROWS} more pairs, all separated" in text
+
+
 def test_pairs_that_the_report_does_not_list_are_counted() -> None:
     made = report(PENETRATING)
     summary = replace(made.summary, by_relation={"penetrating": 1, "separated": 7})
@@ -220,10 +231,35 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             "2 bodies, 2 pairs: 1 separated, 1 penetrating. Depth 1. "
             "1 pair was checked by surfaces only.",
         ),
+        (
+            (SWEPT, replace(SWEPT, motion=replace(SWEPT.motion, reason="surfaces only: ..."))),
+            "2 bodies, 2 pairs: 2 separated. "
+            "No collision found, but 1 pair was checked by surfaces only.",
+        ),
+        (
+            (replace(SWEPT, severity="warning", undecided="limit"),),
+            "2 bodies, 1 pair: 1 separated. "
+            "No collision found, but 1 pair may be closer than its clearance.",
+        ),
+        (
+            (replace(PENETRATING, severity="warning", undecided="limit"),),
+            "2 bodies, 1 pair: 1 penetrating. Depth 1. "
+            "No collision found, but 1 pair may exceed its limits.",
+        ),
     ],
 )
 def test_the_last_line_is_a_sentence(findings: tuple[object, ...], sentence: str) -> None:
     assert shown(*findings).splitlines()[-1] == sentence
+
+
+def test_an_internal_error_is_no_unusable_input() -> None:
+    fault = Issue(INTERNAL_ERROR, "error", None, None, "block and soup: internal error: ...")
+    made = report(UNDECIDED, issues=(fault,))
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert text.endswith("1 pair is indeterminate. 1 pair failed by an internal error.\n")
+    made = replace(made, issues=(fault, reports.MISSING))
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert text.endswith("1 input could not be used. 1 pair failed by an internal error.\n")
 
 
 def test_no_pair_checked_is_no_verdict() -> None:
