@@ -15,7 +15,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.pair_queue import InTurn, Steps
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import Asked, Planner
-from satcheck.audit.report import Finding, Issue, Report
+from satcheck.audit.report import INTERNAL_ERROR, Finding, Issue, Report
 from satcheck.audit.roster import Known, Roster, place
 from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
@@ -188,7 +188,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> Examined:
 
         reason = f"internal error: {type(error).__name__}: {error}"
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
-        issue = Issue("internal-error", "error", None, None, message)
+        issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         finding = indeterminate(pair.a.id, pair.b.id, reason, plan)
         return Examined(finding, (*plan.issues, issue), traceback.format_exc())
 

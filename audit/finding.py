@@ -7,7 +7,6 @@ no gap, so it keeps none.
 from __future__ import annotations
 
 import hashlib
-import math
 from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.contact_report import Contacts
@@ -16,7 +15,7 @@ from satcheck.audit.ladder import Contact, boxes_apart, settle
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Vector
-from satcheck.audit.severity import judged
+from satcheck.audit.severity import judged, keeps
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.touch_band import estimate_is_within, move_within
 from satcheck.audit.unseen import unseen_inside
@@ -38,12 +37,12 @@ def finding_id(a: str, b: str) -> str:
 def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     """Everything asked about one pair. Warnings go to the plan. climb: where it has been made."""
     contact = settle(pair, plan, climb)
-    gap, unseen = 0.0, None
+    gap, unseen = (0.0, 0.0), None
     if contact.relation in OVERLAPS:
         finding = _overlapping(pair, contact, plan)
     else:
         measured, unseen = measure_gap(pair, contact, plan), unseen_inside(pair, contact)
-        gap = measured.lower
+        gap = measured.lower, measured.upper
         finding = _apart(pair, contact, measured, unseen, plan)
     finding = _with_extras(finding, pair, contact, plan)
     return judged(finding, pair, gap, unseen is not None)
@@ -192,16 +191,19 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, unseen: str | None, plan: Pla
     relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
     if gap.most <= _band_with_rounding(pair):
         relation = "touching"
-    elif relation == "separated" and gap.lower < (pair.asked.clearance or 0.0):
-        relation = "near"
-        if math.isinf(gap.upper):
+    elif relation == "separated":
+        kept = keeps(pair.asked.clearance or 0.0, gap.lower, gap.upper)
+        guess = kept is None and gap.distance is None
+        if kept is False or guess:
+            relation = "near"
+        if guess:
             proven, reason = False, _open_gap(pair)
     if unseen is not None:
         reason = unseen
         plan.record("containment", "not checked", unseen)
     figures: dict[str, Any] = {}
-    if pair.asked.clearance is not None and math.isfinite(gap.upper):
-        figures = {"distance": gap.upper, "normal": gap.normal, "witness": gap.witness}
+    if pair.asked.clearance is not None and gap.distance is not None:
+        figures = {"distance": gap.distance, "normal": gap.normal, "witness": gap.witness}
     return _finding(
         pair.a.id,
         pair.b.id,

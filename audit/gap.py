@@ -21,13 +21,15 @@ if TYPE_CHECKING:
 class Gap:
     """The distance, world units, to rounding: lower <= true distance <= upper (inf: unknown).
 
-    most: a proven upper bound, rounding granted: what the touch band asks for. normal: unit, from A
-    to B; None where the points coincide. witness: the closest points.
+    most: a proven upper bound, rounding granted: what the touch band asks for. distance: the
+    figure, between the two; None where none was measured. normal: unit, from A to B; None where
+    the points coincide. witness: the closest points.
     """
 
     lower: float
     upper: float
     most: float
+    distance: float | None = None
     normal: Vector | None = None
     witness: Witness | None = None
 
@@ -37,10 +39,10 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     if contact.convex is not None:
         if pair.asked.wants("distance"):
             plan.record("distance", "measured", "with the hulls")
-        return _convex_gap(contact.convex)
+        return _convex_gap(contact.convex, bounded=pair.curved)
     if contact.relation == "touching":
         witness = contact.point and Witness(contact.point, contact.point)
-        return Gap(0.0, 0.0, 0.0, None, witness)
+        return Gap(0.0, 0.0, 0.0, 0.0, None, witness)
     if pair.curved and contact.relation == "separated" and pair.may("hull"):
         beyond = math.nextafter(pair.asked_gap, math.inf)  # no triangle was found within that
         return Gap(max(contact.gap_lower, beyond), math.inf, math.inf)
@@ -65,17 +67,22 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
         found.distance,
         found.distance,
         found.distance + rounding_pad(pair.largest_coordinate),
+        found.distance,
         _direction(found.witness_a, found.witness_b),
         Witness(found.witness_a, found.witness_b),
     )
 
 
-def _convex_gap(result: core.PairResult | Signed) -> Gap:
+def _convex_gap(result: core.PairResult | Signed, *, bounded: bool) -> Gap:
+    """bounded: of a curved shape the distance is an estimate; of polytopes it is the distance, to
+    rounding."""
     distance = max(result.distance or 0.0, 0.0)
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
-    return Gap(distance, distance, max(result.upper or 0.0, distance), result.normal, witness)
+    most = max(result.upper or 0.0, distance)
+    lower, upper = (max(result.lower or 0.0, 0.0), most) if bounded else (distance, distance)
+    return Gap(lower, upper, most, distance, result.normal, witness)
 
 
 def _direction(start: Vector, end: Vector) -> Vector | None:

@@ -34,7 +34,8 @@ Relation = Literal[
 ]
 Quality = Literal["exact", "bounded", "estimate"]
 # What was asked of a pair and could not be decided: how the bodies relate, whether one lies in the
-# other, whether an overlap is within its limits.
+# other, whether an overlap is within its limits or a gap keeps its clearance, whether they hit on
+# the way.
 Undecided = Literal["relation", "inside", "limit", "motion"]
 Verdict = Literal["pass", "fail", "incomplete"]
 Effect = Literal[
@@ -44,6 +45,8 @@ EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
 CROSS_CHECK = "cross-check"
+# The code of an issue about a pair that failed by a fault of satcheck itself.
+INTERNAL_ERROR = "internal-error"
 # Relations with a common interior, the ones that have a depth.
 OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
 
@@ -74,8 +77,9 @@ class Summary:
     """by_relation counts every pair that is not allowed; pruned pairs count as separated.
 
     surfaces_only: of those, the decided pairs of which one body may lie inside the other, but the
-    other has no inside to check (none with Settings.allow_open). limits_undecided: the overlaps of
-    which it could not be decided whether they are within the limits of their rules.
+    other has no inside to check (none with Settings.allow_open). limits_undecided: those of which
+    it could not be decided whether an overlap is within the limits of its rules, or a gap keeps
+    its clearance, at rest or on the way.
     sweeps_undecided: the pairs of which it could not be decided whether they hit while they move.
     """
 

@@ -8,6 +8,7 @@ warning at least, whatever they say.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Asked
@@ -28,11 +29,31 @@ class Judgement:
     reason: str | None = None
 
 
-def judged(finding: Finding, pair: Pair, gap: float, unseen: bool) -> Finding:
+def keeps(clearance: float, least: float, most: float) -> bool | None:
+    """Whether a gap between these bounds keeps the clearance; None: not decided. Figures are
+    rounded: bounds that hold a clearance less than that below their ends keep it."""
+    if most < clearance:
+        return False
+    return True if least >= clearance * (1 - EXACT_WIDTH) else None
+
+
+def of_clearance(asked: Asked, least: float, most: float) -> Judgement | None:
+    """Of a gap between these bounds; None: it keeps the clearance, or none is asked for."""
+    if not asked.clearance:
+        return None
+    kept, rule = keeps(asked.clearance, least, most), asked.rule("clearance") or CLEARANCE_RULE
+    if kept is None:
+        known = f"at least {least:.9g}" if most == inf else f"between {least:.9g} and {most:.9g}"
+        reason = f"undecided: clearance is {asked.clearance:.9g} ({rule}), and the gap is {known}"
+        return Judgement("warning", rule, "limit", reason)
+    return None if kept else Judgement("error", rule)
+
+
+def judged(finding: Finding, pair: Pair, gap: tuple[float, float], unseen: bool) -> Finding:
     """The finding with its severity.
 
-    gap: of bodies without a common interior beyond the touch band, as far as it is proven. unseen:
-    one body may lie in the other, which has no inside to check.
+    gap: proven bounds of the distance of bodies without a common interior beyond the touch band.
+    unseen: one body may lie in the other, which has no inside to check.
     """
     asked, found = pair.asked, _found(finding, pair.asked, gap)
     if found.severity == "error" and asked.severity is not None:
@@ -47,12 +68,13 @@ def judged(finding: Finding, pair: Pair, gap: float, unseen: bool) -> Finding:
     return replace(finding, severity=severity, rule=rule, undecided=undecided, reason=reason)
 
 
-def _found(finding: Finding, asked: Asked, gap: float) -> Judgement:
+def _found(finding: Finding, asked: Asked, gap: tuple[float, float]) -> Judgement:
     if finding.relation in OVERLAPS:
         return _limited(finding, asked) if asked.limited else Judgement("error")
-    if gap < (asked.clearance or 0.0):
+    if finding.relation == "near":
         return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
-    return Judgement("note" if finding.relation == "touching" else "none")
+    plain = Judgement("note" if finding.relation == "touching" else "none")
+    return of_clearance(asked, *gap) or plain
 
 
 def _left_open(found: Judgement, allow_open: bool) -> Judgement:

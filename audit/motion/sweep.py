@@ -70,33 +70,33 @@ class _Answer:
     def _free(self) -> Sweep:
         pair, impact = self._pair, self._impact
         worst = self._nearest()
-        relation, reason = self._relation(worst), self._hollow()
-        clearance = pair.pair.asked.clearance
-        if relation == "near" and clearance is not None and not worst.upper < clearance:
-            relation, reason = "indeterminate", "whether the clearance is kept was not decided"
         return Sweep(
-            relation,
+            self._relation(worst),
             pair.tolerance,
             1.0,
             contact=impact.contact,
             worst=self._pose(worst),
-            reason=reason,
+            reason=self._hollow(),
             steps=pair.steps,
         )
 
     def _nearest(self) -> Worst:
         pair, contact = self._pair, self._impact.contact
+        unknown = Worst(contact or 0.0, 0.0, math.inf)
         if not pair.convex and not pair.pair.may("exact"):
-            return Worst(contact or 0.0, 0.0, math.inf)
+            return unknown
         if contact is None or pair.convex:
-            worst = least_distance(pair, pair.pair.asked.clearance)
-            return Worst(0.0, 0.0, math.inf) if worst is None else worst
-        return Worst(contact, 0.0, max(pair.least_gap(contact, contact)[1], 0.0))
+            return least_distance(pair, pair.pair.asked.clearance) or unknown
+        try:
+            return Worst(contact, 0.0, max(pair.least_gap(contact, contact)[1], 0.0))
+        except Unanswerable:
+            return unknown
 
     def _relation(self, worst: Worst) -> Relation:
+        """Of bodies that the scan has shown to be apart, or within the touch band, all the way."""
         if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
             return "touching"
-        return "near" if worst.lower < (self._pair.pair.asked.clearance or 0.0) else "separated"
+        return "near" if worst.upper < (self._pair.pair.asked.clearance or 0.0) else "separated"
 
     def _hollow(self) -> str | None:
         """What surfaces alone do not show: whether a body came to lie in one that has no inside."""

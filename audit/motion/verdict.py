@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
+
 from satcheck.audit.motion.movers import Paths
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.motion_report import Sweep
 from satcheck.audit.pair import Pair
 from satcheck.audit.plan import Plan
+from satcheck.audit.planner import Asked
 from satcheck.audit.report import SEVERITIES, Finding
-from satcheck.audit.severity import CLEARANCE_RULE, Judgement
+from satcheck.audit.severity import Judgement, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.frozen import replace
 
@@ -39,12 +42,22 @@ def _judged(found: Sweep, pair: Pair) -> Judgement:
         return Judgement("warning", undecided="motion")
     if found.relation == "penetrating":
         return _limited(found, pair) if asked.limited else Judgement("error")
-    if found.relation == "near" or (found.relation == "touching" and asked.clearance):
-        return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
+    clearance = _clearance(found, asked)
+    if clearance is not None and clearance.severity == "error":
+        return clearance
     if found.reason is not None and not pair.settings.allow_open:
         return Judgement("warning", undecided="inside")
+    if clearance is not None:
+        return clearance
     touches = found.relation == "touching" or found.reason is not None
     return Judgement("note" if touches else "none")
+
+
+def _clearance(found: Sweep, asked: Asked) -> Judgement | None:
+    """None where it is kept all the way, or none is asked for."""
+    worst = found.worst
+    gap = (0.0, math.inf) if worst is None else worst.distance or (0.0, 0.0)
+    return of_clearance(asked, *gap)
 
 
 def _limited(found: Sweep, pair: Pair) -> Judgement:

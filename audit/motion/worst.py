@@ -19,6 +19,7 @@ from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import ALWAYS
 from satcheck.audit.report import OVERLAPS
+from satcheck.audit.severity import keeps
 from satcheck.core.frozen import frozen, replace
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
@@ -38,8 +39,8 @@ class Worst:
 def least_distance(pair: MovingPair, enough: float | None = None) -> Worst | None:
     """Of two convex bodies the least signed distance, of others the least distance of surfaces.
 
-    enough: the search goes on until it is known whether the least is below that. None: nothing was
-    found before the budget of the pair was spent.
+    enough: the search goes on until it is known whether the least keeps that clearance. None:
+    nothing was found before the budget of the pair was spent.
     """
     return _least(pair, pair.least_gap, enough)
 
@@ -106,7 +107,7 @@ def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | No
     try:
         search = _Search(pair, bounds)
         for _ in range(WORST_INTERVALS):
-            decided = enough is None or search.best < enough or search.least >= enough
+            decided = enough is None or keeps(enough, search.least, search.best) is not None
             if search.narrow and decided:
                 break
             search.halve()

@@ -7,6 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from satcheck.audit import Settings
+from satcheck.audit.curved.signed import convex_pair
+from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.core import Mesh
 from satcheck.scene.primitives import (
     Box,
@@ -194,3 +197,21 @@ def test_no_distance_is_taken_from_the_mesh_within_a_shape() -> None:
     ball = shape("ball", Sphere(0.5), moved(3.0, 0.0, 3.0))
     found = ask(ball, bracket(), clearance=1.2)
     assert (found.relation, found.distance) == ("separated", None)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_clearance_within_the_bounds_of_a_gap_is_not_decided(swapped: bool) -> None:
+    """3e-3 apart: what float64 proves of the gap is much wider than 1e-9 of it."""
+    a = shape("a", Cylinder(1.0, 2.0), tilted(54.0, 0.0, 0.0, 0.0))
+    b = shape("b", Ellipsoid((1.0, 0.7, 0.4)), tilted(64.0, 0.3, 1.856, 0.4))
+    pair = (b, a) if swapped else (a, b)
+    placed = [PlacedBody(body, SharedMesh(body.file, Settings())) for body in pair]
+    bounds = convex_pair(placed[0], placed[1])
+    assert bounds is not None
+    assert 0 < bounds.lower < bounds.distance * (1 - 4e-9) < 0.01
+    found = ask(*pair, clearance=0.5 * (bounds.lower + bounds.distance))
+    assert (found.relation, found.exact_relation) == ("separated", "separated")
+    assert (found.severity, found.rule, found.undecided) == ("warning", "clearance", "limit")
+    assert ask(*pair, clearance=bounds.lower).undecided is None
+    near = ask(*pair, clearance=2 * bounds.upper)
+    assert (near.relation, near.severity, near.undecided) == ("near", "error", None)

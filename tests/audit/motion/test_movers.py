@@ -10,6 +10,7 @@ import jsonschema
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.audit.motion import worst
 from satcheck.cli.output import Page
 from satcheck.cli.report import table
 from satcheck.cli.report.schema import text as schema_text
@@ -113,6 +114,46 @@ def test_the_clearance_of_a_rule_holds_on_the_way(tmp_path: Path) -> None:
     (finding,) = report.findings
     assert (finding.relation, finding.motion.relation) == ("separated", "near")
     assert (finding.severity, finding.rule) == ("error", rule.name)
+
+
+@pytest.mark.parametrize(
+    ("clearance", "severity", "rule"),
+    [(45.0, "none", None), (45.0 * (1 + 1e-8), "error", "clearance")],
+)
+def test_a_clearance_that_is_met_exactly_is_kept(
+    tmp_path: Path, clearance: float, severity: str, rule: str | None
+) -> None:
+    """Slides along a wall, 45 away; both far larger than what rounding does to the figure."""
+    along = Motion(("a",), Translation((0.0, 0.0, 200.0)))
+    wall = box((45.0, -400.0, -300.0), (65.0, 400.0, 300.0))
+    meshes = {"a": box((-10.0, -5.0, -5.0), (0.0, 5.0, 5.0)), "b": wall}
+    report = checked(tmp_path, [along], settings=Settings(clearance=clearance), **meshes)
+    (finding,) = report.findings
+    assert (finding.severity, finding.rule, finding.undecided) == (severity, rule, None)
+
+
+def test_a_clearance_that_is_not_decided_is_no_hit(tmp_path: Path, monkeypatch) -> None:
+    """The search may look at one interval: its upper end is 1.5 - sqrt 2, at the corner."""
+    monkeypatch.setattr(worst, "WORST_INTERVALS", 1)
+    turn = Motion(("a",), Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 90.0))
+    meshes = {"a": box((-1, -1, 0), (1, 1, 1)), "b": box((1.5, -5, 0), (9, 5, 1))}
+    report = checked(tmp_path, [turn], settings=Settings(clearance=0.085), **meshes)
+    (finding,) = report.findings
+    assert finding.motion.relation == "separated"
+    assert (finding.severity, finding.undecided) == ("warning", "limit")
+    assert (report.summary.verdict, report.summary.limits_undecided) == ("incomplete", 1)
+    page = Page(width=120, unicode=False, colour=False)
+    text = table.render(report, page, explain=False, timings=False)
+    assert "a and b: undecided: clearance is 0.085 (clearance), and the gap is between" in text
+    assert text.endswith("No collision found, but 1 pair may be closer than its clearance.\n")
+
+
+def test_a_touch_within_a_wide_band_may_keep_its_clearance(tmp_path: Path) -> None:
+    along = Motion(("a",), Translation((0.0, 0.0, 5.0)))
+    asked = Settings(clearance=0.25, tolerance=1.0)
+    report = checked(tmp_path, [along], settings=asked, a=unit_box(), b=unit_box(1.5))
+    (finding,) = report.findings
+    assert (finding.motion.relation, finding.severity) == ("touching", "note")
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from satcheck.audit.motion import sweep
+from satcheck.audit.motion import moving_pair, sweep, worst
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 from tests.audit.motion.pairs import pair_of
 from tests.audit.shapes import box, bracket, moved, open_box, unit_box
@@ -84,6 +84,25 @@ def test_motions_beyond_float64_are_open(path):
     found = swept(unit_box(), path, unit_box(3.0))
     assert found.relation == "indeterminate"
     assert found.reason
+
+
+def test_a_spent_search_for_the_nearest_pose_is_no_clearance_that_was_not_kept(monkeypatch):
+    """A gap that stays the same all the way: its lower bound gets no better than 1 %."""
+    monkeypatch.setattr(worst, "WORST_INTERVALS", 1)
+    square, wall = box((-1, -1, 0), (1, 1, 1)), box((1.5, -5, 0), (9, 5, 1))
+    found = swept(square, Rotation(ORIGIN, Z, 90.0), wall)
+    assert (found.relation, found.contact) == ("separated", None)
+    assert found.worst.distance[0] == 0.0
+
+
+def test_a_budget_that_ends_at_a_contact_leaves_the_gap_open(monkeypatch):
+    """The notch's floor is slid along; measuring the gap there is one question too many."""
+    path = Translation((0.5, 0.0, 0.0))
+    slid = swept(unit_box(3, 2, 1), path, bracket())
+    assert (slid.relation, slid.contact) == ("touching", 0.0)
+    monkeypatch.setattr(moving_pair, "STEPS", slid.steps - 1)
+    found = swept(unit_box(3, 2, 1), path, bracket())
+    assert (found.relation, found.contact, found.worst) == ("touching", 0.0, None)
 
 
 def test_a_million_turns_end():
