@@ -6,12 +6,14 @@ Each rung of the ladder is asked about the same pair and held against what the e
 from __future__ import annotations
 
 from satcheck.audit.tradeoff.figure import Figure, Truth
+from satcheck.audit.tradeoff.measure import Budget, measure_pair
 from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, Times, Tradeoff
 from satcheck.audit.tradeoff.rungs import RUNGS, Rung
 from satcheck.audit.tradeoff.tradeoff import tradeoff
 
 __all__ = [
     "RUNGS",
+    "Budget",
     "Figure",
     "PairTradeoff",
     "Picked",
@@ -20,5 +22,6 @@ __all__ = [
     "Times",
     "Tradeoff",
     "Truth",
+    "measure_pair",
     "tradeoff",
 ]

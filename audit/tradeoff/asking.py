@@ -14,6 +14,7 @@ from satcheck.audit.report import Finding
 from satcheck.audit.roster import Known
 from satcheck.audit.settings import Settings
 from satcheck.audit.tolerances import rounding_pad
+from satcheck.audit.tradeoff.cpu import CpuClock
 from satcheck.audit.tradeoff.memory import ChildMemory
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
@@ -31,15 +32,18 @@ class Asked:
 
     contact: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
     can make of a length here. seconds: from the meshes in memory to the finding, hulls and
-    hierarchies made anew; reading the files is not in it. hulls: how many convex bodies stood for A
-    and for B, where hulls answered. split: convex parts were asked for; from_cache: and found
-    there. megabytes: of the child that made them. failure: why there are none.
+    hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
+    so long, on all threads and in child processes together; None: not known. hulls: how many convex
+    bodies stood for A and for B, where hulls answered. split: convex parts were asked for;
+    from_cache: and found there. megabytes: of the child that made them. failure: why there are
+    none.
     """
 
     finding: Finding
     contact: Contact
     pad: float
     seconds: float
+    cpu: float | None
     hulls: tuple[int, int] | None
     split: bool = False
     from_cache: bool = False
@@ -63,24 +67,23 @@ class Measured:
 
 def ask(bodies: Bodies, settings: Settings) -> Asked:
     """As far up the ladder as the settings let it, nothing known from before."""
-    start = perf_counter()
+    clock, start = CpuClock(), perf_counter()
     pair, plan = _pair(bodies, settings), Plan()
     finding = examine(pair, plan)
-    seconds = perf_counter() - start
+    seconds, cpu = perf_counter() - start, clock.seconds(children=False)
     stages = {stage.stage for stage in finding.plan}
     contact = settle(pair, Plan())
-    return Asked(
-        finding, contact, rounding_pad(pair.largest_coordinate), seconds, _one_each(stages)
-    )
+    pad = rounding_pad(pair.largest_coordinate)
+    return Asked(finding, contact, pad, seconds, cpu, _one_each(stages))
 
 
 def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
     """The same of a ladder that ends with convex parts."""
     with ChildMemory() as memory:
-        start = perf_counter()
+        clock, start = CpuClock(), perf_counter()
         pair, plan = _pair(bodies, settings), Plan()
         finding = examine(pair, plan)
-        seconds = perf_counter() - start
+        seconds, cpu = perf_counter() - start, clock.seconds(children=True)
     stages = {stage.stage for stage in finding.plan}
     known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
     made = [one for one in known if one is not None]
@@ -97,6 +100,7 @@ def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
         settle(pair, Plan()),
         rounding_pad(pair.largest_coordinate),
         seconds,
+        cpu,
         hulls,
         split=bool(made),
         from_cache=bool(parts) and all(one.from_cache for one in parts),

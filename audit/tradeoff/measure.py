@@ -32,10 +32,11 @@ SKIPPED = "skipped"
 
 
 class Budget:
-    """Wall-clock seconds for a whole run."""
+    """Wall-clock seconds for a whole run, and for all runs of one rung on one pair."""
 
-    def __init__(self, seconds: float) -> None:
+    def __init__(self, seconds: float, per_rung: float = math.inf) -> None:
         self.seconds = seconds
+        self.per_rung = per_rung
         self._start = monotonic()
 
     @property
@@ -57,13 +58,25 @@ class Gauge:
     answer: Asked | Measured | None = None
     cold: list[float] = field(default_factory=list)
     cached: list[float] = field(default_factory=list)
+    cpu: list[float] = field(default_factory=list)
     megabytes: float | None = None
     longest: float = 0.0
+    spent: float = 0.0
+    stopped_after: float | None = None
 
     @property
     def wants_more(self) -> bool:
         """It has answered, or has not been asked."""
         return self.state == "answered" or self.reason == SPENT
+
+    def left(self, budget: Budget) -> float:
+        return min(budget.left, budget.per_rung - self.spent)
+
+    def stop(self, limit: float) -> None:
+        """A run did not end within this; what an earlier one has answered stands."""
+        self.longest, self.stopped_after = math.inf, limit
+        if self.state != "answered":
+            self.reason = f"{SPENT}: stopped after {limit:.3g} s"
 
     def fail(self, reason: str) -> None:
         self.state, self.reason = "failed", reason
@@ -72,13 +85,15 @@ class Gauge:
         self.state, self.reason = "answered", None
         self.answer = self.answer or answer
         self.cold.append(cold)
+        if isinstance(answer, Asked) and answer.cpu is not None:
+            self.cpu.append(answer.cpu)
         if cached is not None:
             self.cached.append(cached)
         if answer.megabytes is not None:
             self.megabytes = max(self.megabytes or 0.0, answer.megabytes)
 
 
-def measure(
+def measure_pair(
     bodies: Bodies, repeat: int, budget: Budget, told: Callable[[], None] | None = None
 ) -> PairTradeoff:
     """repeat: runs of each rung; what does not fit the budget is left away, and said.
@@ -94,7 +109,8 @@ def measure(
     for group in (group for group in GROUPS for _ in range(repeat)):
         _warm_up(bodies, budget)
         for gauge in (gauges[rung] for rung in group if rung in gauges):
-            if gauge.wants_more and budget.left > gauge.longest:
+            _leave_out(gauge, gauges)
+            if gauge.wants_more and gauge.left(budget) > gauge.longest:
                 _run(gauge, bodies, budget, apart=apart)
             if told is not None:
                 told()
@@ -102,6 +118,16 @@ def measure(
     rows = [_row(gauges[rung], truth) for rung in RUNGS]
     picked = None if plainly is None else _picked(plainly.finding.plan)
     return PairTradeoff(a, b, truth, picked, with_front(rows))
+
+
+def _leave_out(gauge: Gauge, gauges: dict[Rung, Gauge]) -> None:
+    """Finer parts take longer than coarser ones: where these were stopped, those are not begun."""
+    mine = gauge.rung.threshold
+    if mine is None or gauge.reason != SPENT:
+        return
+    for rung, other in gauges.items():
+        if other.stopped_after is not None and (rung.threshold or 0.0) > mine:
+            gauge.reason = f"{SPENT}: {rung.label} was stopped after {other.stopped_after:.3g} s"
 
 
 def _plain_check(bodies: Bodies, budget: Budget) -> Asked | None:
@@ -141,7 +167,8 @@ def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
             gauge.saw(answer, answer.seconds, None)
     except Exception as error:  # noqa: BLE001 a rung that fails is a row that says so
         gauge.fail(f"internal error: {type(error).__name__}: {error}")
-    gauge.longest = max(gauge.longest, budget.spent - start)
+    took = budget.spent - start
+    gauge.longest, gauge.spent = max(gauge.longest, took), gauge.spent + took
 
 
 def _settings(rung: Rung, bodies: Bodies, *, apart: bool) -> Settings:
@@ -159,7 +186,7 @@ def _settings(rung: Rung, bodies: Bodies, *, apart: bool) -> Settings:
 def _run_parts(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
     threshold = gauge.rung.threshold
     assert threshold is not None
-    limit = min(PART_SECONDS, budget.left)
+    limit = min(PART_SECONDS, gauge.left(budget))
     with ExitStack() as stack:
         folder = Path(tempfile.mkdtemp(prefix="satcheck-tradeoff-"))
         stack.callback(shutil.rmtree, folder, ignore_errors=True)
@@ -181,20 +208,21 @@ def _run_parts(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
 
 def _fail_parts(gauge: Gauge, asked: Asked, limit: float) -> None:
     if limit < PART_SECONDS and asked.seconds >= limit:
-        if gauge.state != "answered":
-            gauge.reason = f"{SPENT}: stopped after {limit:.3g} s"
-        gauge.longest = math.inf
+        gauge.stop(limit)
         return
     assert asked.failure is not None
     gauge.fail(asked.failure)
 
 
 def _run_boolean(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
-    settings = Settings()
-    seconds = min(settings.volume_seconds, budget.left)
-    found = ask_volume(bodies, replace(settings, volume_seconds=seconds))
+    settings, start = Settings(), budget.spent
+    limit = min(settings.volume_seconds, gauge.left(budget))
+    found = ask_volume(bodies, replace(settings, volume_seconds=limit))
     if isinstance(found, str):
-        gauge.fail(found)
+        if limit < settings.volume_seconds and budget.spent - start >= limit:
+            gauge.stop(limit)
+        else:
+            gauge.fail(found)
     else:
         gauge.saw(found, found.cold, found.cached)
 
@@ -213,6 +241,7 @@ def _row(gauge: Gauge, truth: Truth) -> Row:
         reason=gauge.reason,
         cold=Times(tuple(gauge.cold)) if gauge.cold else None,
         cached=Times(tuple(gauge.cached)) if gauge.cached else None,
+        cpu=Times(tuple(gauge.cpu)) if gauge.cpu else None,
         megabytes=gauge.megabytes,
     )
     answer = gauge.answer

@@ -41,7 +41,8 @@ class Row:
     relation. right: held against the truth; None: one of the two is not known. figure: the signed
     distance. error: see Truth.error. hulls: convex bodies that stood for A and B. settled_by: the
     rung at which its climb ended. cold: nothing kept from before; cached: with the parts on disk,
-    or the child process running. megabytes: peak of the child process, in MiB. on_front: of error
+    or the child process running. cpu: of the cold runs, child processes included; None: not known.
+    megabytes: peak of the child process, in MiB. on_front: of error
     against time.
     """
 
@@ -60,6 +61,7 @@ class Row:
     settled_by: str | None = None
     cold: Times | None = None
     cached: Times | None = None
+    cpu: Times | None = None
     megabytes: float | None = None
     on_front: bool = False
 
@@ -99,6 +101,7 @@ class Row:
             "hulls": None if self.hulls is None else list(self.hulls),
             "cold": None if self.cold is None else self.cold.to_dict(),
             "cached": None if self.cached is None else self.cached.to_dict(),
+            "cpu": None if self.cpu is None else self.cpu.to_dict(),
             "peak_megabytes": self.megabytes,
             "pareto": self.on_front,
         }

@@ -10,7 +10,7 @@ from satcheck.audit.roster import place
 from satcheck.audit.settings import Settings
 from satcheck.audit.summary import tool
 from satcheck.audit.tradeoff.asking import Bodies
-from satcheck.audit.tradeoff.measure import Budget, measure
+from satcheck.audit.tradeoff.measure import Budget, measure_pair
 from satcheck.audit.tradeoff.result import PairTradeoff, Tradeoff
 from satcheck.audit.tradeoff.rungs import RUNGS
 from satcheck.core.errors import SatcheckError
@@ -46,7 +46,7 @@ def tradeoff(
 
     found: list[PairTradeoff] = []
     for bodies in met[:pairs]:
-        found.append(measure(bodies, repeat, clock, told))
+        found.append(measure_pair(bodies, repeat, clock, told))
     return Tradeoff(
         tool(), scene.units, repeat, budget, clock.spent, tuple(found), len(met) - len(found)
     )

@@ -93,6 +93,26 @@ def test_a_spent_budget_is_said_of_every_rung() -> None:
     assert pair.truth.reason == "the exact rung was not run: budget"
 
 
+def test_a_rung_that_is_stopped_is_not_begun_with_finer_parts() -> None:
+    a, b = load_scene([SAMPLES / "l_bracket.obj", SAMPLES / "peg_in_notch.ply"]).bodies
+    seen = rows(measuring.measure_pair((a, b), 2, measuring.Budget(60.0, per_rung=1e-3)))
+    stopped = "stopped after 0.001 s"
+    assert {label: row.reason for label, row in seen.items() if row.state == "not run"} == {
+        "parts 0.5": f"budget: {stopped}",
+        **{
+            row.rung.label: f"budget: parts 0.5 was {stopped}"
+            for row in seen.values()
+            if (row.rung.threshold or 1.0) < 0.5
+        },
+        "boolean": f"budget: {stopped}",
+    }
+    for label in ("aabb", "obb", "hull", "exact"):
+        cold, cpu = seen[label].cold, seen[label].cpu
+        assert cold is not None
+        assert cpu is not None
+        assert len(cold.runs) == len(cpu.runs) >= 1
+
+
 def test_a_failing_rung_is_a_row_and_the_others_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object) -> object:
         raise RuntimeError("made up")
