@@ -29,7 +29,8 @@ def depth_of_parts(pair: Pair, plan: Plan) -> float:
 
 
 def deepest_pair(parts_a: list[Part], parts_b: list[Part]) -> float:
-    """A lower bound of the depth of the deepest pair, a rounding below it.
+    """A lower bound of the depth of the deepest pair, a rounding below it; 0.0 where a body has no
+    inner part, or none overlap.
 
     Pairs are tried by how deep their boxes overlap, which bounds their depth from above; the rest
     is skipped as soon as that bound falls below the deepest pair found.
@@ -47,5 +48,7 @@ def deepest_pair(parts_a: list[Part], parts_b: list[Part]) -> float:
         result = core.check_pair(parts_a[i].shape, parts_b[j].shape, query="depth")
         if result.outcome == "penetrating" and result.upper is not None:
             deepest = max(deepest, -result.upper)
+    if deepest == 0.0:
+        return 0.0
     boxes = [part.bounds for part in (*parts_a, *parts_b)]
     return max(deepest - rounding_pad(largest_coordinate(*boxes)), 0.0)

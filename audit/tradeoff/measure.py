@@ -121,13 +121,17 @@ def measure_pair(
 
 
 def _leave_out(gauge: Gauge, gauges: dict[Rung, Gauge]) -> None:
-    """Finer parts take longer than coarser ones: where these were stopped, those are not begun."""
+    """Finer parts take as long as coarser ones: where these were stopped, or are known to take more
+    than there is left, those are not begun."""
     mine = gauge.rung.threshold
     if mine is None or gauge.reason != SPENT:
         return
     for rung, other in gauges.items():
-        if other.stopped_after is not None and (rung.threshold or 0.0) > mine:
-            gauge.reason = f"{SPENT}: {rung.label} was stopped after {other.stopped_after:.3g} s"
+        if (rung.threshold or 0.0) > mine:
+            gauge.longest = max(gauge.longest, other.longest)
+            if other.stopped_after is not None:
+                limit = f"{other.stopped_after:.3g} s"
+                gauge.reason = f"{SPENT}: {rung.label} was stopped after {limit}"
 
 
 def _plain_check(bodies: Bodies, budget: Budget) -> Asked | None:
