@@ -17,9 +17,9 @@ import sys
 import sysconfig
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
+from bench.drawing import LogAxis, plain, text
 from bench.scenes import Run, ask_satcheck
 
 SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000)
@@ -29,20 +29,6 @@ LEFT, RIGHT, TOP, BOTTOM = 64, 620, 44, 346
 TIME, MEMORY, INK = "#2a7fde", "#d9711c", "#808080"
 GRID = f'stroke="{INK}" stroke-opacity="0.3"'
 FONT = f'font-family="system-ui, sans-serif" font-size="13" fill="{INK}"'
-
-
-@dataclass(frozen=True, slots=True)
-class Axis:
-    """A logarithmic axis from `low` to `high`, drawn from `start` to `end`."""
-
-    low: float
-    high: float
-    start: float
-    end: float
-
-    def at(self, value: float) -> float:
-        share = math.log(value / self.low) / math.log(self.high / self.low)
-        return self.start + share * (self.end - self.start)
 
 
 def slope(sizes: Sequence[int], values: Sequence[float]) -> float:
@@ -90,14 +76,6 @@ def table(runs: dict[int, Run]) -> str:
     return "\n".join(lines)
 
 
-def decades(low: float, high: float) -> list[float]:
-    return [10.0**k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)]
-
-
-def label(value: float) -> str:
-    return f"{value:,.0f}" if value >= 1 else f"{value:g}"
-
-
 def curve(points: Sequence[tuple[float, float]], colour: str) -> str:
     path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
     dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>' for x, y in points)
@@ -105,24 +83,20 @@ def curve(points: Sequence[tuple[float, float]], colour: str) -> str:
     return line + dots
 
 
-def text(x: float, y: float, words: str, anchor: str = "end") -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{words}</text>'
-
-
-def grid(x: Axis, y: Axis) -> list[str]:
+def grid(x: LogAxis, y: LogAxis) -> list[str]:
     parts = []
-    for value in decades(y.low, y.high):
+    for value in y.decades:
         at = y.at(value)
         parts.append(f'<path d="M{LEFT} {at:.1f}H{RIGHT}" {GRID}/>')
-        parts.append(text(LEFT - 8, at + 4, label(value)))
-    for value in decades(x.low, x.high):
+        parts.append(text(LEFT - 8, at + 4, plain(value)))
+    for value in x.decades:
         at = x.at(value)
         parts.append(f'<path d="M{at:.1f} {TOP}V{BOTTOM}" {GRID}/>')
-        parts.append(text(at, BOTTOM + 20, label(value), "middle"))
+        parts.append(text(at, BOTTOM + 20, plain(value), "middle"))
     return parts
 
 
-def proportional(runs: dict[int, Run], x: Axis, y: Axis) -> str:
+def proportional(runs: dict[int, Run], x: LogAxis, y: LogAxis) -> str:
     """The dashed line through the last time, as far as it is within the picture."""
     last = max(runs)
     points = [(x.at(size), y.at(runs[last].cpu * size / last)) for size in runs]
@@ -134,8 +108,8 @@ def picture(runs: dict[int, Run], steep: float) -> str:
     """Both curves over one axis of numbers: CPU seconds and MiB."""
     values = [v for one in runs.values() for v in (one.cpu, float(one.mebibytes))]
     low, high = 10 ** math.floor(math.log10(min(values))), 10 ** math.ceil(math.log10(max(values)))
-    x = Axis(min(runs), max(runs), LEFT, RIGHT)
-    y = Axis(low, high, BOTTOM, TOP)
+    x = LogAxis(min(runs), max(runs), LEFT, RIGHT)
+    y = LogAxis(low, high, BOTTOM, TOP)
     times = [(x.at(size), y.at(one.cpu)) for size, one in runs.items()]
     memory = [(x.at(size), y.at(one.mebibytes)) for size, one in runs.items()]
     title = (
@@ -143,7 +117,7 @@ def picture(runs: dict[int, Run], steep: float) -> str:
         f'<tspan fill="{TIME}">CPU seconds</tspan>, <tspan fill="{MEMORY}">MiB</tspan>. '
         f"From 1,000 bodies on the time grows as N^{steep:.2f}</text>"
     )
-    foot = text(RIGHT, BOTTOM + 42, "bodies; grey: linear")
+    foot = text(RIGHT, BOTTOM + 42, "bodies; dashed: linear")
     parts = [*grid(x, y), proportional(runs, x, y), curve(memory, MEMORY), curve(times, TIME)]
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '

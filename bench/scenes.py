@@ -43,9 +43,7 @@ def environment() -> dict[str, str]:
     return {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
 
 
-def run(
-    command: list[str], fine: tuple[int, ...] = (0, 1)
-) -> tuple[float, float, int, bytes]:
+def run(command: list[str], fine: tuple[int, ...] = (0, 1)) -> tuple[float, float, int, bytes]:
     """Wall and CPU seconds and MiB of a fresh process, and its standard output.
 
     Raises RuntimeError where the exit code is not among `fine`.

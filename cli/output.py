@@ -125,6 +125,14 @@ def write_file(path: Path, text: str | Sequence[str]) -> None:
         raise CannotWrite(str(path), error.strerror) from None
 
 
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write them as they are; CannotWrite where that fails."""
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise CannotWrite(str(path), error.strerror) from None
+
+
 def _pieces(text: str | Sequence[str]) -> Sequence[str]:
     return (text,) if isinstance(text, str) else text
 

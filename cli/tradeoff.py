@@ -9,7 +9,8 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
-from satcheck.cli.output import Document, write_file
+from satcheck.cli.output import Document, write_bytes, write_file
+from satcheck.cli.report.png import EXTRA, is_available, png
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.scene.loader import Split
 
-PLOTS = (".svg", ".html")
+PLOTS = (".svg", ".png", ".html")
 
 
 @frozen
@@ -42,7 +43,7 @@ def run(choices: Choices) -> int:
     document = Document()
     found = _measured(choices)
     if choices.plot:
-        write_file(choices.plot, _plot(found, choices.plot))
+        _write_plot(found, choices.plot)
     utf8 = choices.form == "json"
     document.deliver(lambda page: _render(found, choices, page), choices.output, utf8=utf8)
     return exit_codes.CLEAN if found.complete else exit_codes.INCOMPLETE
@@ -54,7 +55,11 @@ def _refuse_plot(choices: Choices) -> None:
         return
     if choices.plot.suffix.lower() not in PLOTS:
         raise click.UsageError(
-            f"--plot {choices.plot}: drawn as {' or '.join(PLOTS)}; a browser makes a PNG of that"
+            f"--plot {choices.plot}: drawn as {', '.join(PLOTS[:-1])} or {PLOTS[-1]}"
+        )
+    if choices.plot.suffix.lower() == ".png" and not is_available():
+        raise click.UsageError(
+            f"--plot {choices.plot}: a PNG needs more libraries: pip install 'satcheck[{EXTRA}]'"
         )
     refuse_early(choices.paths, choices.plot)
     if choices.plot.absolute() == (choices.output and choices.output.absolute()):
@@ -75,10 +80,14 @@ def _measured(choices: Choices) -> Tradeoff:
         )
 
 
-def _plot(found: Tradeoff, path: Path) -> str:
+def _write_plot(found: Tradeoff, path: Path) -> None:
     from satcheck.cli.report.tradeoff_plot import page, svg
 
-    return svg(found.pairs) if path.suffix.lower() == ".svg" else page(found.pairs)
+    form = path.suffix.lower()
+    if form == ".png":
+        write_bytes(path, png(svg(found.pairs)))
+    else:
+        write_file(path, svg(found.pairs) if form == ".svg" else page(found.pairs))
 
 
 def _render(found: Tradeoff, choices: Choices, page: Page) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import shutil
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -94,16 +94,21 @@ class Gauge:
 
 
 def measure_pair(
-    bodies: Bodies, repeat: int, budget: Budget, told: Callable[[], None] | None = None
+    bodies: Bodies,
+    repeat: int,
+    budget: Budget,
+    told: Callable[[], None] | None = None,
+    rungs: Sequence[Rung] | None = None,
 ) -> PairTradeoff:
-    """repeat: runs of each rung; what does not fit the budget is left away, and said.
+    """repeat: runs of each rung; what does not fit the budget is left away, and said. rungs: None
+    for all; the exact one has to be among them.
 
     Rungs take turns, so that what slows the machine down for a while slows all of them. Convex
     parts run cold with an empty cache of their own, then with what they have left in it; the cache
     of the user is neither read nor written. told: called after each run.
     """
     a, b = (body.id for body in bodies)
-    gauges = {rung: Gauge(rung) for rung in RUNGS}
+    gauges = {rung: Gauge(rung) for rung in rungs or RUNGS}
     plainly = _plain_check(bodies, budget)
     apart = plainly is not None and plainly.finding.relation not in OVERLAPS
     for group in (group for group in GROUPS for _ in range(repeat)):
@@ -115,7 +120,7 @@ def measure_pair(
             if told is not None:
                 told()
     truth = _truth(gauges[EXACT])
-    rows = [_row(gauges[rung], truth) for rung in RUNGS]
+    rows = [_row(gauge, truth) for gauge in gauges.values()]
     picked = None if plainly is None else _picked(plainly.finding.plan)
     return PairTradeoff(a, b, truth, picked, with_front(rows))
 

@@ -68,8 +68,10 @@ def case_of(content: dict[str, Any]) -> Case:
 @dataclass(frozen=True, slots=True)
 class Effort:
     """repeat: runs of everything. rung_seconds: for all runs of one rung on one pair; pair_seconds:
-    of all rungs. What does not fit is left away, and said."""
+    of all rungs. part_triangles: pairs with more are not split into convex parts. What does not fit
+    is left away, and said."""
 
     repeat: int
     rung_seconds: float
     pair_seconds: float
+    part_triangles: int

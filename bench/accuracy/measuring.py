@@ -12,18 +12,20 @@ import json
 import math
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 from bench.accuracy.case import Case, Effort, case_of
 from satcheck.audit import Settings, check
-from satcheck.audit.tradeoff import Budget, measure_pair
+from satcheck.audit.tradeoff import RUNGS, Budget, Row, measure_pair
 from satcheck.cli.report.json import render
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Body, load_scene
 
 SECONDS_PER_MICROSECOND = 1e-6
+PARTS = [rung for rung in RUNGS if rung.threshold is not None]
 # What is not in the plan of the pair: files into bodies, bodies into the world, findings into JSON.
 READING, PLACING, WRITING = "reading", "placing", "writing"
 
@@ -38,12 +40,18 @@ def measured(case: Case, effort: Effort) -> dict[str, Any]:
         a, b = scene.bodies
         plain = [stages(inputs) for _ in range(effort.repeat + 1)][1:]  # the first one imports
         budget = Budget(effort.pair_seconds, per_rung=effort.rung_seconds)
-        pair = measure_pair((a, b), effort.repeat, budget)
+        triangles = [body.world_mesh().triangle_count for body in (a, b)]
+        left_out = PARTS if sum(triangles) > effort.part_triangles else []
+        asked = [rung for rung in RUNGS if rung not in left_out]
+        pair = measure_pair((a, b), effort.repeat, budget, rungs=asked)
+    reason = f"budget: more than {effort.part_triangles:,} triangles"
+    rows = {row.rung: row for row in pair.rows}
+    rows |= {rung: Row(rung=rung, state="not run", reason=reason) for rung in left_out}
     return {
-        "triangles": [body.world_mesh().triangle_count for body in (a, b)],
+        "triangles": triangles,
         "size": min(_diagonal(body) for body in (a, b)),
         "stages": plain,
-        "pair": pair.to_dict(),
+        "pair": replace(pair, rows=tuple(rows[rung] for rung in RUNGS)).to_dict(),
     }
 
 

@@ -38,6 +38,7 @@ def measure_all(
     """Appends to `results` what is not there yet. Raises OtherRun where it was begun otherwise."""
     header = {"effort": asdict(effort), "environment": environment_of()}
     if results.exists():
+        _drop_broken_end(results)
         before, records = load(results)
         if before["effort"] != header["effort"]:
             raise OtherRun(f"{results} was measured with {before['effort']}")
@@ -58,6 +59,13 @@ def load(results: Path) -> tuple[Header, dict[str, Record]]:
     lines = results.read_text(encoding="utf-8").splitlines()
     header, *records = (json.loads(line) for line in lines if line)
     return header, {record["case"]["id"]: record for record in records}
+
+
+def _drop_broken_end(results: Path) -> None:
+    """A line that was being written when the run was broken off."""
+    text = results.read_bytes()
+    with results.open("r+b") as file:
+        file.truncate(text.rfind(b"\n") + 1)
 
 
 def _append(results: Path, value: dict[str, Any]) -> None:

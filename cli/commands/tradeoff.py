@@ -49,7 +49,7 @@ from satcheck.cli.commands.options import (
     "--plot",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Draw error against time: FILE.svg, or FILE.html.",
+    help="Draw error against time: FILE.svg, FILE.png or FILE.html.",
 )
 @form_option
 @output_option

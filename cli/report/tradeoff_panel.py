@@ -12,6 +12,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from satcheck.cli.report.numbers import duration, number
+from satcheck.cli.report.tradeoff_labels import around, baseline, place
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
@@ -20,11 +21,10 @@ if TYPE_CHECKING:
 WIDTH = 760.0
 _LEFT, _RIGHT = 96.0, 24.0
 _TITLE, _LANE, _FOOT, _LINE = 34.0, 34.0, 28.0, 15.0
+_ABOVE = 21.0  # labels of the topmost points lie above the grid
 _DECADE, _LEAST_HEIGHT, _MOST_HEIGHT = 42.0, 84.0, 210.0
 _MICROSECONDS = 1e6
-_LETTER, _LETTER_HEIGHT = 6.3, 13.0  # of labels, in pixels: what they take at most
 _NEAR = 20.0  # points of one kind within so many pixels share a label
-_REACH = 7.0  # a marker and the air around it
 _KINDS = {0: "proven", 1: "guess", 2: "wrong"}
 
 
@@ -95,7 +95,7 @@ def panel(pair: PairTradeoff, time: TimeAxis) -> tuple[str, float]:
         *_front(dots),
         *_links(dots),
         *(_marker(dot) for dot in dots),
-        *_labels([dot for dot in dots if not dot.cached], dots),
+        *_labels([dot for dot in dots if not dot.cached], dots, errors.bottom),
         *(
             f'<text class="label" x="{_LEFT:g}" y="{foot + k * _LINE:.1f}">{escape(_silence(row))}'
             "</text>"
@@ -206,20 +206,17 @@ def shape(kind: str, x: float, y: float, *, cached: bool = False, title: str = "
     return f'<path class="{name}" d="{path}">{hint}</path>'
 
 
-Box = tuple[float, float, float, float]
-
-
-def _labels(named: Sequence[_Dot], dots: Sequence[_Dot]) -> Iterator[str]:
+def _labels(named: Sequence[_Dot], dots: Sequence[_Dot], bottom: float) -> Iterator[str]:
     """Beside the points, where nothing else is; neighbours of one kind share a label."""
-    taken: list[Box] = [
-        (dot.x - _REACH, dot.y - _REACH, dot.x + _REACH, dot.y + _REACH) for dot in dots
-    ]
+    taken = [around(dot.x, dot.y) for dot in dots]
+    frame = (_LEFT, _ABOVE, WIDTH, bottom)
     for group in _groups(named):
-        text = _name(group)
+        name = _name(group)
         left, right = min(dot.x for dot in group), max(dot.x for dot in group)
-        box = _place(text, left, right, group[-1].y, taken)
+        box = place(name, (left, right, group[-1].y), taken, frame)
         taken.append(box)
-        yield f'<text class="label" x="{box[0]:.1f}" y="{box[3] - 3:.1f}">{escape(text)}</text>'
+        x, y = baseline(box)
+        yield f'<text class="label" x="{x:.1f}" y="{y:.1f}">{escape(name)}</text>'
 
 
 def _groups(dots: Sequence[_Dot]) -> list[list[_Dot]]:
@@ -239,30 +236,3 @@ def _name(group: Sequence[_Dot]) -> str:
     coarse_first = sorted(group, key=lambda dot: -(dot.row.rung.threshold or 0.0))
     first, last = coarse_first[0].row.rung, coarse_first[-1].row.rung
     return first.label if first is last else f"{first.label} .. {last.threshold:g}"
-
-
-def _place(text: str, left: float, right: float, y: float, taken: Sequence[Box]) -> Box:
-    """Above, below, right, left, or so farther away: the first place with least in the way."""
-    wide, high, middle = _LETTER * len(text), _LETTER_HEIGHT, 0.5 * (left + right)
-    corners = [
-        (x, y + dy)
-        for away in (0.0, high, 2 * high)
-        for x, dy in (
-            (middle - 0.5 * wide, -_REACH - high - away),
-            (middle - 0.5 * wide, _REACH + away),
-            (right + _REACH + 1, -0.5 * high - away),
-            (left - _REACH - 1 - wide, -0.5 * high - away),
-        )
-    ]
-    boxes = [(x, top, x + wide, top + high) for x, top in corners]
-    within = [
-        box for box in boxes if box[0] >= _LEFT and box[2] <= WIDTH and box[1] >= _TITLE - high
-    ]
-    return min(within or boxes, key=lambda box: sum(_common(box, other) for other in taken))
-
-
-def _common(one: Box, other: Box) -> float:
-    """The area that two boxes have in common."""
-    wide = min(one[2], other[2]) - max(one[0], other[0])
-    high = min(one[3], other[3]) - max(one[1], other[1])
-    return max(wide, 0.0) * max(high, 0.0)

@@ -13,7 +13,7 @@ CUBE = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0
 
 
 def cube_at(x: float) -> Part:
-    moved = CUBE + (x, 0.0, 0.0)
+    moved = CUBE + np.array([x, 0.0, 0.0])
     return Part(core.Hull(moved), (tuple(moved.min(axis=0)), tuple(moved.max(axis=0))))
 
 

@@ -61,7 +61,7 @@ def test_the_schema_is_printed() -> None:
     [
         (("box.obj",), "one body alone"),
         (("box.obj", "missing.obj"), "no such file"),
-        (("box.obj", "cube.off", "--plot", "plot.png"), "drawn as .svg or .html"),
+        (("box.obj", "cube.off", "--plot", "plot.jpg"), "drawn as .svg, .png or .html"),
         (("box.obj", "cube.off", "--repeat", "0"), "--repeat"),
         (("box.obj", "cube.off", "-o", "cube.off"), "overwrite an input"),
     ],

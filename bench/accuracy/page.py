@@ -1,0 +1,174 @@
+"""The page: what accuracy costs, in sentences, figures and tables, of the records of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bench.accuracy import figure_ladder, figure_rungs, figure_stages, figure_verdicts, words
+from bench.accuracy.rungs import (
+    EXACT,
+    PARTS,
+    Cost,
+    RungSummary,
+    Step,
+    cost,
+    hard,
+    labels,
+    step,
+    summary,
+)
+from bench.accuracy.sections import (
+    HULL,
+    next_factor,
+    of_rungs,
+    of_silence,
+    of_the_default,
+    of_the_truth,
+    of_verdicts,
+)
+from bench.accuracy.stages import stage_times
+from bench.accuracy.verdicts import overlaps
+from satcheck.cli.report.words import counted
+
+Record = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """text: Markdown, with links into a folder; figures: SVG by the name of its file there."""
+
+    text: str
+    figures: dict[str, str]
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """header: of the results. records: of the pairs, failures included. corpora: each in words,
+    with the number of its pairs. about: a sentence on them. command: what makes the page again.
+    folder: of the figures, as the page links to it."""
+
+    header: dict[str, Any]
+    records: Sequence[Record]
+    corpora: Sequence[str]
+    about: str
+    command: str
+    folder: str
+
+
+def page(run: Run) -> Page:
+    records = [one for one in run.records if "pair" in one]
+    concave = hard(records)
+    found = {label: summary(records, label) for label in labels(records)}
+    drawn = {
+        "ladder.svg": figure_ladder.draw(*_sides(concave)),
+        "rungs.svg": figure_rungs.draw(records, list(found.values())),
+        "verdicts.svg": figure_verdicts.draw(list(found.values())),
+        "stages.svg": figure_stages.draw(stage_times(records)),
+    }
+    sections = [
+        _opening(run, records, concave),
+        next_factor(run.folder, concave),
+        of_rungs(run.folder, found),
+        of_verdicts(run.folder, found),
+        of_the_default(run.folder, records),
+        of_silence(records),
+        of_the_truth(records),
+        _making(run, records, found),
+    ]
+    return Page("\n\n".join(sections) + "\n", drawn)
+
+
+def _sides(records: Sequence[Record]) -> list[list[Cost]]:
+    sides = []
+    for together in (False, True):
+        mine = [one for one in records if bool(overlaps(one)) == together]
+        known = [cost(mine, label) for label in labels(mine)]
+        sides.append([one for one in known if one is not None])
+    return sides
+
+
+def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> str:
+    boxes, proof = step(concave, "aabb", HULL), step(concave, HULL, EXACT)
+    lines = [
+        "# What accuracy costs in time",
+        f"Every rung of the ladder was asked about the same {len(records)} pairs of meshes, and "
+        f"each answer was held against what is known and proven. {run.about}".strip(),
+        f"Boxes and hulls settle {len(records) - len(concave)} of the pairs by themselves. Of the "
+        f"other {len(concave)}, where accuracy has a price:",
+        "\n".join(
+            [
+                f"- **From boxes to hulls** takes {_longer(boxes)} the time: {_gain(boxes)}.",
+                f"- **From hulls to the proof on triangles** takes {_longer(proof)} the time: "
+                f"{_gain(proof)}.",
+                *_of_parts(concave),
+            ]
+        ),
+        "So a check goes from boxes over hulls to triangles, and makes convex parts only for who "
+        "asks for them (`--accuracy parts`).",
+        "Times are of a machine with much else to do: read ratios, not absolute times. An error is "
+        "the signed distance that a rung gives (a gap, or minus the depth) less the nearest that "
+        "the proof leaves open, in sizes of the smaller body (the diagonal of its box).",
+    ]
+    return "\n\n".join(lines)
+
+
+def _longer(one: Step) -> str:
+    return words.NONE if one.longer is None else words.times_as_long(one.longer.median)
+
+
+def _gain(one: Step) -> str:
+    before, after = (words.NONE if e is None else words.percent(e) for e in (one.before, one.after))
+    wrong = f"wrong verdicts from {one.wrong_before} to {one.wrong_after}"
+    return f"the median error goes from {before} to {after}, {wrong}"
+
+
+def _of_parts(concave: Sequence[Record]) -> list[str]:
+    """The coarsest and the finest that were made, against the proof on the same pairs."""
+    known = [step(concave, EXACT, one) for one in labels(concave) if one.startswith(PARTS)]
+    made = [one for one in known if one.pairs]
+    if not made:
+        return []
+    said = [
+        f"{_longer(one)} at a threshold of {one.end.removeprefix(PARTS).strip()} ("
+        f"{counted(one.pairs, 'pair')}, {one.wrong_after} wrong, median error "
+        f"{words.NONE if one.after is None else words.percent(one.after)})"
+        for one in dict.fromkeys((made[0], made[-1]))
+    ]
+    return [
+        "- **Convex parts**, made anew, take longer than the proof on the same pairs: "
+        f"{', '.join(said)}."
+    ]
+
+
+def _making(run: Run, records: Sequence[Record], found: dict[str, RungSummary]) -> str:
+    effort, made = run.header["effort"], run.header["environment"]
+    versions = ", ".join(f"{name} {version}" for name, version in made["versions"].items())
+    failed = [one for one in run.records if "pair" not in one]
+    spent = sum(one["seconds"] for one in run.records)
+    steady = ", ".join(
+        f"{rung.label} {rung.steadiness.median:.1f}"
+        for rung in found.values()
+        if rung.steadiness is not None
+    )
+    lines = [
+        "## How this was made",
+        f"```\n{run.command}\n```",
+        f"On {made['date']}, in {spent / 60:.0f} minutes, with {versions}. Machine: "
+        f"{made['machine']}, shared with other work.",
+        f"Corpus: {'; '.join(run.corpora)}. Each pair has a process of its own, in which the rungs "
+        f"take turns, up to {effort['repeat']} rounds; a pair counts its median. The slowest round "
+        f"over the fastest, as a median of the pairs: {steady or 'no rung was repeated'}.",
+        f"Budget, wall time: {effort['rung_seconds']:g} s for all runs of a rung on a pair, "
+        f"{effort['pair_seconds']:g} s for all rungs of a pair. Pairs of more than "
+        f"{effort['part_triangles']:,} triangles together are not split into convex parts. What "
+        "did not fit is counted above as out of budget: convex parts are those of the smaller "
+        "meshes, which flatters them.",
+    ]
+    if failed:
+        why = "; ".join(f"{one['case']['id']}: {one['failure']}" for one in failed)
+        lines.append(f"Pairs that could not be measured: {len(failed)} ({why}).")
+    else:
+        lines.append(f"All {len(records)} pairs could be measured.")
+    return "\n\n".join(lines)
