@@ -285,6 +285,7 @@ def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
         right=truth.is_right(overlap, None),
         volume=answer.volume,
         volume_error=answer.error,
+        reason="the volume lies within its own error" if overlap is None else None,
     )
 
 

@@ -33,7 +33,8 @@ class ErrorAxis:
 
 
 def draw(apart: Sequence[Cost], overlapping: Sequence[Cost]) -> str:
-    """Of the pairs that are apart or touch, and of those that overlap."""
+    """Of the pairs that are apart or touch, and of those that overlap. Of these convex parts tell
+    the depth of the hulls: drawn, it would be compared with the hulls of other pairs."""
     sides = {
         "Bodies that are apart, or touch: error of the gap, in sizes of the smaller one": apart,
         "Bodies that overlap: error of the depth, in sizes of the smaller one": overlapping,
@@ -47,7 +48,11 @@ def draw(apart: Sequence[Cost], overlapping: Sequence[Cost]) -> str:
     parts = [text(16, 24, head, "start", "head"), *_legend()]
     top = TOP
     for title, side in shown.items():
-        parts += _panel(title, side, time, top)
+        own = side if side is apart else [one for one in side if not one.label.startswith(_PART)]
+        parts += _panel(title, own, time, top)
+        if len(own) < len(side):
+            note = f"convex parts: the depth of the hulls, {_costs(side)} the time of the proof"
+            parts.append(text(RIGHT - 8, top + 18, note, "end", "small"))
         top += PLOT + LANE + GAP
     under = "CPU time, made anew, over that of the exact rung on the same pair"
     parts.append(text(RIGHT, top - GAP + 36, under, "end", "small"))
@@ -77,6 +82,14 @@ def _panel(title: str, points: Sequence[Cost], time: LogAxis, top: float) -> Ite
     for point in points:
         yield from _cross(point, time, errors)
     yield from _labels(points, time, errors, (LEFT, top - 8, WIDTH, bottom))
+
+
+def _costs(points: Sequence[Cost]) -> str:
+    """`30 x .. 400 x`: the least and the most of the medians of parts."""
+    medians = [one.cold.median for one in points if one.label.startswith(_PART)]
+    return " .. ".join(
+        dict.fromkeys(f"{number(float(f'{m:.2g}'))} x" for m in (min(medians), max(medians)))
+    )
 
 
 def _path(points: Sequence[Cost], time: LogAxis, errors: ErrorAxis, kind: str) -> Iterator[str]:

@@ -16,10 +16,11 @@ from satcheck.cli.report.numbers import duration, number
 Record = dict[str, Any]
 WIDTH, TOP, ROW, FOOT = 760.0, 88.0, 46.0, 34.0
 LABELS = 92.0
-TIME, ERROR = (112.0, 424.0), (500.0, 736.0)
+TIME, ERROR = (112.0, 424.0), (512.0, 736.0)
 EXACT = 468.0  # where errors of 0 lie: they have no logarithm
 _MICROSECONDS = 1e6
-_LEAST_TICK = 40.0  # pixels between ticks that are named
+_LEAST_TICK = 36.0  # pixels between ticks that are named
+_LAST_TICK = 720.0  # names of ticks from here on would leave the picture
 _SPAN = 9.0  # by so much dots of a row lie above or below its middle
 _LEAST_ERROR = 1e-6  # of the size: what is smaller is drawn there
 
@@ -56,7 +57,9 @@ def _grid(axis: LogAxis, bottom: float, words: Any) -> Iterator[str]:
         x = axis.at(value)
         yield line(x, TOP, x, bottom, "grid")
         if round(math.log10(value)) % every == 0:
-            yield text(x, bottom + 16, words(value), "middle", "small")
+            anchor = "middle" if x < _LAST_TICK else "end"
+            end = x if anchor == "middle" else WIDTH - 4
+            yield text(end, bottom + 16, words(value), anchor, "small")
 
 
 def kind_of(label: str) -> str:

@@ -96,7 +96,8 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
         f"Every rung of the ladder was asked about the same {len(records)} pairs of meshes, and "
         f"each answer was held against what is known and proven. {run.about}".strip(),
         f"Boxes and hulls settle {len(records) - len(concave)} of the pairs by themselves. Of the "
-        f"other {len(concave)}, where accuracy has a price:",
+        f"other {len(concave)}, where accuracy has a price (errors in percent of the size of the "
+        "smaller body):",
         "\n".join(
             [
                 f"- **From boxes to hulls** takes {_longer(boxes)} the time: {_gain(boxes)}.",
@@ -109,7 +110,7 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
         "asks for them (`--accuracy parts`).",
         "Times are of a machine with much else to do: read ratios, not absolute times. An error is "
         "the signed distance that a rung gives (a gap, or minus the depth) less the nearest that "
-        "the proof leaves open, in sizes of the smaller body (the diagonal of its box).",
+        "the proof leaves open; the size of a body is the diagonal of its box.",
     ]
     return "\n\n".join(lines)
 

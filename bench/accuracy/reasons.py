@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from bench.accuracy.rungs import label_of, labels
+from bench.accuracy.rungs import labels, rows_of
 from bench.accuracy.verdicts import overlaps
 
 # What a reason says, without what is of one pair alone; the first that matches.
@@ -20,33 +20,29 @@ _BUDGET = (
 _OF_A_PAIR = re.compile(r"^(no volume: )?(body '[^']*':? |[^ ]+ and [^ ]+: )?")
 _WORDS = {"failed": "refused", "not run": "not run", "answered": "undecided"}
 
-Key = tuple[str, str, str]
 
-
-def reasons(records: Sequence[dict[str, Any]]) -> dict[Key, int]:
-    """By rung, what became of it, and why; neighbouring rungs with the same count share a row."""
-    found: dict[Key, int] = {}
+def reasons(records: Sequence[dict[str, Any]]) -> dict[tuple[str, str], dict[str, int]]:
+    """By what became of it and why: the rungs that gave no answer, and on how many pairs."""
+    found: dict[tuple[str, str], dict[str, int]] = {}
     for label in labels(records):
-        rows = [
-            (record, row)
-            for record in records
-            for row in record["pair"]["rungs"]
-            if label_of(row) == label
-        ]
         counted = Counter(
-            (label, _WORDS[row["state"]], why(row["reason"]))
-            for record, row in rows
-            if row["state"] != "answered"
-            or (row["overlap"] is None and overlaps(record) is not None)
+            (_WORDS[row["state"]], why(row["reason"]))
+            for record, row in rows_of(records, label)
+            if row["state"] != "answered" or _is_undecided(record, row)
         )
-        found |= dict(counted.most_common())
+        for key, count in counted.items():
+            found.setdefault(key, {})[label] = count
     return found
 
 
+def _is_undecided(record: dict[str, Any], row: dict[str, Any]) -> bool:
+    return row["overlap"] is None and overlaps(record) is not None
+
+
 def why(reason: str | None) -> str:
-    """The reason as it is told of any pair."""
+    """The reason as it is told of any pair; a Boolean that cannot tell gives none."""
     if reason is None:
-        return "no reason given"
+        return "the volume lies within its own error"
     for pattern, words in _BUDGET:
         if pattern.search(reason):
             return words

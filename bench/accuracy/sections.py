@@ -50,8 +50,9 @@ def next_factor(folder: str, concave: Sequence[Record]) -> str:
             _figure(folder, "ladder.svg", "Error against time, rung by rung"),
             f"The {len(concave)} pairs that boxes and hulls do not settle. Across: CPU time on a "
             "pair, everything made anew, over that of the exact rung on the same pair (1 x is the "
-            "proof). Up: median error. Both with quartiles; in brackets the number of pairs: "
-            "convex parts count where there was time to make them, and of bodies with an inside.",
+            "proof; cached parts: wall time). Up: median error. Both with quartiles; in brackets "
+            "the number of pairs: convex parts count where there was time to make them, and of "
+            "bodies with an inside.",
             words.table(head, rows),
             "Of overlapping bodies convex parts bound the depth from below; the figure they give "
             "is that of the hulls, and so is its error.",
@@ -78,10 +79,8 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
         for rung in found.values()
         if rung.errors.apart or rung.errors.overlapping
     ]
-    sides = [
-        f"{side}: {what}" for side in ("apart", "overlap") for what in ("median", "3/4 within")
-    ]
-    of_errors = ["rung", sides[0], sides[1], "worst", "right", sides[2], sides[3], "worst", "right"]
+    columns = ("median", "3/4 within", "worst", "right")
+    of_errors = ["rung", *(f"{side}: {what}" for side in ("apart", "overlap") for what in columns)]
     return "\n\n".join(
         [
             "## Cost and error of each rung, over all pairs",
@@ -121,6 +120,7 @@ def of_verdicts(folder: str, found: dict[str, RungSummary]) -> str:
             _figure(folder, "verdicts.svg", "Right and wrong verdicts, rung by rung"),
             "A false hit is an overlap that is none, a miss the contrary. Boxes and hulls may only "
             f"err towards an overlap: {counted(misses, 'miss', 'misses')} in {judged} verdicts. "
+            "Convex parts may err either way, and say so: what they cannot prove they call possible. "
             f"Verdicts that a rung called proven and that are wrong: {proofs}.",
             words.table(head, rows),
         ]
@@ -156,10 +156,13 @@ def of_the_default(folder: str, records: Sequence[Record]) -> str:
 
 def of_silence(records: Sequence[Record]) -> str:
     found = reasons(records)
-    rows = [[label, state, why, str(count)] for (label, state, why), count in found.items()]
+    rows = [
+        [state, why, ", ".join(f"{label}: {count}" for label, count in counts.items())]
+        for (state, why), counts in found.items()
+    ]
     lines = ["## What gave no answer"]
     if rows:
-        lines.append(words.table(["rung", "", "why", "pairs"], rows))
+        lines.append(words.table(["", "why", "on how many pairs"], rows))
     else:
         lines.append("Every rung has answered on every pair.")
     return "\n\n".join(lines)
