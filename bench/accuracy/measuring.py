@@ -12,7 +12,6 @@ import json
 import math
 import sys
 import tempfile
-from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -22,6 +21,7 @@ from satcheck.audit import Settings, check
 from satcheck.audit.tradeoff import RUNGS, Budget, Row, measure_pair
 from satcheck.cli.report.json import render
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import replace
 from satcheck.scene import Body, load_scene
 
 SECONDS_PER_MICROSECOND = 1e-6

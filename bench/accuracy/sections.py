@@ -120,7 +120,7 @@ def of_verdicts(folder: str, found: dict[str, RungSummary]) -> str:
             _figure(folder, "verdicts.svg", "Right and wrong verdicts, rung by rung"),
             "A false hit is an overlap that is none, a miss the contrary. Boxes and hulls may only "
             f"err towards an overlap: {counted(misses, 'miss', 'misses')} in {judged} verdicts. "
-            "Convex parts may err either way, and say so: what they cannot prove they call possible. "
+            "Convex parts may err either way, and call possible what they cannot prove. "
             f"Verdicts that a rung called proven and that are wrong: {proofs}.",
             words.table(head, rows),
         ]
