@@ -1,0 +1,55 @@
+"""The grid looks as a table of rich with the same columns does, which measures everything anew."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from rich import box
+from rich.table import Table
+from rich.text import Text
+
+from satcheck.cli.output import Page
+from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.columns import Column, Layout, fit
+from satcheck.cli.report.grid import Grid
+
+ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
+NAMES = ("box", "歯車_a_longer", "a\x1b[2A", "tab\there", "two\nlines", "\u202eb", "é" * 20, "")
+COLUMNS = (
+    Column("A", NAMES),
+    Column("B", tuple(f"the_other_{number}" for number in range(len(NAMES)))),
+    Column("relation", ("penetrating", "near", *["coincident"] * (len(NAMES) - 2))),
+    Column("depth (mm)", ("1.24123 .. 1.25001", *["1"] * (len(NAMES) - 1)), right=True, folds=True),
+    Column("quality", ("exact",) * len(NAMES)),
+    Column("time", ("12 us",) * len(NAMES), right=True),
+)
+
+
+def of_rich(layout: Layout, page: Page) -> str:
+    table = Table(box=box.ROUNDED if page.unicode else box.ASCII)
+    if not layout.framed:
+        table.box = box.SIMPLE_HEAD if page.unicode else box.ASCII2
+        table.show_edge = table.pad_edge = False
+        table.padding = (0, 1, 0, 0)
+    for column, width in zip(layout.columns, layout.widths, strict=True):
+        justify = "right" if column.right else "left"
+        table.add_column(column.name, justify=justify, overflow="fold", width=width)  # type: ignore[arg-type]
+    for cells in zip(*(column.cells for column in layout.columns), strict=True):
+        table.add_row(*map(Text, cells))
+    canvas = Canvas(page._replace(width=max(page.width, layout.width)))
+    canvas.print(table)
+    return canvas.text()
+
+
+@pytest.mark.parametrize("colour", [False, True])
+@pytest.mark.parametrize("unicode", [False, True])
+@pytest.mark.parametrize("width", [10, 40, 50, 60, 70, 80, 90, 100, 120])
+def test_as_rich_draws_it(width: int, unicode: bool, colour: bool) -> None:
+    page = Page(width=width, colour=colour, unicode=unicode)
+    layout, canvas = fit(COLUMNS, width), Canvas(page)
+    canvas.add(Grid(layout, canvas, unicode=unicode).lines())
+    drawn = canvas.text()
+    assert ("\x1b[1;31mpenetrating\x1b[0m" in drawn) == colour
+    lines = [ESCAPES.sub("", line).rstrip() for line in drawn.splitlines()]
+    assert lines == of_rich(layout, page._replace(colour=False)).splitlines()
