@@ -44,7 +44,7 @@ def run(choices: Choices) -> int:
         raise click.UsageError("SRDF is about one robot: give one URDF")
     found = _suggest(scene, choices)
     pairs = chosen(found, never=choices.never)
-    text = _render(found, choices)
+    text = _render(found, choices, scene)
     if choices.output:
         write_file(choices.output, text)
     else:
@@ -53,6 +53,8 @@ def run(choices: Choices) -> int:
         if issue.severity == "error" and issue.code not in {known.code for known in scene.issues}:
             talk(f"satcheck: {issue_line(issue)}")
     talk(remark(found, pairs, never=choices.never))
+    if choices.form == "srdf" and pairs:
+        talk("An SRDF has a line for two links: several pairs of their bodies share it.")
     if any(issue.severity == "error" for issue in found.issues):
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if found.undecided else exit_codes.CLEAN
@@ -69,7 +71,7 @@ def _suggest(scene: Scene, choices: Choices) -> Suggestions:
         return suggest(scene, poses=poses, seed=posing.random_seed, progress=bar)
 
 
-def _render(found: Suggestions, choices: Choices) -> str:
+def _render(found: Suggestions, choices: Choices, scene: Scene) -> str:
     from satcheck.cli.report import suggest as texts
 
     if choices.form == "json":
@@ -77,4 +79,6 @@ def _render(found: Suggestions, choices: Choices) -> str:
 
         return document(found.to_dict())
     pairs = texts.chosen(found, never=choices.never)
-    return texts.srdf(found, pairs) if choices.form == "srdf" else texts.toml(found, pairs)
+    if choices.form == "srdf":
+        return texts.srdf(found, pairs, scene.robots[0].robot.name)
+    return texts.toml(found, pairs)

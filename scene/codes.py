@@ -85,6 +85,7 @@ _ALL = (
     Code("bad-rule", "error", "A rule of a scene is not one, or asks nothing."),
     Code("bad-motion", "error", "A motion of a scene is not one, or moves a body twice."),
     Code("unknown-key", "warning", "A key at the top of the scene file is not known: ignored."),
+    Code("units-differ", "warning", "Two inputs declare different units; nothing is converted."),
     Code("unknown-units", "warning", "The declared units are no known unit of length."),
     Code("unknown-group", "warning", "An ignored group has no body in the scene."),
     Code("unknown-body", "warning", "An allowed pair names a body that the scene lacks."),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.file_facts import issues_of_files, units_of_files
+from satcheck.scene.file_facts import common_units, issues_of_files, units_differ
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
@@ -49,8 +49,8 @@ def load_scene(
     to an object with a mesh; other formats have no nodes. "components": these taken apart into
     pieces that share no edge. None: "nodes" for one file alone, otherwise "none".
     A `.toml` file is a scene of the form satcheck.scene/1, a `.json` file one of this form or of
-    satcheck-scene-1; its rules are about its own bodies alone, and so are its groups, which get -2,
-    -3, ... where several scenes have them.
+    satcheck-scene-1; its groups are its own, and get -2, -3, ... where several scenes have them;
+    its rules are about its own bodies, mesh files and robots, without own bodies about all.
     A `.urdf` file is a robot at rest, a body for each <collision>; a `.srdf` file says which of its
     links may touch. packages: where the packages lie that a URDF names, see `robot.MeshPlaces`.
     Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
@@ -99,7 +99,7 @@ class _Loader:
         self._ids = UniqueNames()
         self._order: list[str] = []
         self._names: list[str] = []
-        self._units: list[str] = []
+        self._units: dict[str, str | None] = {}  # of the inputs, by their paths
         self._only_meshes = True
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
@@ -112,7 +112,10 @@ class _Loader:
     def add_mesh(self, id_: str, path: str, location: Path) -> None:
         name = location.stem or path
         self._names.append(name)
-        self._add(id_, name, path, self._files.whole(path, location), None)
+        file = self._files.whole(path, location)
+        if isinstance(file, MeshFile):
+            self._units[path] = file.units
+        self._add(id_, name, path, file, None)
 
     def add_nodes(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
         """alone: the paths of nodes need nothing before them to be ids."""
@@ -127,6 +130,8 @@ class _Loader:
         for node in found.nodes:
             wanted = _node_id(node.path, id_, alone)
             title = wanted if node.path else name
+            if isinstance(node.file, MeshFile):
+                self._units[path] = node.file.units
             self._add(wanted, title, path, node.file, node.transform, node=node.path)
 
     def add_scene(self, path: str, location: Path, allow_outside: bool) -> None:
@@ -136,8 +141,8 @@ class _Loader:
         scene = read_scene_file(path, location, allow_outside=allow_outside)
         self._names.append(scene.name)
         self._only_meshes = False
-        if scene.units:
-            self._units.append(scene.units)
+        if scene.units or scene.bodies:
+            self._units[path] = scene.units
         self._scenes = self._scenes or JoinedScenes()
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
@@ -212,7 +217,7 @@ class _Loader:
         robot, issues = read_urdf(path, location)
         self._names.append(robot.name)
         self._only_meshes = False
-        self._units.append(ROBOT_UNITS)
+        self._units[path] = ROBOT_UNITS
         self._issues += [*issues, *bare_links(robot)]
         bodies = []
         for part in parts_of(robot, MeshPlaces(path, packages, allow_outside=allow_outside)):
@@ -277,11 +282,10 @@ class _Loader:
         return posed(scene, {})
 
     def _bodies_and_files(self) -> Scene:
-        units = units_of_files(self._bodies) if self._only_meshes else set(self._units)
-        scenes = self._scenes
+        scenes, differ = self._scenes, units_differ(self._units)
         return Scene(
             name=" ".join(self._names),
-            units=units.pop() if len(units) == 1 else None,
+            units=common_units(self._units, labelled=not self._only_meshes),
             bodies=tuple(self._bodies),
             unreadable=tuple(self._unreadable),
             order=tuple(self._order),
@@ -294,6 +298,7 @@ class _Loader:
                 *self._issues,
                 *(lost.issue for lost in self._unreadable),
                 *issues_of_files(self._bodies),
+                *([differ] if differ else ()),
             ),
         )
 

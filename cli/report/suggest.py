@@ -16,6 +16,11 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from satcheck.audit.suggest import Suggestion, Suggestions, Why
 
+_RULES_ALONE = """\
+# Give this file beside the scene, or move its rules into the scene.
+schema = "satcheck.scene/1"
+bodies = []
+"""
 # As the MoveIt setup assistant calls them.
 _SRDF_REASONS: dict[Why, str] = {
     "adjacent": "Adjacent",
@@ -31,7 +36,7 @@ def chosen(found: Suggestions, *, never: bool) -> list[Suggestion]:
 
 
 def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
-    """`[[rules]]` for a scene file; the reason of each says that it is to be confirmed."""
+    """A scene file of `[[rules]]` alone; the reason of each says that it is to be confirmed."""
     blocks = [
         "\n".join(
             (
@@ -44,19 +49,20 @@ def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
         )
         for pair in pairs
     ]
-    return "".join(f"{block}\n" for block in "\n\n".join(blocks).splitlines()) if blocks else ""
+    return "\n".join((_RULES_ALONE, *(f"{block}\n" for block in blocks)))
 
 
-def srdf(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
+def srdf(found: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
     """A line for each two links with a suggested pair of bodies, by the strongest of their reasons;
-    no "Never" where some of their bodies may meet."""
+    no "Never" where some of their bodies may meet. robot: its name."""
     lines: dict[frozenset[str], str] = {}
     for reason, a, b in _links(pairs):
         if reason == _SRDF_REASONS["never"] and frozenset((a, b)) in found.may_meet:
             continue
         attributes = f"link1={quoteattr(a)} link2={quoteattr(b)} reason={quoteattr(reason)}"
         lines.setdefault(frozenset((a, b)), f"<disable_collisions {attributes}/>")
-    return "".join(f"{line}\n" for line in lines.values())
+    inner = "".join(f"  {line}\n" for line in lines.values())
+    return f"<robot name={quoteattr(robot)}>\n{inner}</robot>\n"
 
 
 def _links(pairs: Iterable[Suggestion]) -> Iterator[tuple[str, str, str]]:

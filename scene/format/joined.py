@@ -1,5 +1,8 @@
-"""Scene files as one scene, beside each other and other inputs: rules, motions and groups of a file
-are about its own bodies alone."""
+"""Scene files as one scene, beside each other and other inputs.
+
+Motions and groups of a file are about its own bodies. Its rules are about these and about what has
+no rules, the mesh files and robots beside it; those of a file without bodies are about everybody.
+"""
 
 from __future__ import annotations
 
@@ -48,31 +51,40 @@ class JoinedScenes:
     def rules(self, everybody: Sequence[Body | Unreadable]) -> tuple[Rule, ...]:
         """everybody: all bodies of the check. Raises SceneFileError where a rule has to be written
         out for too many pairs."""
-        if len(self._scenes) == 1 and len(everybody) == len(self._scenes[0][0].bodies):
-            return self._scenes[0][0].rules
-        return tuple(
-            rule for scene, ids in self._scenes for rule in _own_rules(scene, ids, everybody)
-        )
+        placed = {id_ for _, ids in self._scenes for id_ in ids.values()}
+        bare = [body for body in everybody if body.id not in placed]
+        rules: list[Rule] = []
+        for scene, ids in self._scenes:
+            if len(everybody) == len(scene.bodies) or not scene.bodies:
+                rules += scene.rules
+            else:
+                rules += _own_rules(scene, ids, bare, everybody)
+        return tuple(rules)
 
 
 def _own_rules(
-    scene: SceneFile, ids: Mapping[str, str], everybody: Sequence[Body | Unreadable]
+    scene: SceneFile,
+    ids: Mapping[str, str],
+    bare: Sequence[Body | Unreadable],
+    everybody: Sequence[Body | Unreadable],
 ) -> Iterator[Rule]:
-    """A rule whose selectors match the same bodies among all as in its file stays; another one is
-    written out, pair by pair."""
+    """A rule whose selectors match the same bodies among all as in its file and among the bare ones
+    stays; another one is written out, pair by pair."""
     known: dict[Selector, tuple[bool, list[str]]] = {}
 
     def chosen(selector: Selector) -> tuple[bool, list[str]]:
         """(whether it matches among all what it matches in the file, these)."""
         if selector not in known:
             own = [ids[b.id] for b in scene.bodies if selector.matches(b.id, b.groups)]
+            own += [b.id for b in bare if selector.matches(b.id, b.groups)]
             among_all = {b.id for b in everybody if selector.matches(b.id, b.groups)}
             known[selector] = among_all == set(own), own
         return known[selector]
 
     for rule in scene.rules:
         (a_stays, a), (b_stays, b) = chosen(rule.a), chosen(rule.b)
-        if a_stays and b_stays:
+        matches_none = (a_stays and not a) or (b_stays and not b)  # its check says so
+        if matches_none or (a_stays and b_stays):
             yield rule
         elif len(a) * len(b) > MOST_PAIRS:
             message = (

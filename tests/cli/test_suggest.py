@@ -42,7 +42,7 @@ def suggestions(*pairs: Suggestion, units: str | None = "mm", poses: int = 0) ->
     )
 
 
-def test_the_rules_can_be_pasted(tmp_path: Path) -> None:
+def test_the_rules_can_be_given_beside_the_scene(tmp_path: Path) -> None:
     path = tmp_path / "cell.toml"
     path.write_text(SCENE, encoding="utf-8")
     assert satcheck(str(path)).code == 1
@@ -51,9 +51,11 @@ def test_the_rules_can_be_pasted(tmp_path: Path) -> None:
     assert "1 pair suggested: confirm" in ran.err
     (rule,) = tomllib.loads(ran.out)["rules"]
     assert rule["reason"] == "suggested: penetrating by 0.25 mm at the placement; confirm"
-    path.write_text(SCENE + ran.out, encoding="utf-8")
-    assert satcheck(str(path)).code == 0
-    assert satcheck("suggest", str(path)).out == ""
+    rules = tmp_path / "rules.toml"
+    rules.write_text(ran.out, encoding="utf-8")
+    assert satcheck(str(path), str(rules)).code == 0
+    again = satcheck("suggest", str(path), str(rules))
+    assert tomllib.loads(again.out) == {"schema": "satcheck.scene/1", "bodies": []}
 
 
 @pytest.mark.parametrize("body", ['say "hi"', "back\\slash", "a*[b]", "tab\there", "\x7f", "Ø"])
@@ -82,26 +84,34 @@ def test_an_interval_is_called_one() -> None:
     assert "contains by at most 0.75 mm at" in toml(suggestions(pair), [pair])
 
 
-def test_srdf_lines_for_a_robot() -> None:
-    ran = satcheck("suggest", "arm.urdf", "--sample", "30", "--never", "--format", "srdf")
+def test_an_srdf_for_a_robot(tmp_path: Path) -> None:
+    path = tmp_path / "arm.srdf"
+    options = ("--sample", "30", "--never", "--format", "srdf", "-o", str(path))
+    ran = satcheck("suggest", "arm.urdf", *options)
     assert ran.code == 0, ran.err
-    root = ElementTree.fromstring(f"<robot>{ran.out}</robot>")
+    root = ElementTree.fromstring(path.read_text(encoding="utf-8"))
     reasons = {(e.get("link1"), e.get("link2")): e.get("reason") for e in root}
     assert reasons["base", "turret"] == "Adjacent"
     assert reasons["left", "right"] == "Default"
     assert reasons["turret", "left"] == "Never"
     assert ("base", "upper") not in reasons
     assert len(reasons) == len(list(root))
+    touching = [
+        json.loads(satcheck("arm.urdf", *more, "--format", "json").out)["summary"]["by_relation"]
+        for more in ((), (str(path),))
+    ]
+    assert touching[0]["touching"] > 0
+    assert touching[1]["touching"] == 0
 
 
 def test_a_link_pair_that_may_meet_is_not_called_never() -> None:
     pair = Suggestion("a/1", "b", "never", ("a", "b"), contacts=0)
     found = suggestions(pair, poses=10)
-    assert "Never" in srdf(found, [pair])
+    assert "Never" in srdf(found, [pair], "arm")
     met = Suggestions(
         found.tool, None, 10, 0, found.pairs, 0, frozenset({frozenset(("a", "b"))}), ()
     )
-    assert srdf(met, [pair]) == ""
+    assert srdf(met, [pair], "arm") == '<robot name="arm">\n</robot>\n'
 
 
 def test_never_has_to_be_asked_for() -> None:

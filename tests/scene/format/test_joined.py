@@ -1,9 +1,11 @@
-"""Scene files beside each other: rules and groups are about the bodies of their own file alone."""
+"""Scene files beside each other: groups are about the bodies of their own file alone, rules about
+these and about what has no rules."""
 
 from __future__ import annotations
 
 import pytest
 
+from satcheck.audit import check
 from satcheck.scene import SceneFileError, load_scene
 from satcheck.scene.format import joined
 from satcheck.scene.rules import Rule
@@ -31,15 +33,37 @@ def pairs_of(scene, rule: Rule) -> set[frozenset[str]]:
 
 
 @pytest.mark.parametrize("a", ["a", "*", "group:g", "[a]"])
-def test_a_rule_is_about_the_bodies_of_its_own_file(tmp_path, a):
+def test_a_rule_is_about_its_own_bodies_and_those_without_rules(tmp_path, a):
     rule = {"a": a, "b": "b*", "allowed": True, "reason": "glued"}
     scene = load_scene(scenes(tmp_path, rule))
     assert [body.id for body in scene.bodies] == ["a", "b*", "a-2", "b*-2", "cube"]
     about = set().union(*(pairs_of(scene, rule) for rule in scene.rules))
-    assert about == {frozenset(("a-2", "b*-2"))}
+    beside = {frozenset(("cube", "b*-2"))} if a == "*" else set()
+    assert about == {frozenset(("a-2", "b*-2"))} | beside
     assert {(rule.reason, rule.where.split(":")[0]) for rule in scene.rules} == {
         ("glued", (tmp_path / "two.json").as_posix())
     }
+
+
+def test_rules_without_bodies_are_about_everybody(tmp_path):
+    rule = {"a": "a*", "b": "*", "allowed": True, "reason": "glued"}
+    rules = write(tmp_path, scene_of(rules=[rule]), name="rules")
+    scene = load_scene([*scenes(tmp_path), rules])
+    about = pairs_of(scene, scene.rules[0])
+    assert about == {
+        frozenset((a, b))
+        for a in ("a", "a-2")
+        for b in ("a", "b*", "a-2", "b*-2", "cube")
+        if a != b
+    }
+
+
+def test_a_rule_about_nobody_stays_to_be_told(tmp_path):
+    rule = {"a": "a", "b": "nobody", "allowed": True, "reason": "glued"}
+    scene = load_scene(scenes(tmp_path, rule))
+    assert [rule.b.text for rule in scene.rules] == ["nobody"]
+    issues = check(scene).issues
+    assert [issue.code for issue in issues if issue.severity == "warning"] == ["unused-rule"]
 
 
 def test_a_rule_that_means_the_same_beside_other_inputs_stays_as_it_is(tmp_path):
