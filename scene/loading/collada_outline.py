@@ -19,6 +19,8 @@ _ROOT = "COLLADA"
 _READ = frozenset({"triangles", "polylist", "polygons"})
 _NO_TRIANGLES = frozenset({"lines", "linestrips"})
 _NOT_READ = frozenset({"tristrips", "trifans", "ph"})
+# Transformations that the parser takes for others.
+_BENDS = frozenset({"lookat", "skew"})
 _TEXTS = frozenset({"p", "vcount", "float_array"})
 _SCENE_PREFIX = "scene:"  # keys of the graph: visual scenes and nodes, and geometries
 _GEOMETRY_PREFIX = "geometry:"
@@ -32,6 +34,8 @@ class Outline:
     children: dict[str, list[str]] = field(default_factory=dict)
     root: str | None = None
     warnings: dict[str, str] = field(default_factory=dict)
+    # Visual scenes and nodes that are placed in a way that is not read: no harm without triangles.
+    misplaced: dict[str, MeshFileError] = field(default_factory=dict)
 
     def promised_triangles(self) -> int:
         """Triangles of all instances in the scene; raises MeshFileError for a circle."""
@@ -44,12 +48,26 @@ class Outline:
             name=str,
             kind="node",
         )
+        for key, refusal in self.misplaced.items():
+            if self._holds_triangles(key):
+                raise refusal
         total = sum(self.triangles[instance.key] for instance in placed)
         if total > limits.MAX_TRIANGLES:
             raise MeshFileError(
                 "too-large", f"{total} triangles in all instances exceed {limits.MAX_TRIANGLES}"
             )
         return total
+
+    def _holds_triangles(self, key: str) -> bool:
+        seen, left = {key}, [key]
+        while left:
+            below = left.pop()
+            if self.triangles.get(below, 0) > 0:
+                return True
+            new = set(self.children.get(below, ())) - seen
+            seen |= new
+            left += new
+        return False
 
     def _children_of(self, key: str) -> list[str]:
         if key in self.children:
@@ -109,6 +127,9 @@ class _OutlineReader:
             raise MeshFileError("not-this-format", f"not a COLLADA file: its root is <{local}>")
         if local in _NOT_READ and self._geometry:
             raise self._fail("unsupported-feature", f"<{local}> is not read")
+        if local in _BENDS and self._owners:
+            refusal = self._fail("unsupported-feature", f"<{local}> is not read")
+            self.outline.misplaced.setdefault(self._owners[-1], refusal)
         if local in _NO_TRIANGLES and self._geometry:
             self.outline.warnings["ignored-geometry"] = "lines are ignored"
         if local in _READ and self._geometry:
@@ -151,7 +172,7 @@ class _OutlineReader:
             self.outline.children[self._owners[-1]].append(prefix + self._target(attributes))
 
     def _start_controller(self, _: dict[str, str]) -> None:
-        self.outline.warnings["ignored-geometry"] = "skinned meshes are ignored"
+        raise self._fail("unsupported-feature", "skinned meshes are not read")
 
     def _start_input(self, attributes: dict[str, str]) -> None:
         if self._primitive and attributes.get("offset", "0").isdecimal():

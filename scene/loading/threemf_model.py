@@ -26,6 +26,10 @@ _HARMLESS = ("/production/", "/material/", "/slice/", "/trianglesets/")
 ENCODINGS = frozenset({"utf-8", "utf-16"})
 _DEFAULT_UNIT = "millimeter"
 _MESH = frozenset({"vertex", "triangle"})  # what is wrong with them concerns their object alone
+# Elements of extensions that make a body of something else than triangles, or add to these.
+_OTHER_GEOMETRY = frozenset(
+    {"beamlattice", "booleanshape", "displacementmesh", "levelset", "volumedata"}
+)
 
 
 @dataclass(slots=True)
@@ -39,6 +43,10 @@ class Object:
     decimals: int = 0
     significant: int = 0
     refusal: MeshFileError | None = None
+
+    @property
+    def is_empty(self) -> bool:
+        return not (self.refusal or self.triangles or self.references)
 
     @property
     def has_mesh(self) -> bool:
@@ -106,6 +114,8 @@ class _ModelReader:
         self._parser.StartNamespaceDeclHandler = self._on_namespace
         parse_stream(self._parser, stream)
         for id_, object_ in self._model.objects.items():
+            if object_.is_empty:
+                object_.refusal = MeshFileError("empty-mesh", f"object {id_!r} has no triangles")
             count = len(object_.vertices) // 3
             if object_.refusal is None and max(object_.triangles, default=-1) >= count:
                 object_.refusal = MeshFileError(
@@ -124,6 +134,9 @@ class _ModelReader:
 
     def _on_element(self, name: str, attributes: dict[str, str]) -> None:
         namespace, local = split_name(name)
+        if local in _OTHER_GEOMETRY and self._object is not None:
+            refusal = self._fail("unsupported-feature", f"<{local}> is not read")
+            self._object.refusal = self._object.refusal or refusal
         handler = self._handlers.get(local)
         if handler is None or namespace not in _CORE:
             return

@@ -12,9 +12,9 @@ namespace {
 constexpr std::array<std::string_view, 19> not_geometry = {
     "vt", "vn", "vp", "o",        "g",         "s",     "mg",       "usemtl",   "mtllib",  "usemap",
     "maplib", "l", "p",  "shadow_obj", "trace_obj", "lod", "bevel", "c_interp", "d_interp"};
-constexpr std::array<std::string_view, 17> free_form = {"cstype", "deg",  "bmat", "step", "curv", "curv2",
-                                                        "surf",   "parm", "trim", "hole", "scrv", "sp",
-                                                        "end",    "con",  "ctech", "stech", "call"};
+// Of curves, which are no surface.
+constexpr std::array<std::string_view, 15> free_form = {"cstype", "deg",  "bmat", "step", "curv", "curv2", "parm", "trim",
+                                                        "hole",   "scrv", "sp",   "end",  "con",  "ctech", "stech"};
 
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& words, std::string_view word) {
@@ -68,6 +68,10 @@ class ObjReader {
       parse_vertex(words, line, mesh_);  // what follows is a weight or a colour
     } else if (keyword == "f" || keyword == "fo") {
       face(words, line);
+    } else if (keyword == "surf") {
+      fail_at_line(code::unsupported_feature, "a free-form surface is not read", line);
+    } else if (keyword == "call") {
+      fail_at_line(code::unsupported_feature, "what another file holds is not read", line);
     } else if (contains(free_form, keyword)) {
       free_form_.add(keyword, line);
     } else if (!contains(not_geometry, keyword)) {
@@ -121,7 +125,7 @@ class ObjReader {
     }
     polygons_.report("line", mesh_);
     if (free_form_.count > 0) {
-      mesh_.warnings.push_back({code::ignored_geometry, free_form_.text("free-form curve or surface statement")});
+      mesh_.warnings.push_back({code::ignored_geometry, free_form_.text("free-form curve statement")});
     }
     if (unknown_.count > 0) {
       mesh_.warnings.push_back({code::unknown_statement, unknown_.text("unknown statement")});

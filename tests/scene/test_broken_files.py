@@ -43,6 +43,14 @@ def points_with(value):
     return [(value, 0, 0), *files.CUBE_POINTS[1:]]
 
 
+_CUBE_NODE = '<node id="n">{}<instance_geometry url="#g"/></node>'
+_OTHER = "http://schemas.example.com/another"
+
+
+def _with_beams(object_):
+    return object_.replace("</triangles>", f'</triangles><beamlattice xmlns="{_OTHER}"/>')
+
+
 REFUSED = {
     # name: (content, code, what the message must say)
     "empty.obj": (b"", "empty-mesh", "no vertices"),
@@ -261,6 +269,43 @@ REFUSED = {
         "reader-failed",
         "the DAE reader failed: TypeError",
     ),
+    "lookat.dae": (
+        files.collada(nodes=_CUBE_NODE.format("<lookat>5 0 0 5 0 -1 0 1 0</lookat>")),
+        "unsupported-feature",
+        "<lookat> is not read",
+    ),
+    "skew.dae": (
+        files.collada(nodes=_CUBE_NODE.format("<skew>45 0 1 0 1 0 0</skew>")),
+        "unsupported-feature",
+        "<skew> is not read",
+    ),
+    "skinned.dae": (
+        files.collada(nodes=_CUBE_NODE.format("") + '<node><instance_controller url="#c"/></node>'),
+        "unsupported-feature",
+        "skinned",
+    ),
+    "beams.3mf": (
+        files.threemf(_with_beams(files.object_3mf(1))),
+        "unsupported-feature",
+        "<beamlattice> is not read",
+    ),
+    "boolean.3mf": (
+        files.threemf(
+            files.object_3mf(1) + f'<object id="2"><booleanshape xmlns="{_OTHER}"/></object>',
+            '<item objectid="1"/><item objectid="2"/>',
+        ),
+        "unsupported-feature",
+        "<booleanshape> is not read",
+    ),
+    "hollow.3mf": (
+        files.threemf(
+            files.object_3mf(1) + '<object id="2"/>', '<item objectid="1"/><item objectid="2"/>'
+        ),
+        "empty-mesh",
+        "object '2' has no triangles",
+    ),
+    "surf.obj": (CUBE + b"surf 0 1 0 1 1\n", "unsupported-feature", "free-form surface"),
+    "call.obj": (CUBE + b"call more.obj\n", "unsupported-feature", "another file"),
     "nothing.dae": (files.collada(nodes=""), "empty-mesh", "no triangles"),
     "passwd": (b"root:x:0:0\n", "unsupported-format", "unsupported format"),
 }

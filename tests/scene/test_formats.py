@@ -184,6 +184,14 @@ def test_3mf_applies_build_items_and_components_and_opens_no_other_part(tmp_path
     assert file.units == "inch"
 
 
+def test_a_camera_may_look_at_something(tmp_path):
+    nodes = (
+        '<node id="n"><instance_geometry url="#g"/></node>'
+        '<node id="camera"><lookat>5 0 0 5 0 -1 0 1 0</lookat></node>'
+    )
+    assert loaded(tmp_path, "a.dae", files.collada(nodes=nodes)).health.volume == 1.0
+
+
 def test_collada_applies_nodes_and_library_nodes_without_unit_or_axis_conversion(tmp_path):
     nodes = (
         '<node id="n"><translate>10 0 0</translate><instance_geometry url="#g"/>'
