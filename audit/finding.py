@@ -18,7 +18,7 @@ from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Vector
 from satcheck.audit.severity import judged, keeps
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.touch_band import estimate_is_within, move_within
-from satcheck.audit.unseen import unseen_inside
+from satcheck.audit.unseen import unseen_inside, unseen_way_out
 from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
@@ -40,12 +40,25 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     gap, unseen = (0.0, 0.0), None
     if contact.relation in OVERLAPS:
         finding = _overlapping(pair, contact, plan)
+        finding, unseen = _with_way_out_seen(finding, pair, plan)
     else:
         measured, unseen = measure_gap(pair, contact, plan), unseen_inside(pair, contact)
         gap = measured.lower, measured.upper
         finding = _apart(pair, contact, measured, unseen, plan)
     finding = _with_extras(finding, pair, contact, plan)
     return judged(finding, pair, gap, unseen is not None)
+
+
+def _with_way_out_seen(finding: Finding, pair: Pair, plan: Plan) -> tuple[Finding, str | None]:
+    """An overlap that is let pass as short, and why that may be no way out of the body."""
+    overlaps = finding.relation in OVERLAPS
+    if overlaps and not pair.asked.limited:
+        return finding, None
+    unseen = unseen_way_out(pair, (finding.depth or 0.0) if overlaps else pair.tolerance)
+    if unseen is None:
+        return finding, None
+    plan.record("containment", "not checked", unseen)
+    return replace(finding, reason=unseen, plan=tuple(plan.stages)), unseen
 
 
 def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> Finding:

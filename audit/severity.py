@@ -28,6 +28,10 @@ class Judgement:
     undecided: Undecided | None = None
     reason: str | None = None
 
+    @property
+    def passes(self) -> bool:
+        return self.severity in ("note", "none") and self.undecided is None
+
 
 def keeps(clearance: float, least: float, most: float) -> bool | None:
     """Whether a gap between these bounds keeps the clearance; None: not decided. Figures are
@@ -53,9 +57,11 @@ def judged(finding: Finding, pair: Pair, gap: tuple[float, float], unseen: bool)
     """The finding with its severity.
 
     gap: proven bounds of the distance of bodies without a common interior beyond the touch band.
-    unseen: one body may lie in the other, which has no inside to check.
+    unseen: one body may lie in the other, which has no inside to check, or come to lie there by the
+    way out that an overlap is let pass for.
     """
     asked, found = pair.asked, _found(finding, pair.asked, gap)
+    unseen &= finding.relation not in OVERLAPS or found.passes
     if found.severity == "error" and asked.severity is not None:
         found = replace(found, severity=asked.severity, rule=asked.rule("severity"))
     if unseen:

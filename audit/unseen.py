@@ -19,9 +19,25 @@ def unseen_inside(pair: Pair, contact: Contact) -> str | None:
     unknown = not contact.proven and not pair.curved  # a curved touch is one by its bounds alone
     if contact.relation not in FREE or unknown or contact.gap_lower > 0:
         return None
+    return _unseen(pair, 0.0)
+
+
+def unseen_way_out(pair: Pair, length: float) -> str | None:
+    """The same of an overlap that passes because a translation of this length, in whatever
+    direction, leaves surfaces that do not cross: it may lead into the other body."""
+    return _unseen(pair, length)
+
+
+def _unseen(pair: Pair, margin: float) -> str | None:
     for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):
-        health = outer.body.file.health
-        if not outer.solid and not health.flat and holds(outer.bounds, _within(inner)):
+        if outer.solid or outer.body.file.health.flat:
+            continue
+        low, high = outer.bounds
+        reach = (
+            (low[0] - margin, low[1] - margin, low[2] - margin),
+            (high[0] + margin, high[1] + margin, high[2] + margin),
+        )
+        if holds(reach, _within(inner)):
             return f"the inside of {outer.id} was not checked: {_why(outer)}"
     return None
 

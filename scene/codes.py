@@ -78,6 +78,7 @@ _ALL = (
     # Flat bodies.
     Code("no-outline", "error", "The body has no extent in the plane of the check."),
     Code("planar-only", "error", "A drawing is flat: it is checked in a plane only."),
+    Code("planar-volume", "error", "A rule with a max_volume is not checked in a plane."),
     Code("planar-motion", "error", "A scene with motions is not checked in a plane."),
     # The scene file.
     Code("bad-scene", "error", "The scene file is not what its form prescribes."),

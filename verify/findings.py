@@ -58,7 +58,11 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     proven = Proven(depth, mtv)
     if relation != exact:
         _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
-    unseen = exact not in OVERLAPS and not hulls_apart and _may_hide(a.world, b.world)
+    if exact not in OVERLAPS:
+        unseen = not hulls_apart and _may_hide(a.world, b.world, 0.0)
+    else:
+        way_out = finding.get("depth") or 0.0 if relation in OVERLAPS else tolerance
+        unseen = _may_hide(a.world, b.world, float(way_out))
     check_severity(finding, asked, unseen, proven_depth(finding, depth, mtv), EXACT_WIDTH)
     return proven
 
@@ -201,11 +205,12 @@ def _check_band(
     raise Rejected(f"{relation!r} does not follow from {exact!r}")
 
 
-def _may_hide(a: World, b: World) -> bool:
-    """Whether one body may lie inside the other, which has no inside to check."""
+def _may_hide(a: World, b: World, margin: float) -> bool:
+    """Whether one body, moved by no more than the margin, may lie inside the other, which has no
+    inside to check."""
     for outer, inner in ((a, b), (b, a)):
         (low, high), (inner_low, inner_high) = outer.bounds, inner.bounds
-        nested = bool((low <= inner_low).all() and (inner_high <= high).all())
+        nested = bool((low - margin <= inner_low).all() and (inner_high <= high + margin).all())
         if nested and not outer.solid and not outer.is_flat:
             return True
     return False

@@ -22,7 +22,8 @@ def check_severity(
     depth_at_most: Fraction | None,
     rounding: Fraction,
 ) -> None:
-    """unseen: one body may lie in the other, which has no inside to check. depth_at_most: as far as
+    """unseen: one body may lie in the other, which has no inside to check, or come to lie there by
+    the way out of an overlap. depth_at_most: as far as
     that is proven. rounding: the relative width that a limit is granted."""
     relation = finding.get("relation")
     severity, undecided = "none", None
@@ -30,6 +31,7 @@ def check_severity(
         severity = "error"
         if asked.limited:
             severity, undecided = _limited(finding, asked, depth_at_most, rounding)
+        unseen &= (severity, undecided) == ("note", None)
     elif relation == "near" or _keeps_no_clearance(finding, asked):
         severity = "error"
     elif relation == "touching":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 from satcheck.core.errors import SatcheckError
@@ -22,6 +23,7 @@ _ROTATION_KEYS = frozenset(("axis", "point", "degrees"))
 _WAYPOINT_KEYS = frozenset(("time", "position", "quaternion", "euler"))
 _ORIGIN = (0.0, 0.0, 0.0)
 _Z = (0.0, 0.0, 1.0)
+_HALF_TURN = 180.0
 _NO_TURN: Quaternion = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -81,7 +83,10 @@ def _selectors(value: Any) -> list[Selector]:
 def _path(table: Table) -> Path:
     if "path" in table:
         table.read("path", _two_at_least, None)
-        return PosePath(tuple(_waypoint(inner) for inner in table.tables("path")))
+        waypoints = list(table.tables("path"))
+        for before, after in pairwise(waypoints):
+            _refuse_long_turns(before, after)
+        return PosePath(tuple(_waypoint(inner) for inner in waypoints))
     rotation = table.table("rotation")
     if rotation is None:
         return Translation(table.read("translation", triple, _ORIGIN))
@@ -103,6 +108,15 @@ def _waypoint(table: Table) -> Waypoint:
         position=table.required("position", triple, _ORIGIN),
         orientation=(x, y, z, w),
     )
+
+
+def _refuse_long_turns(before: Table, after: Table) -> None:
+    """Between two poses a body takes the shortest turn, which angles may not mean."""
+    if "quaternion" in before or "quaternion" in after:
+        return
+    start, end = (table.read("euler", triple, _ORIGIN) for table in (before, after))
+    if any(abs(b - a) > _HALF_TURN for a, b in zip(start, end, strict=True)):
+        after.wrong("more than half a turn from the pose before: give a pose between", "euler")
 
 
 def _two_at_least(value: Any) -> None:

@@ -43,10 +43,15 @@ def laid_flat(scene: Scene, plane: Plane) -> Scene:
 
     A body without an outline (all its triangles are seen edge on) is unreadable from then on, and
     so is one that cannot be placed. A curved shape becomes a polygon, its corners on the outline.
-    Raises SatcheckError (`planar-motion`): bodies that move leave the plane.
+    Raises SatcheckError (`planar-motion`, `planar-volume`): bodies that move leave the plane, and
+    a volume is none there.
     """
     if scene.motions:
         raise SatcheckError("planar-motion", "a scene with motions is not checked in a plane")
+    limited = next((rule for rule in scene.rules if rule.max_volume is not None), None)
+    if limited is not None:
+        message = f"{limited.name}: max_volume means nothing in a plane"
+        raise SatcheckError("planar-volume", message)
     placed, lost = [], []
     for body in scene.bodies:
         try:

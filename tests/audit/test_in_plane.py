@@ -17,6 +17,7 @@ from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene, load_scene
 from satcheck.scene.planar.laid_flat import laid_flat
 from satcheck.scene.primitives import Box, Sphere, mesh_of
+from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.shape_file import shape_file
 from tests.oracles.free_directions import along, is_free
 from tests.scene.planar.flat import Corners, scene, sheet
@@ -232,6 +233,13 @@ def test_seen_edge_on_is_unreadable() -> None:
 def test_what_is_about_space_is_refused(asked: str) -> None:
     with pytest.raises(SatcheckError, match="planar"):
         Settings(planar="xy", **{asked: True})  # type: ignore[arg-type]
+
+
+def test_a_volume_in_a_plane_is_refused() -> None:
+    rule = Rule(a=Selector("a"), b=Selector("b"), max_volume=1.0, where="cell.toml:3")
+    flat = replace(scene(sheet(SQUARE), sheet(SQUARE)), rules=(rule,))
+    with pytest.raises(SatcheckError, match=r"cell\.toml:3: max_volume"):
+        check(flat, Settings(planar="xy"))
 
 
 def ball(id_: str, radius: float, transform: tuple[float, ...]) -> Body:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.core.frozen import replace
+from satcheck.scene.rules import Rule, Selector
 from tests.audit.shapes import open_box, scene_of, unit_box
 
 
@@ -38,6 +40,24 @@ def test_a_double_sided_shell_says_so(tmp_path):
     finding = only(check(scene_of(tmp_path, shell=double_sided(), part=unit_box(1, 1, 1))))
     assert finding.severity == "warning"
     assert finding.reason == "the inside of shell was not checked: it is double-sided"
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("limit", ["max_depth", "tolerance"])
+def test_a_short_way_out_may_lead_into_an_open_box(tmp_path, limit, swapped):
+    """The part sticks in a wall, by less from within; closed, it would be deeper than the limit."""
+    names = ("part", "shell") if swapped else ("shell", "part")
+    meshes = {"shell": open_box(), "part": unit_box(3.25, 1, 1)}
+    scene = scene_of(tmp_path, **{name: meshes[name] for name in names})
+    rule = Rule(a=Selector("shell"), b=Selector("part"), **{limit: 0.5})
+    report = check(replace(scene, rules=(rule,)), Settings(certificate=True))
+    finding = only(report)
+    assert (finding.severity, finding.undecided) == ("warning", "inside")
+    assert finding.reason == "the inside of shell was not checked: it is not closed"
+    assert report.summary.verdict == "incomplete"
+    assert finding.certificate is not None  # the checker agrees
+    allowed = check(replace(scene, rules=(rule,)), Settings(allow_open=True))
+    assert (only(allowed).severity, allowed.summary.verdict) == ("note", "pass")
 
 
 def test_allowed_open_bodies_are_a_note(tmp_path):

@@ -154,6 +154,12 @@ WRONG = {
     ),
     "no mesh": (changed("bodies", 1, mesh="a"), "bodies[1].mesh", "format", "unsupported-format"),
     "outside": (changed("bodies", 1, mesh="../a.stl"), "bodies[1].mesh", "outside", "outside-path"),
+    "long turn": (
+        changed("motion", 2, "path", 1, euler=[0, 0, -181]),
+        "motion[2].path[1].euler",
+        "more than half a turn",
+        "bad-scene",
+    ),
     "shape": (changed("bodies", 0, shape=1), "bodies[0].shape", "a type and its", "bad-scene"),
     "cube": (
         changed("bodies", 0, "shape", type="cube"),
