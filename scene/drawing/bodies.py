@@ -14,7 +14,7 @@ from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.drawing.reading import read_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
-from satcheck.scene.issue import issue
+from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading import ReadLimits
 from satcheck.scene.loading.foreign import refused_by_worker
 from satcheck.scene.loading.nodes import Node, Nodes
@@ -29,33 +29,44 @@ def load_drawing(path: str, location: Path, allowed: ReadLimits) -> MeshFile:
     The resolution is how far flattened curves may be off their polygons, and the rounding of the
     coordinates. Raises MeshFileError.
     """
-    source, found = _read(path, location, allowed)
-    for sheet in found["sheets"]:
-        _refuse(sheet, source)
-    return _sheet_file(source, found, _together(found["sheets"]))
+    source, found = _read(path, location, allowed, whole=True)
+    (sheet,) = found["sheets"]
+    issues = _ignored(source, found)
+    return _sheet_file(source, found["units"], {**sheet, "name": None}, issues)
 
 
 def load_shapes(path: str, location: Path, allowed: ReadLimits) -> Nodes:
     """Its shapes, each a node by its name; one that cannot be used does not stop the others."""
-    source, found = _read(path, location, allowed)
+    source, found = _read(path, location, allowed, whole=False)
     names = UniqueNames()
     nodes = []
     for sheet in found["sheets"]:
         sheet["name"] = names.unique(sheet["name"])
         try:
-            nodes.append(Node(sheet["name"], _sheet_file(source, found, sheet)))
+            nodes.append(Node(sheet["name"], _sheet_file(source, found["units"], sheet)))
         except MeshFileError as error:
             nodes.append(Node(sheet["name"], error))
-    return Nodes(tuple(nodes))
+    return Nodes(tuple(nodes), _ignored(source, found))
 
 
-def _read(path: str, location: Path, allowed: ReadLimits) -> tuple[Source, dict[str, Any]]:
+def _ignored(source: Source, found: dict[str, Any]) -> tuple[Issue, ...]:
+    return tuple(issue("ignored-geometry", words, file=source.path) for words in found["ignored"])
+
+
+def _read(
+    path: str, location: Path, allowed: ReadLimits, *, whole: bool
+) -> tuple[Source, dict[str, Any]]:
     source = read_source(path, location, max_bytes=allowed.file_bytes, formats=DRAWINGS)
-    seconds, megabytes = allowed.seconds, allowed.megabytes
     try:
-        found = read_drawing(source.format, source.data, seconds=seconds, megabytes=megabytes)
+        found = read_drawing(
+            source.format,
+            source.data,
+            whole=whole,
+            seconds=allowed.seconds,
+            megabytes=allowed.megabytes,
+        )
     except WorkerError as error:
-        raise refused_by_worker(error, source, megabytes) from error
+        raise refused_by_worker(error, source, allowed.megabytes) from error
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from None
     return source, found
@@ -67,17 +78,9 @@ def _refuse(sheet: dict[str, Any], source: Source) -> None:
         raise MeshFileError(code, message, file=source.path)
 
 
-def _together(sheets: list[dict[str, Any]]) -> dict[str, Any]:
-    points: list[list[float]] = []
-    triangles: list[list[int]] = []
-    for sheet in sheets:
-        triangles += [[corner + len(points) for corner in t] for t in sheet["triangles"]]
-        points += sheet["points"]
-    deviation = max(sheet["deviation"] for sheet in sheets)
-    return {"name": None, "points": points, "triangles": triangles, "deviation": deviation}
-
-
-def _sheet_file(source: Source, found: dict[str, Any], sheet: dict[str, Any]) -> MeshFile:
+def _sheet_file(
+    source: Source, units: str | None, sheet: dict[str, Any], issues: tuple[Issue, ...] = ()
+) -> MeshFile:
     _refuse(sheet, source)
     points = np.array(sheet["points"], dtype=np.float64)
     vertices = np.column_stack((points, np.zeros(len(points))))
@@ -88,17 +91,16 @@ def _sheet_file(source: Source, found: dict[str, Any], sheet: dict[str, Any]) ->
         raise MeshFileError(error.code, error.message, file=source.path) from None
     except OverflowError as error:
         raise MeshFileError("out-of-range", str(error), file=source.path) from None
-    warnings = [("ignored-geometry", words) for words in found["ignored"]]
     return MeshFile(
         path=source.path,
         sha256=source.sha256,
         format=source.format,
         resolution=sheet["deviation"] + float(np.abs(points).max()) * FLOAT64_ROUNDING,
-        units=found["units"],
+        units=units,
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,
-        issues=tuple(issue(code, words, file=source.path) for code, words in warnings),
+        issues=issues,
         part=sheet["name"],
         deviation=sheet["deviation"],
     )

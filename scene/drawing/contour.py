@@ -39,18 +39,28 @@ class Contour:
 
 @frozen
 class DrawnShape:
-    """What lies within the contours by the fill rule. name: unique in the drawing."""
+    """What lies within the contours by the fill rule, or within one of `filled`."""
 
     name: str
     contours: tuple[Contour, ...]
     rule: FillRule
+    filled: tuple[Contour, ...] = ()
+
+
+@frozen
+class RefusedShape:
+    """A shape that cannot be read; the others still can. code: of `codes.CODES`."""
+
+    name: str
+    code: str
+    message: str
 
 
 @frozen
 class Drawing:
     """units: of its coordinates, where the file says so. ignored: what was left out, in words."""
 
-    shapes: tuple[DrawnShape, ...]
+    shapes: tuple[DrawnShape | RefusedShape, ...]
     units: str | None
     ignored: tuple[str, ...]
 

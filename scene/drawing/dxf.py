@@ -1,28 +1,32 @@
-"""DXF through ezdxf: closed lines of the model space are contours.
+"""DXF through ezdxf: closed lines and filled areas of the model space, as a program shows them.
 
-A block reference is one shape, with the contours inside others as holes. A closed line outside any
-block is a shape of its own: the format does not say whether one line within another is a hole or a
-part put in the wrong place, and a hole taken for a part is found out, a part taken for a hole not.
-Separate lines and arcs that join end to end make a contour.
+A block reference is one shape, with the closed lines inside others as holes. A closed line outside
+any block is a shape of its own: the format does not say whether one line within another is a hole
+or a part put in the wrong place, and a hole taken for a part is found out, a part taken for a hole
+not. Separate lines and arcs that join end to end make a closed one.
 """
 
 from __future__ import annotations
 
 import io
-import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
-from satcheck.scene.drawing.contour import FLATNESS, Contour, Drawing, DrawnShape, Tracer
+from satcheck.scene.drawing.contour import (
+    Affine,
+    Contour,
+    Drawing,
+    DrawnShape,
+    RefusedShape,
+    Tracer,
+)
+from satcheck.scene.drawing.dxf_entities import ANNOTATIONS, Outline, outline_of
+from satcheck.scene.drawing.expansion import refuse_explosion
+from satcheck.scene.drawing.joining import Line, join
 from satcheck.scene.errors import MeshFileError
 
-_CURVES = frozenset({"CIRCLE", "ARC", "ELLIPSE", "SPLINE"})
-_POLYLINES = frozenset({"LWPOLYLINE", "POLYLINE"})
-_ANNOTATIONS = frozenset({"TEXT", "MTEXT", "DIMENSION", "POINT", "LEADER", "ATTRIB", "VIEWPORT"})
-# Ends of lines that meet lie within this of each other, relative to the drawing: a rounding of
-# the written digits, no gap.
-_JOIN = 1e-9
 _UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 13: "um"}
+_OF_THE_REFERENCE = "0"  # the layer whose entities lie on that of the reference to their block
 
 
 def read_dxf(data: bytes) -> Drawing:
@@ -38,151 +42,152 @@ def read_dxf(data: bytes) -> Drawing:
         raise MeshFileError("bad-record", f"not readable as DXF: {error}") from None
     if auditor.has_errors:
         raise MeshFileError("bad-record", f"damaged: {auditor.errors[0].message}")
-    warnings: set[str] = set()
-    loose = _Contours(warnings)
-    shapes = []
-    for entity in document.modelspace():
-        if entity.dxftype() == "INSERT":
-            inner = _Contours(warnings)
-            inner.add(_exploded(entity))
-            if contours := inner.all():
-                name = f"{entity.dxf.name}/{entity.dxf.handle}"
-                shapes.append(DrawnShape(name, tuple(contours), "evenodd"))
-        else:
-            loose.add([entity])
-    shapes += [
-        DrawnShape(f"contour{number}", (contour,), "nonzero")
-        for number, contour in enumerate(loose.all(), 1)
-    ]
     units = _UNITS.get(int(document.header.get("$INSUNITS", 0)))
-    return Drawing(tuple(shapes), units, tuple(sorted(warnings)))
+    reading = _Reading(document)
+    shapes = tuple(reading.shapes())
+    return Drawing(shapes, units, tuple(sorted(reading.warnings)))
 
 
-def _exploded(insert: Any, depth: int = 0) -> Iterable[Any]:
-    if depth > 32:
-        raise MeshFileError("reference-cycle", f"blocks are nested too deeply: {insert.dxf.name}")
-    for entity in insert.virtual_entities():
-        if entity.dxftype() == "INSERT":
-            yield from _exploded(entity, depth + 1)
-        else:
-            yield entity
+class _Reading:
+    def __init__(self, document: Any) -> None:
+        self._document = document
+        self._blocks: dict[tuple[str, str], list[Outline]] = {}
+        self.warnings: set[str] = set()
 
+    def shapes(self) -> Iterator[DrawnShape | RefusedShape]:
+        space = self._document.modelspace()
+        root = str(space.block_record_name)
+        refuse_explosion(root, self._held, self._size, lambda name: f"block {name!r}")
+        loose: list[Outline] = []
+        for entity in self._shown(space, _OF_THE_REFERENCE):
+            kind, handle = entity.dxftype(), entity.dxf.handle
+            is_block = kind == "INSERT"
+            name = f"{entity.dxf.name if is_block else kind}/{handle}"
+            try:
+                if is_block:
+                    yield from self._references(name, entity)
+                elif outline := self._outline(entity):
+                    if outline.kind == "filled":
+                        yield DrawnShape(name, (), "nonzero", self._closed([outline]))
+                    else:
+                        loose.append(outline)
+            except MeshFileError as error:
+                yield RefusedShape(name, error.code, error.message)
+        try:
+            for number, contour in enumerate(self._contours(loose), 1):
+                yield DrawnShape(f"contour{number}", (contour,), "nonzero")
+        except MeshFileError as error:
+            yield RefusedShape("lines", error.code, error.message)
 
-class _Contours:
-    """Closed lines as they come, and open ones until they are joined."""
+    def _held(self, block: str) -> Iterator[tuple[str, int]]:
+        entities = self._document.blocks.get(block) or ()
+        references = [entity for entity in entities if entity.dxftype() == "INSERT"]
+        yield from ((entity.dxf.name, max(1, entity.mcount)) for entity in references)
 
-    def __init__(self, warnings: set[str]) -> None:
-        self._closed: list[Contour] = []
-        self._open: list[tuple[list[tuple[float, float]], float]] = []
-        self._warnings = warnings
+    def _size(self, block: str) -> int:
+        return len(self._document.blocks.get(block) or ())
 
-    def add(self, entities: Iterable[Any]) -> None:
+    def _shown(self, entities: Iterable[Any], layer: str) -> Iterator[Any]:
+        """Those that a program shows. layer: that of the reference to the block."""
         for entity in entities:
-            kind = entity.dxftype()
-            if kind in _POLYLINES:
-                self._add_polyline(entity)
-            elif kind == "LINE":
-                self._open.append(([_flat(entity.dxf.start), _flat(entity.dxf.end)], 0.0))
-            elif kind in _CURVES:
-                self._add_curve(entity)
+            if self._is_hidden(entity, layer):
+                self.warnings.add("entities that are invisible, or on layers off, are left out")
+            elif entity.dxftype() in ANNOTATIONS:
+                self.warnings.add("annotations are ignored")
             else:
-                what = "annotations are" if kind in _ANNOTATIONS else f"{kind} entities are"
-                self._warnings.add(f"{what} ignored")
+                yield entity
 
-    def _add_polyline(self, entity: Any) -> None:
-        if entity.dxftype() == "POLYLINE" and not entity.is_2d_polyline:
-            self._warnings.add("polylines in space and meshes are ignored")
-            return
-        points: list[tuple[float, float]] = []
-        deviation = 0.0
-        for piece in entity.virtual_entities():
-            corners, off = _line_or_curve(piece)
-            if points and math.dist(points[-1], corners[0]) > math.dist(points[-1], corners[-1]):
-                corners.reverse()  # ezdxf turns every arc counter-clockwise
-            elif not points and entity.dxftype() == "LWPOLYLINE":
-                first = _first_corner(entity)
-                if math.dist(first, corners[0]) > math.dist(first, corners[-1]):
-                    corners.reverse()
-            points += corners if not points else corners[1:]
-            deviation = max(deviation, off)
-        if len(points) < 2:
-            return
-        if entity.is_closed:
-            self._close(points, deviation)
-        else:
-            self._open.append((points, deviation))
+    def _is_hidden(self, entity: Any, reference: str) -> bool:
+        name = self._layer(entity, reference)
+        layers = self._document.layers
+        layer = layers.get(name) if layers.has_entry(name) else None
+        if entity.dxf.get("invisible", 0) or (layer is not None and layer.is_frozen()):
+            return True
+        # What a block holds is shown by its own layers, if the reference's layer is not frozen.
+        return layer is not None and layer.is_off() and entity.dxftype() != "INSERT"
 
-    def _add_curve(self, entity: Any) -> None:
-        points, deviation = _line_or_curve(entity)
-        size = max(math.dist(points[0], point) for point in points)
-        if entity.dxftype() == "CIRCLE" or math.dist(points[0], points[-1]) <= _JOIN * size:
-            self._close(points, deviation)
-        else:
-            self._open.append((points, deviation))
+    def _layer(self, entity: Any, reference: str) -> str:
+        name = str(entity.dxf.layer)
+        return reference if name == _OF_THE_REFERENCE else name
 
-    def _close(self, points: list[tuple[float, float]], deviation: float) -> None:
-        if math.dist(points[0], points[-1]) <= _JOIN * max(math.dist(points[0], p) for p in points):
-            points = points[:-1]
-        tracer = Tracer(points[0])
-        tracer.points(points[1:], deviation)
-        contour = tracer.closed()
-        if contour is not None:
-            self._closed.append(contour)
+    def _outline(self, entity: Any) -> Outline | None:
+        outline = outline_of(entity)
+        if outline is not None and outline.is_wide:
+            self.warnings.add("widths of lines are ignored")
+        return outline
 
-    def all(self) -> list[Contour]:
-        self._join()
-        if self._open:
-            self._warnings.add("open lines are ignored")
-        return self._closed
+    def _references(self, name: str, insert: Any) -> Iterator[DrawnShape]:
+        """A shape for each copy of an array."""
+        within = self._within(insert, _OF_THE_REFERENCE)
+        affines = _affines(insert)
+        for number, affine in enumerate(affines, 1):
+            outlines = [outline.mapped(affine) for outline in within]
+            contours = tuple(self._contours([o for o in outlines if o.kind != "filled"]))
+            filled = self._closed([o for o in outlines if o.kind == "filled"])
+            if contours or filled:
+                copy = name if len(affines) == 1 else f"{name}/{number}"
+                yield DrawnShape(copy, contours, "evenodd", filled)
 
-    def _join(self) -> None:
-        """Chains of open lines that come back to their start; branches are left open."""
-        corners = [abs(c) for points, _ in self._open for p in points for c in p]
-        gap = _JOIN * max(corners, default=0.0)
-        waiting, self._open = self._open, []
-        while waiting:
-            chain, deviation = waiting.pop()
-            while math.dist(chain[0], chain[-1]) > gap:
-                near = [
-                    (k, end)
-                    for k, (points, _) in enumerate(waiting)
-                    for end in (0, -1)
-                    if math.dist(points[end], chain[-1]) <= gap
-                ]
-                if len(near) != 1:
-                    break
-                points, off = waiting.pop(near[0][0])
-                chain = chain + (points if near[0][1] == 0 else points[::-1])[1:]
-                deviation = max(deviation, off)
-            if math.dist(chain[0], chain[-1]) <= gap:
-                self._close(chain, deviation)
-            else:
-                self._open.append((chain, deviation))
+    def _within(self, insert: Any, reference: str) -> list[Outline]:
+        """The outlines of a block, in its own coordinates; made once for each layer."""
+        layer = self._layer(insert, reference)
+        key = (insert.dxf.name, layer)
+        if key not in self._blocks:
+            self._blocks[key] = list(self._block(insert, layer))
+        return self._blocks[key]
 
+    def _block(self, insert: Any, layer: str) -> Iterator[Outline]:
+        from ezdxf.xclip import XClip
 
-def _first_corner(polyline: Any) -> tuple[float, float]:
-    return _flat(next(iter(polyline.vertices_in_wcs())))
+        if XClip(insert).has_clipping_path:
+            self.warnings.add("clipped block references are taken whole")
+        block = insert.block()
+        if block is None or block.block.is_xref:
+            what = f"block {insert.dxf.name!r} is in another file, or missing"
+            raise MeshFileError("missing-resource", what)
+        for entity in self._shown(block, layer):
+            if entity.dxftype() != "INSERT":
+                if outline := self._outline(entity):
+                    yield outline
+                continue
+            inner = self._within(entity, layer)
+            for affine in _affines(entity):
+                yield from (outline.mapped(affine) for outline in inner)
 
+    def _contours(self, outlines: Iterable[Outline]) -> Iterator[Contour]:
+        """Raises MeshFileError after the closed ones: separate lines make no single outlines."""
+        outlines = list(outlines)
+        yield from self._closed([o for o in outlines if o.kind == "closed"])
+        joined = join([Line(o.points, o.deviation) for o in outlines if o.kind == "open"])
+        if joined.branching:
+            message = "lines meet three or more at a point: draw each outline as a closed polyline"
+            raise MeshFileError("unsupported-feature", message)
+        if joined.repeated:
+            self.warnings.add("lines that are drawn twice are taken once")
+        if joined.dead_ends:
+            self.warnings.add("open lines are ignored")
+        for loop in joined.loops:
+            yield from self._closed([Outline(loop.points, loop.deviation, "closed")])
 
-def _line_or_curve(entity: Any) -> tuple[list[tuple[float, float]], float]:
-    """Corners on the entity, and how far it may be off the chords between them."""
-    if entity.dxftype() == "LINE":
-        return [_flat(entity.dxf.start), _flat(entity.dxf.end)], 0.0
-    rough = [_flat(point) for point in entity.flattening(math.inf if _is_round(entity) else 1e9)]
-    size = max((math.dist(rough[0], point) for point in rough), default=0.0)
-    if _is_round(entity):
-        size = max(size, float(entity.dxf.radius))
-    if not (size > 0 and math.isfinite(size)):
-        raise MeshFileError("bad-record", f"{entity.dxftype()} without size")
-    deviation = FLATNESS * size
-    # ezdxf measures in the middle of a chord, where a curve of many bends may cross it: half of
-    # what is granted leaves room.
-    return [_flat(point) for point in entity.flattening(deviation / 2)], deviation
+    @staticmethod
+    def _closed(outlines: Iterable[Outline]) -> tuple[Contour, ...]:
+        contours = []
+        for outline in outlines:
+            tracer = Tracer(outline.points[0])
+            tracer.points(list(outline.points[1:]), outline.deviation)
+            contours.append(tracer.closed())
+        return tuple(contour for contour in contours if contour is not None)
 
 
-def _is_round(entity: Any) -> bool:
-    return entity.dxftype() in ("CIRCLE", "ARC")
+def _affines(insert: Any) -> list[Affine]:
+    """Where its copies are, seen from above."""
+    copies = insert.multi_insert() if insert.mcount > 1 else [insert]
+    return [_affine(copy) for copy in copies]
 
 
-def _flat(point: Any) -> tuple[float, float]:
-    return float(point[0]), float(point[1])
+def _affine(insert: Any) -> Affine:
+    rows = [tuple(map(float, row)) for row in insert.matrix44().rows()]  # maps row vectors
+    if rows[2][0] != 0 or rows[2][1] != 0:
+        message = f"block {insert.dxf.name!r} is turned out of the plane of the drawing"
+        raise MeshFileError("unsupported-feature", message)
+    return (rows[0][0], rows[1][0], rows[3][0], rows[0][1], rows[1][1], rows[3][1])

@@ -1,26 +1,33 @@
 """Drawings are untrusted input to large parsers: they are read in a child process.
 
-request: a line with the format, then the file's bytes. reply: JSON, {"refusal": [code, message]} or
-{"units", "ignored", "sheets": [{"name", "points", "triangles", "deviation"}]}, where a shape that
-cannot be used has a "refusal" in the place of its points.
+request: a line with the format and "whole" or "shapes", then the file's bytes. reply: JSON,
+{"refusal": [code, message]} or {"units", "ignored", "sheets": [{"name", "points", "triangles",
+"deviation"}]}, one for all shapes together or one each, where a shape that cannot be used has a
+"refusal" in the place of its points.
 """
 
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from satcheck.scene.drawing.contour import Drawing, DrawnShape
+from satcheck.scene.drawing.contour import Drawing, DrawnShape, RefusedShape
 from satcheck.scene.errors import MeshFileError
+
+if TYPE_CHECKING:
+    from satcheck.scene.drawing.sheet import Sheet
 
 _WORKER = "satcheck.scene.drawing.reading"
 
 
-def read_drawing(form: str, data: bytes, *, seconds: float, megabytes: int) -> dict[str, Any]:
+def read_drawing(
+    form: str, data: bytes, *, whole: bool, seconds: float, megabytes: int
+) -> dict[str, Any]:
     """The reply as above; raises MeshFileError for a refusal, WorkerError for a child that died."""
     from satcheck.core.worker import run_isolated
 
-    reply = run_isolated(_WORKER, f"{form}\n".encode() + data, seconds=seconds, megabytes=megabytes)
+    request = f"{form} {'whole' if whole else 'shapes'}\n".encode() + data
+    reply = run_isolated(_WORKER, request, seconds=seconds, megabytes=megabytes)
     found: dict[str, Any] = json.loads(reply)
     if "refusal" in found:
         code, message = found["refusal"]
@@ -30,9 +37,10 @@ def read_drawing(form: str, data: bytes, *, seconds: float, megabytes: int) -> d
 
 def serve(request: bytes) -> bytes:
     """In the child."""
-    form, _, data = request.partition(b"\n")
+    head, _, data = request.partition(b"\n")
+    form, what = head.decode().split()
     try:
-        return json.dumps(_answer(_drawing(form.decode(), data))).encode()
+        return json.dumps(_answer(_drawing(form, data), what == "whole")).encode()
     except MeshFileError as error:
         return json.dumps({"refusal": [error.code, error.message]}).encode()
 
@@ -47,23 +55,34 @@ def _drawing(form: str, data: bytes) -> Drawing:
     return read_dxf(data)
 
 
-def _answer(drawing: Drawing) -> dict[str, Any]:
+def _answer(drawing: Drawing, whole: bool) -> dict[str, Any]:
     if not drawing.shapes:
         raise MeshFileError("empty-mesh", "the drawing has no closed outline")
-    return {
-        "units": drawing.units,
-        "ignored": drawing.ignored,
-        "sheets": [_sheet(shape) for shape in drawing.shapes],
-    }
+    from satcheck.scene.drawing.sheet import united
+
+    if whole:
+        sheets = [_reply(united([_sheet(shape) for shape in drawing.shapes]))]
+    else:
+        sheets = [_reply_of(shape) for shape in drawing.shapes]
+    return {"units": drawing.units, "ignored": drawing.ignored, "sheets": sheets}
 
 
-def _sheet(shape: DrawnShape) -> dict[str, Any]:
-    from satcheck.scene.drawing.sheet import sheet_of
-
+def _reply_of(shape: DrawnShape | RefusedShape) -> dict[str, Any]:
     try:
-        sheet = sheet_of(shape)
+        return _reply(_sheet(shape))
     except MeshFileError as error:
         return {"name": shape.name, "refusal": [error.code, error.message]}
+
+
+def _sheet(shape: DrawnShape | RefusedShape) -> Sheet:
+    from satcheck.scene.drawing.sheet import sheet_of
+
+    if isinstance(shape, RefusedShape):
+        raise MeshFileError(shape.code, shape.message)
+    return sheet_of(shape)
+
+
+def _reply(sheet: Sheet) -> dict[str, Any]:
     return {
         "name": sheet.name,
         "points": sheet.points.tolist(),

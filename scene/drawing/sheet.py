@@ -33,6 +33,46 @@ class Sheet:
 def sheet_of(shape: DrawnShape) -> Sheet:
     """Raises MeshFileError: the library's triangles are not bounded by the contours, or contours
     cross under the even-odd rule."""
+    areas = [_sheet_of(shape)] if shape.contours else []
+    for contour in shape.filled:
+        areas.append(_sheet_of(DrawnShape(shape.name, (contour,), "nonzero")))
+    return united(areas)
+
+
+def united(sheets: list[Sheet]) -> Sheet:
+    """What any of them covers, by the name of the first. Raises MeshFileError: one winds both ways
+    round, and another could take back what it covers."""
+    import numpy as np
+
+    if len(sheets) == 1:
+        return sheets[0]
+    triangles: list[npt.NDArray[np.int64]] = []
+    count = 0
+    for sheet in sheets:
+        triangles.append(_upward(sheet) + count)
+        count += len(sheet.points)
+    points = np.concatenate([sheet.points for sheet in sheets])
+    deviation = max(sheet.deviation for sheet in sheets)
+    return Sheet(sheets[0].name, points, np.concatenate(triangles), deviation)
+
+
+def _upward(sheet: Sheet) -> npt.NDArray[np.int64]:
+    """Its triangles, turned over where they cover points less than never."""
+    from satcheck.scene.planar.turns import turns
+
+    turned = sheet.triangles[:, ::-1]
+    signs = turns(sheet.points, sheet.triangles)
+    if (signs >= 0).all() or _covers_once(sheet.points, sheet.triangles):
+        return sheet.triangles
+    if (signs <= 0).all() or _covers_once(sheet.points, turned):
+        return turned
+    raise MeshFileError(
+        "unsupported-feature",
+        f"shape {sheet.name!r} winds both ways round: not read as a body with other shapes",
+    )
+
+
+def _sheet_of(shape: DrawnShape) -> Sheet:
     import manifold3d
     import numpy as np
 

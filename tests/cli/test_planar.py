@@ -69,3 +69,23 @@ def test_meshes_are_seen_along_an_axis() -> None:
     ran = satcheck(*pair, "--planar", "xy", "--volume")
     assert ran.code == 2
     assert "planar" in ran.err
+
+
+@pytest.mark.parametrize("backwards", [False, True])
+def test_shapes_of_a_file_that_run_different_ways_round_do_not_cancel(
+    tmp_path: Path, backwards: bool
+) -> None:
+    both, within = tmp_path / "both.svg", tmp_path / "within.svg"
+    head = '<svg xmlns="http://www.w3.org/2000/svg">'
+    both.write_text(f'{head}<path d="M0 0H4V4H0Z"/><path d="M2 0V4H6V0Z"/></svg>')
+    within.write_text(f'{head}<rect x="2.5" y="1" width="1" height="1"/></svg>')
+    files = (within, both) if backwards else (both, within)
+    found = set(relations(*files, "--planar", "xy").values())
+    assert found == {"inside" if backwards else "contains"}
+
+
+def test_what_a_drawing_leaves_out_is_said_once(layout: Path) -> None:
+    layout.write_text(LAYOUT.replace("</svg>", "<text>T</text></svg>"))
+    report = json.loads(satcheck(str(layout), "--planar", "xy", "--format", "json").out)
+    codes = [issue["code"] for issue in report["issues"]]
+    assert codes.count("ignored-geometry") == 1

@@ -9,7 +9,7 @@ import pytest
 
 from satcheck.core import Surface
 from satcheck.scene.drawing.contour import Contour, DrawnShape, FillRule, Point
-from satcheck.scene.drawing.sheet import sheet_of
+from satcheck.scene.drawing.sheet import sheet_of, united
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.planar.prism import prism
 
@@ -67,3 +67,28 @@ def _inside(points: tuple[Point, ...], x: float, y: float) -> bool:
         a, b = math.atan2(ay - y, ax - x), math.atan2(by - y, bx - x)
         turns += (b - a + math.pi) % (2 * math.pi) - math.pi
     return round(turns / (2 * math.pi)) == 1
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_shapes_together_cover_what_any_of_them_covers(turned: bool) -> None:
+    """One against the clock, one with it: where they overlap the sum would be 0."""
+    shapes = [square(0, 4), square(2, 6)[::-1]]
+    sheets = [sheet_of(DrawnShape("s", (Contour(points),), "nonzero")) for points in shapes]
+    sheet = united(sheets[::-1] if turned else sheets)
+    solid = Surface(prism(sheet.points, sheet.triangles, 1.0).welded(), True)
+    assert [solid.winding_number((c, c, 0.5)) for c in (1.0, 3.0, 5.0, 7.0)] == [1, 2, 1, 0]
+
+
+def test_a_figure_of_eight_is_not_put_together_with_others() -> None:
+    eight = ((0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0))
+    sheets = [sheet_of(DrawnShape("s", (Contour(p),), "nonzero")) for p in (eight, square(0, 1))]
+    with pytest.raises(MeshFileError) as caught:
+        united(sheets)
+    assert caught.value.code == "unsupported-feature"
+
+
+def test_what_is_filled_lies_on_top_of_the_rest() -> None:
+    ring = (Contour(square(0, 10)), Contour(square(2, 8)))
+    sheet = sheet_of(DrawnShape("s", ring, "evenodd", (Contour(square(1, 5)[::-1]),)))
+    solid = Surface(prism(sheet.points, sheet.triangles, 1.0).welded(), True)
+    assert [solid.winding_number((c, c, 0.5)) for c in (0.5, 1.5, 3.0, 6.0)] == [1, 2, 1, 0]
