@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from bench.accuracy.palette import series
@@ -26,7 +26,13 @@ _LEAST_ERROR = 1e-6  # of the size: what is smaller is drawn there
 
 
 def draw(records: Sequence[Record], rungs: Sequence[RungSummary]) -> str:
-    known = [end for rung in rungs for one in (rung.cold, rung.cached) if one for end in ends(one)]
+    known = [
+        end
+        for rung in rungs
+        for one in (rung.cold, rung.cached)
+        if one
+        for end in (one.low, one.high)
+    ]
     time = whole_decades(known, *TIME)
     worst = [e.high for r in rungs for e in (r.errors.apart, r.errors.overlapping) if e and e.high]
     error = whole_decades([_LEAST_ERROR, *worst], *ERROR)
@@ -46,11 +52,7 @@ def draw(records: Sequence[Record], rungs: Sequence[RungSummary]) -> str:
     return figure(WIDTH, bottom + FOOT, "Time and error by rung", parts, series())
 
 
-def ends(one: Spread) -> tuple[float, float]:
-    return one.low, one.high
-
-
-def _grid(axis: LogAxis, bottom: float, words: Any) -> Iterator[str]:
+def _grid(axis: LogAxis, bottom: float, words: Callable[[float], str]) -> Iterator[str]:
     values = list(axis.decades)
     every = 1 if abs(axis.end - axis.start) > _LEAST_TICK * len(values) else 2
     for value in values:

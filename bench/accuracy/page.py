@@ -69,7 +69,7 @@ def page(run: Run) -> Page:
     }
     sections = [
         _opening(run, records, concave),
-        next_factor(run.folder, concave),
+        next_factor(run.folder, records, concave),
         of_rungs(run.folder, found),
         of_verdicts(run.folder, found),
         of_the_default(run.folder, records),
@@ -90,19 +90,18 @@ def _sides(records: Sequence[Record]) -> list[list[Cost]]:
 
 
 def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> str:
-    boxes, proof = step(concave, "aabb", HULL), step(concave, HULL, EXACT)
+    boxes, proof = step(records, "aabb", HULL), step(concave, HULL, EXACT)
     lines = [
         "# What accuracy costs in time",
         f"Every rung of the ladder was asked about the same {len(records)} pairs of meshes, and "
         f"each answer was held against what is known and proven. {run.about}".strip(),
-        f"Boxes and hulls settle {len(records) - len(concave)} of the pairs by themselves. Of the "
-        f"other {len(concave)}, where accuracy has a price (errors in percent of the size of the "
-        "smaller body):",
+        "Errors are in percent of the size of the smaller body:",
         "\n".join(
             [
-                f"- **From boxes to hulls** takes {_longer(boxes)} the time: {_gain(boxes)}.",
-                f"- **From hulls to the proof on triangles** takes {_longer(proof)} the time: "
-                f"{_gain(proof)}.",
+                f"- **From boxes to hulls** takes {_longer(boxes)} the time: {_gain(boxes)}. "
+                f"Together they settle {counted(len(records) - len(concave), 'pair')}.",
+                f"- **From hulls to the proof on triangles** takes {_longer(proof)} the time on "
+                f"the other {len(concave)}: {_gain(proof)}.",
                 *_of_parts(concave),
             ]
         ),
@@ -138,8 +137,8 @@ def _of_parts(concave: Sequence[Record]) -> list[str]:
         for one in dict.fromkeys((made[0], made[-1]))
     ]
     return [
-        "- **Convex parts**, made anew, take longer than the proof on the same pairs: "
-        f"{', '.join(said)}."
+        "- **Convex parts**, made anew, take a multiple of the time of the proof on the same "
+        f"pairs: {', '.join(said)}."
     ]
 
 

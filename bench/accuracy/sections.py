@@ -24,7 +24,7 @@ def _figure(folder: str, name: str, said: str) -> str:
     return f"![{said}]({folder}/{name})"
 
 
-def next_factor(folder: str, concave: Sequence[Record]) -> str:
+def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record]) -> str:
     known = labels(concave)
     parts = [label for label in known if label.startswith(PARTS)]
     ladder = [label for label in known if label in (*SOUND, EXACT)]
@@ -32,7 +32,7 @@ def next_factor(folder: str, concave: Sequence[Record]) -> str:
     stairs += [*pairwise([HULL, *parts])] + [(one, EXACT) for one in parts[-1:]]
     rows = []
     for start, end in stairs:
-        one = step(concave, start, end)
+        one = step(records if end in SOUND else concave, start, end)
         errors = [words.NONE if e is None else words.percent(e) for e in (one.before, one.after)]
         rows.append(
             [
@@ -48,11 +48,13 @@ def next_factor(folder: str, concave: Sequence[Record]) -> str:
         [
             "## What the next factor of accuracy costs",
             _figure(folder, "ladder.svg", "Error against time, rung by rung"),
-            f"The {len(concave)} pairs that boxes and hulls do not settle. Across: CPU time on a "
+            f"The {len(concave)} pairs that boxes and hulls leave open. Across: CPU time on a "
             "pair, everything made anew, over that of the exact rung on the same pair (1 x is the "
             "proof; cached parts: wall time). Up: median error. Both with quartiles; in brackets "
             "the number of pairs: convex parts count where there was time to make them, and of "
             "bodies with an inside.",
+            "Step by step, each over the pairs that both rungs answered: up to hulls of all pairs, "
+            "beyond them of those that they leave open.",
             words.table(head, rows),
             "Of overlapping bodies convex parts bound the depth from below; the figure they give "
             "is that of the hulls, and so is its error.",
