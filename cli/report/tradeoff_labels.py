@@ -24,18 +24,19 @@ def baseline(box: Box) -> tuple[float, float]:
 
 def place(text: str, beside: tuple[float, float, float], taken: Sequence[Box], frame: Box) -> Box:
     """Above, below, right, left, or so farther away: the first place within the frame with least in
-    the way.
+    the way. Above and below it is moved sideways where it would leave the frame.
 
     beside: the leftmost and the rightmost of the points, and their height.
     """
     left, right, y = beside
-    wide, middle = _LETTER * len(text), 0.5 * (left + right)
+    wide = _LETTER * len(text)
+    middle = min(max(0.5 * (left + right - wide), frame[0]), frame[2] - wide)
     corners = [
         (x, y + dy)
         for away in (0.0, _HEIGHT, 2 * _HEIGHT)
         for x, dy in (
-            (middle - 0.5 * wide, -_REACH - _HEIGHT - away),
-            (middle - 0.5 * wide, _REACH + away),
+            (middle, -_REACH - _HEIGHT - away),
+            (middle, _REACH + away),
             (right + _REACH + 1, -0.5 * _HEIGHT - away),
             (left - _REACH - 1 - wide, -0.5 * _HEIGHT - away),
         )

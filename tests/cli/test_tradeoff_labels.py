@@ -28,10 +28,11 @@ def test_labels_of_points_on_each_other_keep_apart() -> None:
         taken.append(box)
 
 
-def test_a_label_stays_within_the_frame_where_it_can() -> None:
-    for x, y in ((8, 50), (192, 50), (100, 8), (100, 92)):
+def test_a_label_stays_within_the_frame() -> None:
+    for x, y in ((1, 8), (199, 8), (1, 92), (199, 92), (100, 50)):
         box = place("boolean", (x, x, y), [around(x, y)], FRAME)
         assert box[0] >= 0
         assert box[1] >= 0
         assert box[2] <= 200
         assert box[3] <= 100
+        assert apart(box, around(x, y))
