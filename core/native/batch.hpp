@@ -1,6 +1,8 @@
 // Many convex pairs at once, on all cores.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "narrow_phase.hpp"
@@ -13,7 +15,9 @@ struct PairRequest {
   Pose pose_a, pose_b;
 };
 
-std::vector<PairResult> check_pairs(const std::vector<PairRequest>& requests, Query query, MethodChoice method,
-                                    unsigned threads);
+// check_pair() on request(0), ..., request(count - 1). request(i) is called once, by the thread that needs it; of
+// those that throw the first counts.
+std::vector<PairResult> check_pairs(std::size_t count, const std::function<PairRequest(std::size_t)>& request,
+                                    Query query, MethodChoice method, unsigned threads);
 
 }  // namespace satcheck

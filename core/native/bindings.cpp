@@ -183,16 +183,15 @@ PairResults check_many(const std::vector<const Shape*>& shapes, Indices index_a,
   if (index_b.shape(0) != count || poses_a.shape(0) != count || poses_b.shape(0) != count) {
     throw std::invalid_argument("index_a, index_b, poses_a and poses_b differ in length");
   }
-  std::vector<PairRequest> requests(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  const auto request = [&](std::size_t i) -> PairRequest {
     const std::uint32_t a = index_a.data()[i], b = index_b.data()[i];
     if (a >= shapes.size() || b >= shapes.size()) throw std::invalid_argument("a shape index is out of range");
-    requests[i] = {shapes[a], shapes[b], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
-  }
+    return {shapes[a], shapes[b], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
+  };
   const Query asked = query_from(query);
   const MethodChoice choice = method_from(method);
   nb::gil_scoped_release release;
-  return {check_pairs(requests, asked, choice, threads)};
+  return {check_pairs(count, request, asked, choice, threads)};
 }
 
 std::vector<Vec3> to_points(const Points& points) {

@@ -19,15 +19,21 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   }
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
+  std::size_t failed = count;  // the task that threw it
   std::mutex failure_mutex;
   const auto work = [&] {
+    std::size_t i = count;
     try {
       for (std::size_t from = next.fetch_add(chunk); from < count; from = next.fetch_add(chunk)) {
-        for (std::size_t i = from; i < std::min(from + chunk, count); ++i) task(i);
+        for (i = from; i < std::min(from + chunk, count); ++i) task(i);
       }
     } catch (...) {  // carried to the caller's thread, not swallowed
       const std::lock_guard lock(failure_mutex);
-      if (!failure) failure = std::current_exception();
+      // What comes before a failed task was handed out before, and has run or will.
+      if (i < failed) {
+        failed = i;
+        failure = std::current_exception();
+      }
       next = count;
     }
   };
