@@ -15,6 +15,9 @@ namespace {
 // Pairs that one thread takes at a time: neighbours along the curve share their bodies.
 constexpr std::size_t kTogether = 8;
 
+// Vertices of a body that are worth a thread of their own.
+constexpr std::size_t kManyVertices = 8192;
+
 enum Clock : std::size_t { kBoxes, kOriented, kHulls, kNesting, kTriangles, kBand };
 
 bool holds(const Aabb& outer, const Aabb& inner) {
@@ -71,6 +74,14 @@ class Climber {
     return found_.boxes == BoxOutcome::apart;
   }
 
+  // Calls make(body) of both, of large ones at the same time.
+  template <class Make>
+  void make_both(Make make) {
+    const auto is_large = [](PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; };
+    const unsigned threads = is_large(*q_.a) && is_large(*q_.b) ? 0 : 1;
+    parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? *q_.a : *q_.b); });
+  }
+
   PairResult ask_hulls(Query query) {
     return check_pair(*q_.a->hull_shape(), {}, *q_.b->hull_shape(), {}, query);
   }
@@ -78,6 +89,7 @@ class Climber {
   bool hulls_settle() {
     const bool settled = timed(kHulls, [&] {
       found_.both_convex = q_.a->shared().convex() && q_.b->shared().convex();
+      make_both([](PlacedGeometry& body) { body.hull_shape(); });
       return found_.both_convex ? convex_bodies_settle() : hulls_apart();
     });
     if (found_.both_convex && found_.hulls->outcome == Outcome::penetrating && boxes_nest()) {
@@ -116,6 +128,7 @@ class Climber {
 
   void triangles() {
     timed(kTriangles, [&] {
+      make_both([](PlacedGeometry& body) { body.surface(); });
       found_.triangles = mesh_relation(*q_.a->surface(), *q_.b->surface());
       return true;
     });
