@@ -69,6 +69,8 @@ def load_scene(
     alone = len(given) == 1
     if split is None:
         split = "nodes" if alone else "none"
+    if split == "none":
+        files.read_ahead((path, Path(path)) for path in given if is_mesh(path))
     for path in given:
         suffix = _suffix(path)
         if suffix in SCENE_SUFFIXES:

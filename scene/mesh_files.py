@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import ReadLimits, load_mesh_file
+from satcheck.scene.loading.native import NATIVE_FORMATS
+from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.source import FORMATS
 from satcheck.scene.plain_ids import COMPONENT_MARK
 
 if TYPE_CHECKING:
@@ -18,6 +23,7 @@ if TYPE_CHECKING:
 
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
+LARGE_FILE_BYTES = 1_000_000  # worth a thread of its own
 
 
 class MeshFiles:
@@ -52,6 +58,36 @@ class MeshFiles:
             except MeshFileError as error:
                 self._wholes[key] = error
         return self._wholes[key]
+
+    def read_ahead(self, given: Iterable[tuple[str, Path]]) -> None:
+        """Reads those of these files that are large at the same time; whole() then has them.
+
+        given: name in messages and location. Only formats that are read in this process, without
+        the interpreter.
+        """
+        waiting = {
+            self._absolute(location): (path, location)
+            for path, location in given
+            if FORMATS.get(location.suffix.lower()) in NATIVE_FORMATS and _is_large(location)
+        }
+        if len(waiting) < 2:
+            return
+        from threading import Thread
+
+        queue = list(waiting.values())
+
+        def read() -> None:
+            while queue:
+                try:
+                    self.whole(*queue.pop())
+                except Exception:  # noqa: BLE001 said when the file is asked for
+                    continue
+
+        threads = [Thread(target=read) for _ in range(min(len(queue), os.cpu_count() or 1))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
 
     def _load_whole(self, path: str, location: Path) -> MeshFile:
         load = load_mesh_file
@@ -112,3 +148,10 @@ def _meant(part: str, known: Iterable[str | None]) -> str:
 
     close = get_close_matches(part, [name for name in known if name], n=1)
     return f" (did you mean {close[0]!r}?)" if close else ""
+
+
+def _is_large(location: Path) -> bool:
+    try:
+        return size_of(location) >= LARGE_FILE_BYTES
+    except SatcheckError:  # said when the file is asked for
+        return False

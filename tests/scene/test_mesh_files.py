@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene
+from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.nodes import Node
 from tests.scene import files, graphs
@@ -88,3 +88,24 @@ def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
     assert isinstance(MeshFiles(allow_outside=True).whole("level.gltf", path), MeshFile)
     (body,) = load_scene([path], allow_outside=True).bodies
     assert body.file.health.solid
+
+
+def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch):
+    monkeypatch.setattr(mesh_files, "LARGE_FILE_BYTES", 1)
+    places = {name: tmp_path / name for name in ("a.obj", "b.obj", "bad.obj", "gone.obj", "c.glb")}
+    places["a.obj"].write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    places["b.obj"].write_text("v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n")
+    places["bad.obj"].write_text("v 0 0 0\nf 1 2 3\n")
+    places["c.glb"].write_bytes(graphs.glb(NODES))
+    ahead, alone = MeshFiles(), MeshFiles()
+    ahead.read_ahead(places.items())
+    for name, place in places.items():
+        found, expected = ahead.whole(name, place), alone.whole(name, place)
+        if isinstance(expected, MeshFile):
+            assert isinstance(found, MeshFile)
+            assert found.mesh.to_bytes() == expected.mesh.to_bytes()
+            assert found.health == expected.health
+        else:
+            assert isinstance(found, MeshFileError)
+            assert (found.code, str(found)) == (expected.code, str(expected))
+    assert isinstance(ahead.whole("bad.obj", places["bad.obj"]), MeshFileError)
