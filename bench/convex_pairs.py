@@ -80,22 +80,41 @@ class PairFile:
         )
 
 
-def read_pair_file(path: Path) -> PairFile:
+@dataclass(frozen=True, slots=True)
+class RawShape:
+    """half: of a box, else None. vertices (n, 3); faces: vertex numbers, counter-clockwise."""
+
+    half: tuple[float, float, float] | None
+    vertices: NDArray[np.float64]
+    faces: list[NDArray[np.uint32]]
+
+
+def read_shapes(path: Path) -> tuple[list[RawShape], NDArray[Any]]:
+    """The shapes of a pair file, and its PAIR rows."""
     data = path.read_bytes()
     if data[:8] != MAGIC:
         raise ValueError(f"{path}: not a {MAGIC.decode()} file")
     shape_count, pair_count = np.frombuffer(data, "<u4", 2, 8)
     at = 24
-    shapes: list[Any] = []
+    shapes = []
     for _ in range(int(shape_count)):
         kind, vertices, faces, indices = (int(n) for n in np.frombuffer(data, "<u4", 4, at))
-        half = np.frombuffer(data, "<f8", 3, at + 16)
+        half = tuple(np.frombuffer(data, "<f8", 3, at + 16).tolist())
         points = np.frombuffer(data, "<f8", 3 * vertices, at + 40).reshape(-1, 3)
-        at += 40 + 24 * vertices + 4 * (faces + 1) + 4 * indices
-        shapes.append(core.Box(tuple(half.tolist())) if kind == 0 else core.Hull(points.copy()))
+        at += 40 + 24 * vertices
+        offsets = np.frombuffer(data, "<u4", faces + 1, at)
+        at += 4 * (faces + 1)
+        polygons = np.split(np.frombuffer(data, "<u4", indices, at), offsets[1:-1])
+        at += 4 * indices
+        shapes.append(RawShape(half if kind == 0 else None, points.copy(), polygons))
+    return shapes, np.frombuffer(data, PAIR, int(pair_count), at)
+
+
+def read_pair_file(path: Path) -> PairFile:
+    shapes, pairs = read_shapes(path)
     return PairFile(
-        shapes,
-        np.frombuffer(data, PAIR, int(pair_count), at),
+        [core.Box(s.half) if s.half else core.Hull(s.vertices) for s in shapes],
+        pairs,
         np.fromfile(path.with_suffix(".ref"), REFERENCE),
     )
 
