@@ -1,6 +1,6 @@
 """Convex pairs from Python: our batch beside the Python interfaces of other libraries.
 
-    pip install '.[peers]' pybullet
+    pip install '.[peers]'
     python -m bench.python_peers FOLDER [W1 W2_12 ...] [--pairs 400] [--rounds 3]
 
 FOLDER holds pair files and references (convex_pairs.py says which form they have). Of each file so
@@ -10,13 +10,15 @@ have no call for many. Shapes are made, and where the interface has placements t
 clock runs. All take turns in every round; the least CPU time counts. Judged by the reference:
 pairs closer to touching than it can tell are left out. Prints two tables of nanoseconds a pair:
 overlap with the number of wrong answers, signed distance with the share off by more than 1e-9 of
-the size, and by more than 1e-6. What is not installed is left out and said so.
+the size, and by more than 1e-6; "aborts": the library ended its process. What is not installed is
+left out and said so. Not for Windows.
 """
 
 from __future__ import annotations
 
 import argparse
 import importlib.util
+import os
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -90,10 +92,26 @@ def share(part: float) -> str:
     return "0" if part == 0 else f"{part:.1%}" if part < 1 else "all"
 
 
+def survives(asks: tuple[Ask, Ask]) -> bool:
+    """Whether a library answers all pairs without an end of its process, tried in a child."""
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            for ask in asks:
+                ask()
+            code = 0
+        finally:
+            os._exit(code)
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+
+
 def cells(
     asked: dict[str, tuple[Ask, Ask]], reference: NDArray[Any], rounds: int
 ) -> dict[str, tuple[str, str]]:
     """For each library what it costs and gets wrong, as text: overlap and signed distance."""
+    texts = dict.fromkeys(asked, ("aborts", "aborts"))
+    asked = {name: asks for name, asks in asked.items() if survives(asks)}
     best = {name: [np.inf, np.inf] for name in asked}
     answers: dict[str, list[NDArray[Any]]] = {name: [np.empty(0)] * 2 for name in asked}
     for _ in range(rounds):
@@ -104,7 +122,6 @@ def cells(
                 spent = (time.process_time_ns() - start) / len(reference)
                 best[name][k] = min(best[name][k], spent)
     clear = np.abs(reference["sd"]) > TOUCHING * reference["L"]
-    texts = {}
     for name, (overlap, distance) in answers.items():
         wrong = int((clear & (overlap != (reference["sd"] < 0))).sum())
         error = np.abs(distance - reference["sd"])[clear] / reference["L"][clear]
