@@ -42,7 +42,8 @@ class Crowd:
     then changes nothing.
 
     home: where the scene has them; placed: where they are now, moved by `offsets`. movable: the
-    bodies that may be moved.
+    bodies that may be moved. settings: those of the ways out. careful: few bodies overlap, and each
+    has time.
     """
 
     def __init__(
@@ -54,8 +55,8 @@ class Crowd:
     ) -> None:
         """meter: needed where rules limit the volume of overlaps."""
         # The verdicts of a check, and with every overlap a way out.
-        self._settings, self._meter = settings, meter
-        self._asked = replace(
+        self._own, self._meter = settings, meter
+        self.settings = replace(
             settings,
             depth=True,
             depth_width=WAY_OUT_WIDTH,
@@ -65,8 +66,8 @@ class Crowd:
             cross_check=False,
             certificate=False,
         )
-        self._roster = place(scene, self._asked)
-        self._planner = Planner(self._asked, self._roster.book, scene.composed)
+        self._roster = place(scene, self.settings)
+        self._planner = Planner(self.settings, self._roster.book, scene.composed)
         self._index = sorted(self._roster.placed, key=self._roster.ids.__getitem__)
         self.home = [self._roster.placed[index] for index in self._index]
         self.placed = list(self.home)
@@ -74,14 +75,15 @@ class Crowd:
         self.offsets = [ORIGIN] * len(self.home)
         self._excused: set[BodyPair] = set()
         self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, Opinion]] = {}
+        self.careful = False
         self.settle()
 
     def look_closely(self, overlaps: int) -> None:
         """From here on ways out are as short as those of a check, as far as the budget goes for so
         many; those that are known are looked for again."""
-        own = self._settings
+        own, self.careful = self._own, True
         budget = min(own.depth_budget, CAREFUL_BUDGET / max(overlaps, 1))
-        self._asked = replace(self._asked, depth_width=own.depth_width, depth_budget=budget)
+        self.settings = replace(self.settings, depth_width=own.depth_width, depth_budget=budget)
         self._known = {pair: said for pair, said in self._known.items() if said[2].push is None}
 
     def move(self, offsets: dict[int, Vector]) -> None:
@@ -112,10 +114,20 @@ class Crowd:
     def pair(self, pair: BodyPair) -> Pair:
         """Without a touch band."""
         asked = replace(self._planner.asked(*self._members(pair)), tolerance=0.0)
-        return Pair(self.placed[pair[0]], self.placed[pair[1]], self._asked, asked, self._meter)
+        return Pair(self.placed[pair[0]], self.placed[pair[1]], self.settings, asked, self._meter)
+
+    def pair_after(self, pair: BodyPair, step: Vector) -> Pair:
+        """The same with the first body moved on by this."""
+        a, b = self.placed[pair[0]], self.placed[pair[1]]
+        moved = PlacedBody(translated(a.body, step), a.shared)
+        return Pair(moved, b, self.settings, self.pair(pair).asked, self._meter)
 
     def clearance(self, pair: BodyPair) -> float:
         return self._planner.asked(*self._members(pair)).clearance or 0.0
+
+    def is_limited(self, pair: BodyPair) -> bool:
+        """Whether the bodies may overlap, within limits."""
+        return self._planner.asked(*self._members(pair)).limited
 
     def is_asked(self, pair: BodyPair) -> bool:
         return self._roster.book.is_asked(*self._members(pair))
@@ -150,7 +162,7 @@ class Crowd:
         return known is not None and all(known[k] is self.placed[pair[k]] for k in range(2))
 
     def _in_parallel(self, pairs: Sequence[BodyPair]) -> Iterable[Opinion]:
-        threads = min(self._asked.jobs or os.cpu_count() or 1, len(pairs))
+        threads = min(self.settings.jobs or os.cpu_count() or 1, len(pairs))
         if threads <= 1:
             return map(self._opinion, pairs)
         with ThreadPoolExecutor(threads) as pool:
@@ -171,7 +183,7 @@ class Crowd:
         if at_home or pair in self._excused:
             asked = self._planner.asked(*self._members(pair))
             found = examine(replace(strict, asked=asked), Plan())
-            objected = is_objected(found, self._asked.fail_on)
+            objected = is_objected(found, self.settings.fail_on)
             if not objected and found.relation != "indeterminate":
                 return Opinion("free", excused=is_overlap_excused(found))
             return opinion_of(strict, found)

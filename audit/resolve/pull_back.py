@@ -12,6 +12,8 @@ import math
 from collections.abc import Collection
 
 from satcheck.audit.boxes import Box, largest_coordinate
+from satcheck.audit.finding import examine
+from satcheck.audit.plan import Plan
 from satcheck.audit.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.islands import islands
@@ -20,24 +22,28 @@ from satcheck.audit.resolve.opinion import may_overlap
 from satcheck.audit.resolve.separation import separation
 from satcheck.audit.resolve.wall import BodyPair, Wall
 from satcheck.audit.tolerances import rounding_pad
-from satcheck.audit.vectors import added, dot, scaled
+from satcheck.audit.vectors import added, dot, scaled, unit
 
 STEPS = 8
 HALVINGS = 2
 # A step that gains less of the sum of squares than this share is not worth it.
 LEAST_GAIN = 1e-3
+# The same where few bodies overlap. There bodies that touch are also asked which way they hold each
+# other, at this share of their way back.
+CAREFUL_STEPS, CAREFUL_HALVINGS, CAREFUL_GAIN = 24, 6, 1e-5
+STEP_BACK = 1e-2
 
 Offsets = dict[int, Vector]
 
 
 def pull_back(crowd: Crowd, left: Collection[BodyPair]) -> None:
     """Move the bodies closer to home. left: pairs that may overlap; no others do."""
-    for _ in range(STEPS):
+    for _ in range(CAREFUL_STEPS if crowd.careful else STEPS):
         start, before = dict(enumerate(crowd.offsets)), _squares(crowd)
         if before == 0:
             return
         _step(crowd, left)
-        if before - _squares(crowd) < LEAST_GAIN * before:
+        if before - _squares(crowd) < _least_gain(crowd) * before:
             crowd.move(start)
             return
 
@@ -48,10 +54,29 @@ def walled(crowd: Crowd, pair: BodyPair) -> Wall | None:
     asked = crowd.pair(pair)
     found = separation(asked)
     if found is None:
-        return None
+        return _wall_of_contact(crowd, pair) if crowd.careful else None
     normal, gap = found
     room = max(0.0, gap - crowd.clearance(pair) + may_overlap(asked))
     return Wall(*pair, normal, dot(normal, crowd.offset(pair)) - room)
+
+
+def _wall_of_contact(crowd: Crowd, pair: BodyPair) -> Wall | None:
+    """Of bodies that touch, whose nearest points have no direction: what a small step back home is
+    stopped by, or how far apart they are there."""
+    there = crowd.offset(pair)
+    if not any(there):
+        return None
+    back = crowd.pair_after(pair, scaled(there, -STEP_BACK))
+    way = examine(back, Plan()).mtv
+    if way is not None and any(way):
+        normal, gap = unit(way), -math.hypot(*way)
+    else:
+        found = separation(back)
+        if found is None:
+            return None
+        normal, gap = found
+    along = dot(normal, there)
+    return Wall(*pair, normal, min(along, along * (1 - STEP_BACK) - gap))
 
 
 def swept(start: Box, end: Box) -> Box:
@@ -59,6 +84,10 @@ def swept(start: Box, end: Box) -> Box:
     low = tuple(min(a, b) for a, b in zip(start[0], end[0], strict=True))
     high = tuple(max(a, b) for a, b in zip(start[1], end[1], strict=True))
     return low, high  # type: ignore[return-value]
+
+
+def _least_gain(crowd: Crowd) -> float:
+    return CAREFUL_GAIN if crowd.careful else LEAST_GAIN
 
 
 def _squares(crowd: Crowd) -> float:
@@ -70,6 +99,7 @@ def _step(crowd: Crowd, left: Collection[BodyPair]) -> None:
     groups = _groups(crowd, left)
     member = {body: number for number, group in enumerate(groups) for body in group}
     share = [1.0] * len(groups)
+    halvings = CAREFUL_HALVINGS if crowd.careful else HALVINGS
     while True:
         crowd.move(
             {
@@ -88,7 +118,7 @@ def _step(crowd: Crowd, left: Collection[BodyPair]) -> None:
         if not met:
             return
         for number in met:
-            share[number] = share[number] / 2 if share[number] > 0.5**HALVINGS else 0.0
+            share[number] = share[number] / 2 if share[number] > 0.5**halvings else 0.0
 
 
 def _between(start: Vector, end: Vector, share: float) -> Vector:
@@ -113,7 +143,7 @@ def _groups(crowd: Crowd, left: Collection[BodyPair]) -> list[Offsets]:
 
 def _is_worth_it(crowd: Crowd, group: Offsets) -> bool:
     before = math.fsum(dot(crowd.offsets[body], crowd.offsets[body]) for body in group)
-    return math.fsum(dot(t, t) for t in group.values()) < (1 - LEAST_GAIN) * before
+    return math.fsum(dot(t, t) for t in group.values()) < (1 - _least_gain(crowd)) * before
 
 
 def _walls(crowd: Crowd, left: Collection[BodyPair]) -> tuple[list[Wall], Offsets]:

@@ -13,6 +13,7 @@ from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
 from satcheck.audit.resolve.pull_back import pull_back
 from satcheck.audit.resolve.reasons import left_pairs, reasons
 from satcheck.audit.resolve.resolution import Move, Resolution
+from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import dot
@@ -61,13 +62,18 @@ def resolve(
     with ExitStack() as stack:
         meter = stack.enter_context(volume_meter(settings)) if _limits_volume(scene) else None
         crowd = Crowd(scene, settings, staying, meter)
-        kinds = Counter(said.kind for said in crowd.opinions(crowd.close_pairs()).values())
-        few = kinds["overlap"] + kinds["near"] <= FEW
+        before = crowd.opinions(crowd.close_pairs())
+        overlaps = [pair for pair, said in before.items() if said.kind in ("overlap", "near")]
+        kinds = Counter(said.kind for said in before.values())
+        few = len(overlaps) <= FEW
         if few:
             crowd.look_closely(kinds["overlap"])
             crowd.opinions(crowd.close_pairs())
         crowd.settle()
-        rounds = _shortest(crowd, few, max_motion or math.inf, iterations, progress)
+        longest = max_motion or math.inf
+        rounds = _shortest(crowd, few, longest, iterations, progress)
+        if few and not rounds.left:
+            retry(crowd, overlaps, longest, iterations)
         why = reasons(crowd, staying, rounds.left)
     moves = _moves(scene, crowd)
     moved = moved_scene(scene, {move.body: move.translation for move in moves})

@@ -18,6 +18,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 
 from satcheck.audit.boxes import largest_coordinate
+from satcheck.audit.pair import Pair
 from satcheck.audit.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.free_slot import Slots
@@ -29,6 +30,7 @@ from satcheck.audit.resolve.separation import longer, out_of_hull
 from satcheck.audit.resolve.wall import BodyPair, Wall
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, dot, scaled, unit
+from satcheck.audit.verify import FREE, relation_after
 
 # After so many rounds in which a pair overlaps, one wall between its hulls takes the place of all,
 # if the way out of these is not much longer. After so many, one of its bodies is taken out.
@@ -44,8 +46,10 @@ CANDIDATES = 2
 REPAIR_SHARE = 1e-5
 REPAIR_GROWTH = 4.0
 REPAIRS = 16
-# Up to this share of the coordinates a wall is kept.
+# Up to this share of the coordinates a wall is kept. It is raised in so many steps, from rounding
+# on, each REPAIR_GROWTH times the last.
 ROUNDING_SHARE = 1e-9
+ROUNDING_STEPS = 8
 
 AXES: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
@@ -126,7 +130,8 @@ class Rounds:
         conflicts = []
         for island in islands(self.walls, crowd.movable):
             bodies = {body for wall in island for body in (wall.a, wall.b)}
-            found = least_motion(island, dict.fromkeys(bodies - crowd.movable, ORIGIN))
+            held = {body: crowd.offsets[body] for body in bodies - crowd.movable}
+            found = least_motion(island, held)
             blamed = found.broken or self._too_hard(island, found.offsets)
             if blamed:
                 conflicts.append(list(blamed))
@@ -169,6 +174,8 @@ class Rounds:
         if push is None or not any(push):
             return False
         walls, length = self._walls.get(pair, []), math.hypot(*push)
+        if pair not in self._locked and self._raised(pair, walls):
+            return True
         if walls and length < REPAIR_SHARE * size:
             more = (length + rounding_pad(size)) * REPAIR_GROWTH ** self._repairs[pair]
             self._repairs[pair] += 1
@@ -192,6 +199,24 @@ class Rounds:
             kept = [wall for wall in walls if wall.slack(there) >= -ROUNDING_SHARE * size]
             self._walls[pair] = [*kept, self._wall(pair, push)]
         return self._seen[pair] <= PATIENCE
+
+    def _raised(self, pair: BodyPair, walls: Sequence[Wall]) -> bool:
+        """Whether the overlap is one of rounding: the bodies keep their walls, and are free when
+        one of these is raised by very little, as it then is."""
+        crowd, there, size = self._crowd, self._crowd.offset(pair), self._size(pair)
+        asked = crowd.pair(pair)
+        if asked.asked.limited or asked.asked.clearance or self._repairs[pair] > REPAIRS:
+            return False
+        if any(wall.slack(there) < -ROUNDING_SHARE * size for wall in walls):
+            return False
+        steps = [rounding_pad(size) * REPAIR_GROWTH**k for k in range(ROUNDING_STEPS)]
+        for wall in reversed(walls):
+            if _is_free_after(asked, wall.normal, steps[-1]):
+                least = next(s for s in steps if _is_free_after(asked, wall.normal, s))
+                wall.least += least * REPAIR_GROWTH ** self._repairs[pair]
+                self._repairs[pair] += 1
+                return True
+        return False
 
     def _wall(self, pair: BodyPair, push: Vector) -> Wall:
         normal = unit(push)
@@ -217,9 +242,13 @@ class Rounds:
         if not ways:
             return ()
         way, i = min(ways, key=lambda found: math.hypot(*found[0]))
+        self.put(i, way)
+        return (i,)
+
+    def put(self, i: int, way: Vector) -> None:
+        """Move the body there, and keep it from all that is on its way home."""
         self._crowd.move({i: way})
         self._wall_in(i)
-        return (i,)
 
     def _give_up(self, pair: BodyPair) -> None:
         self.left[pair] = "no free place was found within the longest motion allowed"
@@ -257,6 +286,10 @@ class Rounds:
             taken.update(out)
             if not out:
                 self._give_up(pair)
+
+
+def _is_free_after(pair: Pair, normal: Vector, length: float) -> bool:
+    return relation_after(pair, scaled(normal, length)) in FREE
 
 
 def _deepest(overlaps: dict[BodyPair, Opinion]) -> dict[BodyPair, Opinion]:
