@@ -464,8 +464,8 @@ def test_a_finger_leaves_what_it_presses_and_the_others_make_room() -> None:
 
 
 def test_a_body_goes_first_where_that_is_shorter(tmp_path) -> None:
-    """A box with four around it, each 0.2 in it sideways and 0.3 from below. Pushed aside each moves
-    by 0.2; up is longer, but one goes for all: s^2 + 4 (0.3 - s)^2 is least at 0.24."""
+    """Four boxes are 0.2 in the one between them sideways, 0.3 from below. Aside each moves by
+    0.2; up is longer, but one goes for all: s^2 + 4 (0.3 - s)^2 is least at 0.24."""
     boxes = {"box": unit_at(0)}
     for k, (x, y) in enumerate([(0.8, 0.3), (-0.8, 0.3), (0.3, 0.8), (0.3, -0.8)]):
         width = (1.0, 0.4) if k < 2 else (0.4, 1.0)
