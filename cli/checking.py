@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.cli.posing import Posing
     from satcheck.scene import Scene
-    from satcheck.scene.loader import Split
+    from satcheck.scene.scene_builder import Split
     from satcheck.scene.units import Length
 
 # With -o at most this many warnings are repeated on stderr.

@@ -17,7 +17,7 @@ import click
 UNBOUNDED_WIDTH = 100_000
 # A reader that left early: EPIPE, and EINVAL as Windows calls it.
 _READER_LEFT = (errno.EPIPE, errno.EINVAL)
-_COLOUR = re.compile(r"(\x1b\[[0-9;]*m)")
+_COLOUR = r"(\x1b\[[0-9;]*m)"  # few calls need it: compiled at its first use
 
 
 class Page(NamedTuple):
@@ -107,7 +107,7 @@ def harmless(line: str, *, colour: bool = False) -> str:
     wanted: names of bodies and files can hold any character, and must not rewrite a verdict."""
     if line.isprintable():
         return line
-    pieces = _COLOUR.split(line) if colour else [line]
+    pieces = re.split(_COLOUR, line) if colour else [line]
     return "".join(
         piece
         if number % 2

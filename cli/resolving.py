@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from satcheck.audit.resolve import Resolution
     from satcheck.cli.output import Page
     from satcheck.scene import Scene
-    from satcheck.scene.loader import Split
+    from satcheck.scene.scene_builder import Split
     from satcheck.scene.units import Length
 
 SCENE_SUFFIXES = frozenset({".json", ".toml"})

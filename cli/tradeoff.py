@@ -16,7 +16,7 @@ from satcheck.core.frozen import frozen
 if TYPE_CHECKING:
     from satcheck.audit.tradeoff import Tradeoff
     from satcheck.cli.output import Page
-    from satcheck.scene.loader import Split
+    from satcheck.scene.scene_builder import Split
 
 PLOTS = (".svg", ".png", ".html")
 

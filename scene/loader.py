@@ -4,32 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
 
-from satcheck.core.frozen import replace
-from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
-from satcheck.scene.errors import MeshFileError
-from satcheck.scene.file_facts import common_units, issues_of_files, units_differ
-from satcheck.scene.issue import Issue, issue
+from satcheck.scene.bodies import Scene
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
     MeshFiles,
 )
-from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames, plain_ids
-
-if TYPE_CHECKING:
-    from satcheck.scene.format.entries import BodyEntry, MeshPath
-    from satcheck.scene.format.joined import JoinedScenes
-    from satcheck.scene.primitives import Primitive
-    from satcheck.scene.robot import SceneRobot, Srdf
-
-Split = Literal["nodes", "components", "none"]
+from satcheck.scene.plain_ids import plain_ids
+from satcheck.scene.scene_builder import SceneBuilder, Split
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
 ROBOT_SUFFIXES = frozenset((".urdf", ".xacro"))
 SRDF_SUFFIX = ".srdf"
-ROBOT_UNITS = "m"  # of every URDF
 
 
 def load_scene(
@@ -63,7 +50,7 @@ def load_scene(
     the rest still loads. Raises SceneFileError for a scene file or a robot that is wrong in itself.
     """
     files = MeshFiles(seconds_per_file, megabytes_per_file, allow_outside=allow_outside)
-    loader = _Loader(files)
+    builder = SceneBuilder(files)
     given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
     alone = len(given) == 1
@@ -74,16 +61,16 @@ def load_scene(
     for path in given:
         suffix = _suffix(path)
         if suffix in SCENE_SUFFIXES:
-            loader.add_scene(path, Path(path), allow_outside)
+            builder.add_scene(path, Path(path), allow_outside)
         elif suffix in ROBOT_SUFFIXES:
-            loader.add_robot(path, Path(path), packages, allow_outside)
+            builder.add_robot(path, Path(path), packages, allow_outside)
         elif suffix == SRDF_SUFFIX:
-            loader.add_srdf(path, Path(path))
+            builder.add_srdf(path, Path(path))
         elif split == "none":
-            loader.add_mesh(next(ids), path, Path(path))
+            builder.add_mesh(next(ids), path, Path(path))
         else:
-            loader.add_nodes(next(ids), path, Path(path), split, alone)
-    return loader.scene()
+            builder.add_nodes(next(ids), path, Path(path), split, alone)
+    return builder.scene()
 
 
 def _suffix(path: str) -> str:
@@ -93,221 +80,3 @@ def _suffix(path: str) -> str:
 def is_mesh(path: str) -> bool:
     """Whether it is to be read as a mesh file, and not as a scene or a robot."""
     return _suffix(path) not in {SRDF_SUFFIX, *SCENE_SUFFIXES, *ROBOT_SUFFIXES}
-
-
-class _Loader:
-    def __init__(self, files: MeshFiles) -> None:
-        self._files = files
-        self._ids = UniqueNames()
-        self._order: list[str] = []
-        self._names: list[str] = []
-        self._units: dict[str, str | None] = {}  # of the inputs, by their paths
-        self._only_meshes = True
-        self._bodies: list[Body] = []
-        self._unreadable: list[Unreadable] = []
-        self._scenes: JoinedScenes | None = None
-        self._taken_apart = False
-        self._robots: list[SceneRobot] = []
-        self._srdfs: list[Srdf] = []
-        self._issues: list[Issue] = []
-
-    def add_mesh(self, id_: str, path: str, location: Path) -> None:
-        name = location.stem or path
-        self._names.append(name)
-        file = self._files.whole(path, location)
-        if isinstance(file, MeshFile):
-            self._units[path] = file.units
-        self._add(id_, name, path, file, None)
-
-    def add_nodes(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
-        """alone: the paths of nodes need nothing before them to be ids."""
-        name = location.stem or path
-        self._names.append(name)
-        found = self._files.nodes(path, location, components=split == "components")
-        if isinstance(found, MeshFileError):
-            self._add(id_, name, path, found, None)
-            return
-        self._issues.extend(found.issues)
-        self._taken_apart |= len(found.nodes) > 1
-        for node in found.nodes:
-            wanted = _node_id(node.path, id_, alone)
-            title = wanted if node.path else name
-            if isinstance(node.file, MeshFile):
-                self._units[path] = node.file.units
-            self._add(wanted, title, path, node.file, node.transform, node=node.path)
-
-    def add_scene(self, path: str, location: Path, allow_outside: bool) -> None:
-        from satcheck.scene.format.joined import JoinedScenes
-        from satcheck.scene.format.reading import read_scene_file
-
-        scene = read_scene_file(path, location, allow_outside=allow_outside)
-        self._names.append(scene.name)
-        self._only_meshes = False
-        if scene.units or scene.bodies:
-            self._units[path] = scene.units
-        self._scenes = self._scenes or JoinedScenes()
-        groups = self._scenes.groups_of(scene)
-        ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
-        self._scenes.add(scene, ids, groups)
-        self._issues.extend(scene.issues)
-
-    def _add_entry(self, entry: BodyEntry, names: Mapping[str, str], path: str) -> str:
-        """names: of its groups here. path: of the scene file."""
-        file: MeshFile | MeshFileError
-        transform = entry.transform
-        if entry.shape is not None:
-            file = self._files.shape(entry.shape, path)
-        else:
-            path = entry.mesh.path
-            if entry.part is None:
-                file = self._files.whole(path, entry.mesh.location)
-            else:
-                file, transform = self._part(entry.mesh, entry.part, transform)
-        return self._add(
-            entry.id,
-            entry.id,
-            path,
-            file,
-            transform,
-            tuple(names[group] for group in entry.groups),
-            entry.static,
-            entry.shape,
-            entry.part,
-            entry.pinned,
-        )
-
-    def _part(
-        self, mesh: MeshPath, part: str, transform: Transform | None
-    ) -> tuple[MeshFile | MeshFileError, Transform | None]:
-        """The part, and where it is when the file is placed by the transform."""
-        from satcheck.scene.loading.placing import multiply
-
-        found = self._files.part(mesh.path, mesh.location, part)
-        if isinstance(found, MeshFileError):
-            return found, None
-        return found.file, multiply(transform, found.transform)
-
-    def _add_body(
-        self,
-        wanted: str,
-        name: str,
-        path: str,
-        location: Path,
-        transform: tuple[float, ...] | None,
-        groups: tuple[str, ...],
-        static: bool,
-    ) -> str:
-        file = self._files.whole(path, location)
-        return self._add(wanted, name, path, file, transform, groups, static)
-
-    def add_robot(
-        self,
-        path: str,
-        location: Path,
-        packages: Mapping[str, str | Path] | None,
-        allow_outside: bool,
-    ) -> None:
-        from satcheck.scene.robot import (
-            MeshPlaces,
-            RobotBody,
-            SceneRobot,
-            bare_links,
-            parts_of,
-            read_urdf,
-        )
-
-        robot, issues = read_urdf(path, location)
-        self._names.append(robot.name)
-        self._only_meshes = False
-        self._units[path] = ROBOT_UNITS
-        self._issues += [*issues, *bare_links(robot)]
-        bodies = []
-        for part in parts_of(robot, MeshPlaces(path, packages, allow_outside=allow_outside)):
-            if isinstance(part.source, Path):
-                place = part.source.as_posix()
-                id_ = self._add_body(part.id, part.id, place, part.source, part.offset, (), False)
-            elif isinstance(part.source, MeshFileError):
-                id_ = self._add(part.id, part.id, path, part.source, part.offset)
-            else:
-                file = self._files.shape(part.source, path)
-                id_ = self._add(part.id, part.id, path, file, part.offset, shape=part.source)
-            bodies.append(RobotBody(id_, part.link, part.offset))
-        self._robots.append(SceneRobot(robot, tuple(bodies)))
-
-    def add_srdf(self, path: str, location: Path) -> None:
-        from satcheck.scene.robot import read_srdf
-
-        self._srdfs.append(read_srdf(path, location))
-
-    def _add(
-        self,
-        wanted: str,
-        name: str,
-        path: str,
-        file: MeshFile | MeshFileError,
-        transform: Transform | None,
-        groups: tuple[str, ...] = (),
-        static: bool = False,
-        shape: Primitive | None = None,
-        node: str | None = None,
-        pinned: bool = False,
-    ) -> str:
-        id_ = self._ids.unique(wanted)
-        self._order.append(id_)
-        if isinstance(file, MeshFile):
-            self._bodies.append(
-                Body(id_, name, file, transform, groups, static, shape, node, pinned)
-            )
-        else:
-            reason = issue(file.code, str(file), body=id_, file=path)
-            self._unreadable.append(Unreadable(id_, path, reason, groups, node, static))
-        return id_
-
-    def scene(self) -> Scene:
-        scene = self._bodies_and_files()
-        if not self._robots and not self._srdfs:
-            return scene
-        from satcheck.scene.robot import permissions, posed, with_srdfs
-
-        robots = with_srdfs(self._robots, self._srdfs)
-        allowed, issues = [], list(scene.issues)
-        for robot in robots:
-            permitted, found = permissions(robot)
-            allowed += permitted
-            issues += found
-        scene = replace(
-            scene,
-            robots=tuple(robots),
-            rules=(*allowed, *scene.rules),  # so that a rule can take a permission back
-            issues=tuple(issues),
-        )
-        return posed(scene, {})
-
-    def _bodies_and_files(self) -> Scene:
-        scenes, differ = self._scenes, units_differ(self._units)
-        return Scene(
-            name=" ".join(self._names),
-            units=common_units(self._units, labelled=not self._only_meshes),
-            bodies=tuple(self._bodies),
-            unreadable=tuple(self._unreadable),
-            order=tuple(self._order),
-            ignore_within_groups=frozenset(scenes.ignored if scenes else ()),
-            rules=scenes.rules([*self._bodies, *self._unreadable]) if scenes else (),
-            check_static=scenes is None or scenes.check_static,
-            motions=tuple(scenes.motions if scenes else ()),
-            composed=self._taken_apart or not self._only_meshes,
-            issues=(
-                *self._issues,
-                *(lost.issue for lost in self._unreadable),
-                *issues_of_files(self._bodies),
-                *([differ] if differ else ()),
-            ),
-        )
-
-
-def _node_id(path: str | None, file_id: str, alone: bool) -> str:
-    if path is None:
-        return file_id
-    if path.startswith(COMPONENT_MARK):  # of a file without nodes
-        return file_id + path
-    return path if alone else f"{file_id}/{path}"

@@ -23,9 +23,10 @@ KEYS = ("allowed", "max_volume", "severity", *LENGTHS)
 
 GROUP = "group:"
 # What a glob can mean by one text alone: no wildcard, or each in brackets of its own.
-_LITERAL = re.compile(r"(?:[^*?\[]|\[[^]!]\])*")
-_BRACKETED = re.compile(r"\[(.)\]", re.DOTALL)
-_SPECIAL = re.compile(r"[*?\[]")
+# Compiled at their first use: most scenes have no rules.
+_LITERAL = r"(?:[^*?\[]|\[[^]!]\])*"
+_BRACKETED = r"(?s)\[(.)\]"
+_SPECIAL = r"[*?\[]"
 
 
 @frozen
@@ -45,7 +46,7 @@ class Selector:
     @classmethod
     def exactly(cls, body: str) -> Selector:
         """The selector of this one id, whatever characters it is made of."""
-        text = _SPECIAL.sub(r"[\g<0>]", body)
+        text = re.sub(_SPECIAL, r"[\g<0>]", body)
         return cls(f"[g]{text[1:]}" if text.startswith(GROUP) else text)
 
     @property
@@ -59,7 +60,8 @@ class Selector:
     @property
     def only(self) -> str | None:
         """The one id or group that the glob can match; None if it may be several."""
-        return _BRACKETED.sub(r"\1", self.glob) if _LITERAL.fullmatch(self.glob) else None
+        glob = self.glob
+        return re.sub(_BRACKETED, r"\1", glob) if re.fullmatch(_LITERAL, glob) else None
 
     def pattern(self) -> re.Pattern[str]:
         """Matches a name, of a body or of a group, from its beginning to its end."""

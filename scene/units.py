@@ -24,7 +24,8 @@ _SYNONYMS = {
     "feet": "ft",
     "inches": "in",
 }
-_LENGTH = re.compile(r"\s*(\+?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*", re.ASCII)
+# Few calls need it: compiled at its first use.
+_LENGTH = r"\s*(\+?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*"
 
 
 @frozen
@@ -50,7 +51,7 @@ class Length:
 
 def parse_length(text: str) -> Length:
     """`0.5` or `2mm`; ValueError for what is not a length."""
-    found = _LENGTH.fullmatch(text)
+    found = re.fullmatch(_LENGTH, text, re.ASCII)
     digits, suffix = found.groups() if found else ("nan", "")
     number, suffix = float(digits), suffix.lower()
     if not math.isfinite(number) or (suffix and suffix not in MICROMETRES):

@@ -17,7 +17,7 @@ from satcheck.scene.loading.regular_file import size_of
 TOML_SUFFIX = ".toml"
 
 _MAX_BYTES = 256 << 20  # a million bodies
-_TOML_PLACE = re.compile(r"(.*) \(at (?:line (\d+), column \d+|end of document)\)", re.DOTALL)
+_TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
 
 
 class Parsed:
@@ -86,7 +86,7 @@ def _toml(path: str, text: str) -> Any:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        found = _TOML_PLACE.fullmatch(str(error))
+        found = re.fullmatch(_TOML_PLACE, str(error))
         reason, line = found.groups() if found else (str(error), None)
         line = int(line or len(text.splitlines()))
         message = f"not well-formed TOML: {reason}"

@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from satcheck.cli.commands.options import SPLITS
-from satcheck.scene.loader import Split
+from satcheck.scene.scene_builder import Split
 from tests.cli.process import VALIDATOR, satcheck
 from tests.scene import files
 
