@@ -118,7 +118,7 @@ def load(
     allow_outside: bool = False,
 ) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone, and
-    for a split of what says itself what its bodies are."""
+    for a split of what says itself what its bodies are; ClickException where nothing is left."""
     from satcheck.cli.report.words import issue_line
     from satcheck.scene import load_scene
     from satcheck.scene.loader import is_mesh
@@ -130,11 +130,21 @@ def load(
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])
     if len(scene.bodies) + len(scene.unreadable) < 2:
-        hint = "give two or more mesh files, or a scene file"
-        if scene.bodies and split != "components" and is_mesh(paths[0]):
-            hint += "; --split components makes a body of each connected component"
-        raise click.UsageError(f"one body alone cannot collide: {hint}")
+        if scene.unreadable:
+            raise click.ClickException("an input could not be used: there is no pair to check")
+        raise click.UsageError(f"one body alone cannot collide: {_advice(paths[0], split)}")
     return scene
+
+
+def _advice(only: str, split: Split | None) -> str:
+    from satcheck.scene.loader import is_mesh
+
+    if not is_mesh(only):
+        return f"give mesh files beside {only}, or a scene of two bodies"
+    if split == "components":
+        return f"{only} is one connected component"
+    others = "--split components makes a body of each connected component"
+    return f"give two or more mesh files, or a scene file; {others}"
 
 
 def _hint(first: str) -> None:

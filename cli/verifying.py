@@ -64,6 +64,7 @@ def _values(found: Verification) -> dict[str, Any]:
         "accepted": found.accepted and found.certified,
         "findings": [asdict(finding) for finding in found.findings],
         "faults": list(found.faults),
+        "not_certified": list(found.beyond),
         "pruned": found.pruned,
         "exempt": found.exempt,
     }
@@ -73,6 +74,7 @@ def _table(found: Verification) -> str:
     """What was not accepted, line by line, and a sentence about all."""
     lines = [_line(finding) for finding in found.findings if finding.outcome != "accepted"]
     lines += [f"rejected: {fault}" for fault in found.faults]
+    lines += [f"not certified: {what}" for what in found.beyond]
     lines.append(_summary(found))
     return "".join(f"{harmless(line)}\n" for line in lines)
 

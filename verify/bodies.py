@@ -17,7 +17,7 @@ from satcheck.scene.shape_file import shape_file
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
 
-CURVED = "a curved shape, of which no mesh tells the whole: nothing about it is certified"
+CURVED = "a curved shape: certificates speak of meshes alone"
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +90,11 @@ class Bodies:
             found = node if isinstance(node, MeshFileError) else node.file
         if isinstance(found, MeshFileError):
             absent = found.code == "file-not-found"
-            return f"{found}, looked for from {self._root.absolute()} on" if absent else str(found)
+            return (
+                f"{found}, looked for from {self._root.absolute()} on (--root)"
+                if absent
+                else str(found)
+            )
         key = (file, found.part, "")
         if key not in self._shapes:
             self._shapes[key] = _checked_shape(found)

@@ -10,7 +10,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any, Literal
 
-from satcheck.verify.bodies import Bodies, Placed
+from satcheck.verify.bodies import CURVED, Bodies, Placed
 from satcheck.verify.exact import Rejected
 from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
@@ -41,24 +41,33 @@ class Checked:
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """faults: what is wrong with the report as a whole. exempt: pairs whose boxes meet that the
-    report does not claim to have checked, because the scene exempts them. pruned: pairs that are
-    not listed, whose boxes are apart."""
+    """faults: what is wrong with the report as a whole. beyond: what no certificate speaks of.
+    exempt: pairs whose boxes meet that the report does not claim to have checked, because the scene
+    exempts them. pruned: pairs that are not listed, whose boxes are apart. asked: whether the
+    report says that certificates were asked for.
+    """
 
     findings: tuple[Checked, ...]
     faults: tuple[str, ...]
+    beyond: tuple[str, ...]
     pruned: int
     exempt: int
+    asked: bool
 
     @property
     def accepted(self) -> bool:
-        return not self.faults and all(f.outcome in ("accepted", "open") for f in self.findings)
+        settled = all(f.outcome in ("accepted", "open") for f in self.findings)
+        return settled and not self.faults and not self.beyond
 
     @property
     def certified(self) -> bool:
-        """Whether there are certificates, unless none is needed."""
+        """Whether certificates were asked for, or there are some, unless none is needed."""
         outcomes = {f.outcome for f in self.findings}
-        return "not certified" not in outcomes or bool(outcomes & {"accepted", "rejected"})
+        return (
+            self.asked
+            or "not certified" not in outcomes
+            or bool(outcomes & {"accepted", "rejected"})
+        )
 
 
 def verify(
@@ -86,7 +95,14 @@ def verify(
         report.check_summary(pruned)
     except Rejected as why:
         faults.append(str(why))
-    return Verification(tuple(checked), tuple(faults), pruned, exempt)
+    asked, beyond = _asks_for_certificates(document), tuple(report.beyond)
+    return Verification(tuple(checked), tuple(faults), beyond, pruned, exempt, asked)
+
+
+def _asks_for_certificates(document: dict[str, Any]) -> bool:
+    effects = document.get("effects")
+    known = [e for e in effects if isinstance(e, dict)] if isinstance(effects, list) else []
+    return any(e.get("effect") == "certificate" and e.get("asked_by") for e in known)
 
 
 def _list(document: Any, key: str) -> list[Any]:
@@ -118,11 +134,12 @@ class _Report:
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
         self.listed_apart = 0  # of these, pairs that may be apart by their boxes
-        self.faults = [
-            f"{body.id}: {body.reason}" for body in placed if body.claims and body.reason
-        ]
+        self.unlisted_unknown = 0  # of the others, those with a body whose box is not known
+        unplaced = [body for body in placed if body.claims and body.reason]
+        self.faults = [f"{b.id}: {b.reason}" for b in unplaced if b.reason != CURVED]
+        self.beyond = [f"{b.id}: {b.reason}" for b in unplaced if b.reason == CURVED]
         if document.get("motions"):
-            self.faults.append("bodies move: what happens on the way is not certified")
+            self.beyond.append("bodies move: what happens on the way is not certified")
 
     def check(self, entry: Any) -> Checked:
         if not isinstance(entry, dict):
@@ -175,6 +192,8 @@ class _Report:
                 exempted += 1
             elif _boxes_apart(a, b, self.asked_of(a, b)):
                 pruned += 1
+            elif CURVED in (a.reason, b.reason):
+                self.unlisted_unknown += 1
             else:
                 faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
         return pruned, exempted
@@ -190,11 +209,12 @@ class _Report:
             if number(pairs.get(key)) != value:
                 raise Rejected(f"the summary counts {pairs.get(key)!r} pairs as {key}, not {value}")
         said = number(pairs.get("pruned"))
-        if said != pruned and not (pruned == 0 and 0 <= said <= self.listed_apart):
+        unlisted = pruned + self.unlisted_unknown
+        if said != unlisted and not (unlisted == 0 and 0 <= said <= self.listed_apart):
             raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
         if number(pairs.get("decided")) != total - allowed - indeterminate - said:
             raise Rejected("the summary's counts of pairs do not add up")
-        relations["separated"] += pruned
+        relations["separated"] += unlisted
         by_relation = _object(summary, "by_relation")
         if {k: v for k, v in by_relation.items() if v} != {k: v for k, v in relations.items() if v}:
             raise Rejected("the summary's counts by relation are not those of the findings")

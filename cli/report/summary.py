@@ -20,7 +20,7 @@ def summary_line(report: Report) -> str:
     pairs = report.summary.pairs
     bodies = counted(len(report.bodies), "body", "bodies")
     if pairs.total == pairs.allowed:
-        why = "all are allowed by the scene" if pairs.total else "all are within ignored groups"
+        why = "all are allowed by the scene" if pairs.total else _why_none(report)
         line = f"{bodies}, {counted(pairs.total, 'pair')}. No pair was checked: {why}."
         return " ".join([line, *_errors(report)])
     found = _found(report)
@@ -37,6 +37,12 @@ def summary_line(report: Report) -> str:
             *_errors(report),
         ]
     )
+
+
+def _why_none(report: Report) -> str:
+    if report.exempt.groups:
+        return "all are within ignored groups, or of static bodies"
+    return "all bodies are static" if report.exempt.static_pairs else "there is none"
 
 
 def _found(report: Report) -> list[str]:
@@ -102,7 +108,7 @@ def _left_open(report: Report) -> list[str]:
     if moving := report.summary.sweeps_undecided:
         limits.append(f"{counted(moving, 'pair')} may hit while moving")
     if report.summary.verdict == "fail":
-        return [f"{limit}." for limit in limits]
+        return [f"{limit}." for limit in limits] + _why_failed(report)
     if undecided := report.summary.pairs.indeterminate:
         limits.append(
             f"{counted(undecided, 'pair')} {'is' if undecided == 1 else 'are'} indeterminate"
@@ -111,6 +117,17 @@ def _left_open(report: Report) -> list[str]:
         return [f"No collision found, but {' and '.join(limits)}."]
     ruled = any(finding.rule is not None for finding in report.findings)
     return ["No collision beyond what rules allow." if ruled else "No collision."]
+
+
+def _why_failed(report: Report) -> list[str]:
+    """Where no overlap says it: bodies that touch keep no clearance, and notes may be asked for."""
+    if any(_overlaps(finding) for finding in report.findings):
+        return []
+    close = sum(finding.severity == "error" for finding in report.findings)
+    if close:
+        verb = "does" if close == 1 else "do"
+        return [f"{counted(close, 'pair')} {verb} not keep the clearance."]
+    return [f"Failed by --fail-on {report.settings['fail_on']}."]
 
 
 def _cross_check(report: Report) -> list[str]:

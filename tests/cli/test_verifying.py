@@ -27,7 +27,7 @@ def test_paths_start_at_the_root(tmp_path: Path) -> None:
     path = report(tmp_path, *PUSHED)
     elsewhere = satcheck("verify", str(path), cwd=tmp_path)
     assert elsewhere.code == 1
-    assert f"no such file, looked for from {tmp_path} on" in elsewhere.out
+    assert f"no such file, looked for from {tmp_path} on (--root)" in elsewhere.out
     assert satcheck("verify", "--root", str(SAMPLES), str(path), cwd=tmp_path).code == 0
 
 
