@@ -11,7 +11,14 @@ from bench.accuracy import figure_verdicts, words
 from bench.accuracy.reasons import reasons
 from bench.accuracy.rungs import EXACT, PARTS, RungSummary, depth_widths, labels, step
 from bench.accuracy.spread import Spread
-from bench.accuracy.stages import process, settled_by
+from bench.accuracy.stages import (
+    GROUPS,
+    OTHER,
+    StageTimes,
+    process,
+    settled_by,
+    stage_times,
+)
 from bench.accuracy.verdicts import OUTCOMES, agreement
 from satcheck.cli.report.words import counted
 
@@ -144,6 +151,7 @@ def of_the_default(folder: str, records: Sequence[Record]) -> str:
         "bodies into the world, and what a report says of them; triangles: with the tree of boxes "
         "over them, containment and the touch band; depth search: with the first way out, which "
         "the hulls give.",
+        _stages(stage_times(records)),
     ]
     if wall and cpu and memory:
         lines.append(
@@ -154,6 +162,20 @@ def of_the_default(folder: str, records: Sequence[Record]) -> str:
             f"{memory.median:.0f} MiB (most {memory.high:.0f} MiB)."
         )
     return "\n\n".join(lines)
+
+
+def _stages(kinds: Sequence[StageTimes]) -> str:
+    groups = [name for name in (*GROUPS, OTHER) if any(name in kind.shares for kind in kinds)]
+    rows = [
+        [
+            kind.kind,
+            str(kind.pairs),
+            *words.times(kind.total),
+            *(words.percent(kind.shares.get(group, 0.0)) for group in groups),
+        ]
+        for kind in kinds
+    ]
+    return words.table(["", "pairs", "median", "quartiles", "worst", *groups], rows)
 
 
 def of_silence(records: Sequence[Record]) -> str:
