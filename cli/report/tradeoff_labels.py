@@ -9,6 +9,7 @@ Box = tuple[float, float, float, float]
 
 _LETTER, _HEIGHT = 6.3, 13.0  # what a label takes at most
 _REACH = 7.0  # a marker and the air around it
+_AIR = 5.0  # to the left and the right of a label
 _BASELINE = 3.0  # of a label, above its bottom
 
 
@@ -43,7 +44,11 @@ def place(text: str, beside: tuple[float, float, float], taken: Sequence[Box], f
     ]
     boxes = [(x, top, x + wide, top + _HEIGHT) for x, top in corners]
     within = [box for box in boxes if _is_within(box, frame)]
-    return min(within or boxes, key=lambda box: sum(_common(box, other) for other in taken))
+    return min(within or boxes, key=lambda box: sum(_common(_aired(box), one) for one in taken))
+
+
+def _aired(box: Box) -> Box:
+    return box[0] - _AIR, box[1], box[2] + _AIR, box[3]
 
 
 def _is_within(box: Box, frame: Box) -> bool:
