@@ -28,9 +28,12 @@ Dyadic::Dyadic(double value) {
 void Dyadic::trim() {
   while (!limbs_.empty() && limbs_.back() == 0) limbs_.pop_back();
   // Whole zero limbs at the low end carry nothing and would only make later products longer.
-  const auto low = std::find_if(limbs_.begin(), limbs_.end(), [](std::uint32_t l) { return l != 0; });
-  exponent_ += kLimbBits * (low - limbs_.begin());
-  limbs_.erase(limbs_.begin(), low);
+  const Limbs& limbs = limbs_;
+  const auto low = std::find_if(limbs.begin(), limbs.end(), [](std::uint32_t l) { return l != 0; });
+  if (low != limbs_.begin()) {
+    exponent_ += kLimbBits * (low - limbs_.begin());
+    limbs_.drop_front(static_cast<std::size_t>(low - limbs_.begin()));
+  }
   if (limbs_.empty()) {
     negative_ = false;
     exponent_ = 0;
@@ -51,11 +54,12 @@ int Dyadic::compare(const Limbs& a, const Limbs& b) {
   return 0;
 }
 
-Dyadic::Limbs Dyadic::shifted(const Limbs& a, std::int64_t bits) {
+Limbs Dyadic::shifted(const Limbs& a, std::int64_t bits) {
   const auto whole = static_cast<std::size_t>(bits / kLimbBits);
   const int part = static_cast<int>(bits % kLimbBits);
-  Limbs result(whole, 0);
+  Limbs result;
   result.reserve(whole + a.size() + 1);
+  result.append_zeros(whole);
   std::uint64_t carry = 0;
   for (const std::uint32_t limb : a) {
     carry |= static_cast<std::uint64_t>(limb) << part;
@@ -66,24 +70,31 @@ Dyadic::Limbs Dyadic::shifted(const Limbs& a, std::int64_t bits) {
   return result;
 }
 
-Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-  if (a.limbs_.empty()) return b;
+Dyadic operator+(const Dyadic& a, const Dyadic& b) { return Dyadic::sum(a, b, b.negative_); }
+
+Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
   if (b.limbs_.empty()) return a;
+  if (a.limbs_.empty()) {
+    Dyadic result = b;
+    result.negative_ = b_is_negative;
+    return result;
+  }
   Dyadic result;
   result.exponent_ = std::min(a.exponent_, b.exponent_);
-  const Dyadic::Limbs x = Dyadic::shifted(a.limbs_, a.exponent_ - result.exponent_);
-  const Dyadic::Limbs y = Dyadic::shifted(b.limbs_, b.exponent_ - result.exponent_);
-  const int order = Dyadic::compare(x, y);
-  const Dyadic::Limbs& large = order >= 0 ? x : y;
-  const Dyadic::Limbs& small = order >= 0 ? y : x;
-  const bool subtract = a.negative_ != b.negative_;
-  result.negative_ = order >= 0 ? a.negative_ : b.negative_;
-  result.limbs_.reserve(large.size() + 1);
+  const Limbs x = shifted(a.limbs_, a.exponent_ - result.exponent_);
+  const Limbs y = shifted(b.limbs_, b.exponent_ - result.exponent_);
+  const int order = compare(x, y);
+  const Limbs& large = order >= 0 ? x : y;
+  const Limbs& small = order >= 0 ? y : x;
+  const bool subtract = a.negative_ != b_is_negative;
+  result.negative_ = order >= 0 ? a.negative_ : b_is_negative;
+  result.limbs_.append_zeros(large.size());
+  std::uint32_t* digit = result.limbs_.begin();
   std::int64_t carry = 0;
   for (std::size_t i = 0; i < large.size(); ++i) {
     const std::int64_t other = i < small.size() ? small[i] : 0;
     carry += static_cast<std::int64_t>(large[i]) + (subtract ? -other : other);
-    result.limbs_.push_back(static_cast<std::uint32_t>(carry));
+    digit[i] = static_cast<std::uint32_t>(carry);
     carry >>= kLimbBits;  // arithmetic: -1 is a borrow
   }
   if (carry != 0) result.limbs_.push_back(static_cast<std::uint32_t>(carry));
@@ -96,15 +107,18 @@ Dyadic operator*(const Dyadic& a, const Dyadic& b) {
   if (a.limbs_.empty() || b.limbs_.empty()) return result;
   result.negative_ = a.negative_ != b.negative_;
   result.exponent_ = a.exponent_ + b.exponent_;
-  result.limbs_.assign(a.limbs_.size() + b.limbs_.size(), 0);
-  for (std::size_t i = 0; i < a.limbs_.size(); ++i) {
+  const std::size_t count_a = a.limbs_.size(), count_b = b.limbs_.size();
+  result.limbs_.append_zeros(count_a + count_b);
+  const std::uint32_t *x = a.limbs_.begin(), *y = b.limbs_.begin();
+  std::uint32_t* digit = result.limbs_.begin();
+  for (std::size_t i = 0; i < count_a; ++i) {
     std::uint64_t carry = 0;
-    for (std::size_t j = 0; j < b.limbs_.size(); ++j) {
-      carry += static_cast<std::uint64_t>(a.limbs_[i]) * b.limbs_[j] + result.limbs_[i + j];
-      result.limbs_[i + j] = static_cast<std::uint32_t>(carry);
+    for (std::size_t j = 0; j < count_b; ++j) {
+      carry += static_cast<std::uint64_t>(x[i]) * y[j] + digit[i + j];
+      digit[i + j] = static_cast<std::uint32_t>(carry);
       carry >>= kLimbBits;
     }
-    result.limbs_[i + b.limbs_.size()] = static_cast<std::uint32_t>(carry);
+    digit[i + count_b] = static_cast<std::uint32_t>(carry);
   }
   result.trim();
   return result;

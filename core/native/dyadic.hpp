@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+
+#include "limbs.hpp"
 
 namespace satcheck {
 
@@ -15,15 +16,15 @@ class Dyadic {
   Dyadic operator-() const;
 
   friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
-  friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return a + (-b); }
+  friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return sum(a, b, !b.negative_); }
   friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
 
   // numerator / denominator to within 2 ulp; 0 when it underflows.
   friend double rounded_ratio(const Dyadic& numerator, const Dyadic& denominator);
 
  private:
-  using Limbs = std::vector<std::uint32_t>;  // least significant first, no leading zero
-
+  // a + b, where b has the sign that is given.
+  static Dyadic sum(const Dyadic& a, const Dyadic& b, bool b_is_negative);
   static int compare(const Limbs& a, const Limbs& b);
   static Limbs shifted(const Limbs& a, std::int64_t bits);
   void trim();
@@ -32,7 +33,7 @@ class Dyadic {
 
   bool negative_ = false;
   std::int64_t exponent_ = 0;
-  Limbs limbs_;  // empty for zero
+  Limbs limbs_;  // least significant first, no leading zero; empty for zero
 };
 
 }  // namespace satcheck

@@ -101,16 +101,17 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
       .sign();
 }
 
-int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis) {
-  return orientation_2d_at(make_exact_point(a), make_exact_point(b), p, drop_axis);
-}
+namespace {
 
-int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
-  if (is_float64(a) && is_float64(b) && is_float64(c)) {
-    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis);
-  }
+// A point of a plane as float64 knows it.
+struct Known {
+  Vec3 at, error;
+};
+
+// The sign, where float64 can tell; 2 where it cannot.
+int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
   const auto [i, j] = plane_axes(drop_axis);
-  const Vec3 u = b.rounded - a.rounded, v = c.rounded - a.rounded;
+  const Vec3 u = b.at - a.at, v = c.at - a.at;
   const Vec3 eu = a.error + b.error, ev = a.error + c.error;
   const double left = u[i] * v[j], right = u[j] * v[i];
   const auto product_error = [](double x, double ex, double y, double ey) {
@@ -119,9 +120,22 @@ int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint
   const double bound =
       kSlack * (kDeterminantBound * (std::fabs(left) + std::fabs(right)) +
                 product_error(u[i], eu[i], v[j], ev[j]) + product_error(u[j], eu[j], v[i], ev[i]));
-  if (left - right > bound) return 1;
-  if (left - right < -bound) return -1;
-  return area_value(a, b, c, drop_axis).sign();
+  return left - right > bound ? 1 : left - right < -bound ? -1 : 2;
+}
+
+}  // namespace
+
+int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis) {
+  const int sign = filtered_orientation_2d({a, {}}, {b, {}}, {p.rounded, p.error}, drop_axis);
+  return sign != 2 ? sign : orientation_2d_at(make_exact_point(a), make_exact_point(b), p, drop_axis);
+}
+
+int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
+  if (is_float64(a) && is_float64(b) && is_float64(c)) {
+    return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis);
+  }
+  const int sign = filtered_orientation_2d({a.rounded, a.error}, {b.rounded, b.error}, {c.rounded, c.error}, drop_axis);
+  return sign != 2 ? sign : area_value(a, b, c, drop_axis).sign();
 }
 
 Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
