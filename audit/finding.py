@@ -6,7 +6,7 @@ no gap, so it keeps none.
 
 from __future__ import annotations
 
-import hashlib
+from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.contact_report import Contacts
@@ -19,7 +19,6 @@ from satcheck.audit.severity import judged, keeps
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.touch_band import estimate_is_within, move_within
 from satcheck.audit.unseen import unseen_inside, unseen_way_out
-from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.depth import Depth
@@ -30,8 +29,8 @@ ID_DIGITS = 12
 
 def finding_id(a: str, b: str) -> str:
     """Stable for the two bodies, whatever their order, pose or result."""
-    key = "\0".join(sorted((a, b)))
-    return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
+    key = f"{a}\0{b}" if a < b else f"{b}\0{a}"
+    return sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
 
 
 def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
@@ -39,54 +38,61 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     contact = settle(pair, plan, climb)
     gap, unseen = (0.0, 0.0), None
     if contact.relation in OVERLAPS:
-        finding = _overlapping(pair, contact, plan)
-        finding, unseen = _with_way_out_seen(finding, pair, plan)
+        known = _overlapping(pair, contact, plan)
+        unseen = _unseen_way_out(known, pair, plan)
     else:
         measured, unseen = measure_gap(pair, contact, plan), unseen_inside(pair, contact)
         gap = measured.lower, measured.upper
-        finding = _apart(pair, contact, measured, unseen, plan)
-    finding = _with_extras(finding, pair, contact, plan)
-    return judged(finding, pair, gap, unseen is not None)
+        known = _apart(pair, contact, measured, unseen, plan)
+    _add_extras(known, pair, contact, plan)
+    found = judged(known, pair, gap, unseen is not None)
+    known["reason"] = known["reason"] or found.reason
+    return _finding(
+        pair.a.id,
+        pair.b.id,
+        plan,
+        severity=found.severity,
+        rule=found.rule,
+        undecided=found.undecided,
+        **known,
+    )
 
 
-def _with_way_out_seen(finding: Finding, pair: Pair, plan: Plan) -> tuple[Finding, str | None]:
-    """An overlap that is let pass as short, and why that may be no way out of the body."""
-    overlaps = finding.relation in OVERLAPS
+def _unseen_way_out(known: dict[str, Any], pair: Pair, plan: Plan) -> str | None:
+    """Why the way out of an overlap that is let pass as short may be none out of the body: then the
+    reason of the finding, too."""
+    overlaps = known["relation"] in OVERLAPS
     if overlaps and not pair.asked.limited:
-        return finding, None
-    unseen = unseen_way_out(pair, (finding.depth or 0.0) if overlaps else pair.tolerance)
-    if unseen is None:
-        return finding, None
-    plan.record("containment", "not checked", unseen)
-    return replace(finding, reason=unseen, plan=tuple(plan.stages)), unseen
+        return None
+    unseen = unseen_way_out(pair, (known.get("depth") or 0.0) if overlaps else pair.tolerance)
+    if unseen is not None:
+        plan.record("containment", "not checked", unseen)
+        known["reason"] = unseen
+    return unseen
 
 
-def _with_extras(finding: Finding, pair: Pair, contact: Contact, plan: Plan) -> Finding:
-    """The finding with what only some ask for."""
+def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan) -> None:
+    """Adds what only some ask for."""
     if pair.curved:
         from satcheck.audit.curved.contact import without_meshes
 
-        return without_meshes(finding, pair, plan)
-    if pair.asked.wants("volume"):
+        known["reason"] = without_meshes(known["reason"], pair, plan)
+        return
+    asked = pair.asked.by
+    if "volume" in asked:
         from satcheck.audit.volume import common_volume
 
         volume = common_volume(pair, contact, plan)
-        finding = replace(
-            finding,
-            volume=volume.volume,
-            volume_error=volume.error,
-            reason=finding.reason or volume.refusal,
-        )
-    if pair.asked.wants("contacts"):
+        known["volume"], known["volume_error"] = volume.volume, volume.error
+        known["reason"] = known["reason"] or volume.refusal
+    if "contacts" in asked:
         from satcheck.audit.contacts import find_contacts
 
-        finding = replace(finding, contacts=find_contacts(pair, contact, plan))
+        known["contacts"] = find_contacts(pair, contact, plan)
     if pair.peers is not None:
         from satcheck.audit.cross_check.opinions import say
 
         say(pair, contact, pair.peers, plan)
-    late = len(plan.stages) > len(finding.plan)
-    return replace(finding, plan=tuple(plan.stages)) if late else finding
 
 
 def apart_by_boxes(pair: Pair) -> Finding:
@@ -97,8 +103,9 @@ def apart_by_boxes(pair: Pair) -> Finding:
     return _finding(
         pair.a.id,
         pair.b.id,
-        "separated",
         plan,
+        relation="separated",
+        severity="none",
         exact_relation="separated",
         quality="exact",
         tolerance=pair.tolerance,
@@ -110,18 +117,18 @@ def apart_by_boxes(pair: Pair) -> Finding:
 
 def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:
     undecided = {"severity": "warning", "undecided": "relation", "reason": reason}
-    return _finding(a, b, "indeterminate", plan, **undecided)
+    return _finding(a, b, plan, relation="indeterminate", **undecided)
 
 
 def _weakness(pair: Pair, contact: Contact) -> str | None:
     """What the answer leaves out; the relation of hulls that are apart leaves out nothing."""
-    hollow = [body.id for body in (pair.a, pair.b) if not body.solid]
     if contact.reason is not None:
         return contact.reason
     if not contact.proven:
         return _unproven(pair) if not pair.may("exact") else "a degenerate contact was sampled"
-    if not hollow or contact.gap_lower > 0:
+    if contact.gap_lower > 0 or pair.both_solid:
         return None
+    hollow = [body.id for body in (pair.a, pair.b) if not body.solid]
     verb = "is no solid" if len(hollow) == 1 else "are no solids"
     return f"surfaces only: {' and '.join(hollow)} {verb}, so containment is not defined"
 
@@ -130,7 +137,7 @@ def _unproven(pair: Pair) -> str:
     return f"not proven at --accuracy {pair.settings.accuracy}"
 
 
-def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
+def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any]:
     shallow, move = _is_shallow(pair, contact, plan), None
     if contact.convex is None and pair.may("exact") and not pair.curved:
         move = move_within(pair, contact, plan)
@@ -142,17 +149,14 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> Finding:
     if pair.asked.clearance is not None and contact.convex is not None:
         signed = contact.convex.distance or 0.0
         figures["distance"] = signed if depth is None else -depth.upper
-    return _finding(
-        pair.a.id,
-        pair.b.id,
-        relation,
-        plan,
-        exact_relation=contact.relation if contact.proven else None,
-        quality=_depth_quality(contact, depth),
-        tolerance=pair.tolerance,
-        reason=_weakness(pair, contact),
+    return {
+        "relation": relation,
+        "exact_relation": contact.relation if contact.proven else None,
+        "quality": _depth_quality(contact, depth),
+        "tolerance": pair.tolerance,
+        "reason": _weakness(pair, contact),
         **figures,
-    )
+    }
 
 
 def _depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Depth | None:
@@ -200,7 +204,9 @@ def _depth_quality(contact: Contact, depth: Depth | None) -> Quality:
     return "bounded"
 
 
-def _apart(pair: Pair, contact: Contact, gap: Gap, unseen: str | None, plan: Plan) -> Finding:
+def _apart(
+    pair: Pair, contact: Contact, gap: Gap, unseen: str | None, plan: Plan
+) -> dict[str, Any]:
     relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
     if gap.most <= _band_with_rounding(pair):
         relation = "touching"
@@ -217,17 +223,14 @@ def _apart(pair: Pair, contact: Contact, gap: Gap, unseen: str | None, plan: Pla
     figures: dict[str, Any] = {}
     if pair.asked.clearance is not None and gap.distance is not None:
         figures = {"distance": gap.distance, "normal": gap.normal, "witness": gap.witness}
-    return _finding(
-        pair.a.id,
-        pair.b.id,
-        relation,
-        plan,
-        exact_relation=contact.relation if contact.proven else None,
-        quality="exact" if proven else "estimate",
-        tolerance=pair.tolerance,
-        reason=reason,
+    return {
+        "relation": relation,
+        "exact_relation": contact.relation if contact.proven else None,
+        "quality": "exact" if proven else "estimate",
+        "tolerance": pair.tolerance,
+        "reason": reason,
         **figures,
-    )
+    }
 
 
 def _open_gap(pair: Pair) -> str:
@@ -236,8 +239,5 @@ def _open_gap(pair: Pair) -> str:
     return "the gap may be wider: the nearest wall has no thickness and may be no part of the body"
 
 
-def _finding(a: str, b: str, relation: Relation, plan: Plan, **known: Any) -> Finding:
-    known.setdefault("severity", "none")
-    return Finding(
-        id=finding_id(a, b), a=a, b=b, relation=relation, plan=tuple(plan.stages), **known
-    )
+def _finding(a: str, b: str, plan: Plan, **known: Any) -> Finding:
+    return Finding(id=finding_id(a, b), a=a, b=b, plan=tuple(plan.stages), **known)

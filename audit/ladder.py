@@ -39,7 +39,8 @@ WORDS_OF_ORIENTED_BOXES: dict[str, tuple[str, str]] = {
     "sheared": ("skipped", "a transform shears: the carried box is no box"),
     "unturned": ("skipped", "neither body is turned: its oriented box is its world box"),
 }
-# Places in the times of a climb.
+# Nanoseconds of a climb, and the places of its rungs in them.
+Costs = tuple[int, ...]
 BOXES, ORIENTED, HULLS, NESTING, TRIANGLES, BAND = range(6)
 
 
@@ -80,14 +81,15 @@ def settle(pair: Pair, plan: Plan, found: core.Climb | None = None) -> Contact:
 
 
 def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
-    gap = _boxes(plan, found)
+    cost = found.nanoseconds
+    gap = _boxes(plan, found, cost)
     if gap > pair.asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
     if pair.curved:
         from satcheck.audit.curved.contact import settle_curved
 
         return settle_curved(pair, plan) if pair.may("hull") else _apart_or_guess(gap)
-    if _oriented_boxes_apart(plan, found):
+    if _oriented_boxes_apart(plan, found, cost):
         return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
     if not pair.may("hull"):
         return _apart_or_guess(gap)
@@ -95,11 +97,12 @@ def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
         if _outlines_apart(pair, plan):
             return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
         found = climb(pair, "hull")
-    contact = _convex(plan, found) if found.both_convex else _hulls(plan, found, gap)
+        cost = found.nanoseconds
+    contact = _convex(plan, found, cost) if found.both_convex else _hulls(plan, found, cost, gap)
     if contact is not None:
         return contact
     if pair.may("exact"):
-        return _triangles(plan, found)
+        return _triangles(plan, found, cost)
     if pair.may("parts"):
         from satcheck.audit.parts_only import settle_by_parts
 
@@ -118,9 +121,10 @@ def boxes_apart(pair: Pair, plan: Plan) -> float:
     return gap
 
 
-def _boxes(plan: Plan, found: core.Climb) -> float:
-    plan.add("aabb", *_words_of_boxes(found.box_gap), found.nanoseconds[BOXES])
-    return found.box_gap
+def _boxes(plan: Plan, found: core.Climb, cost: Costs) -> float:
+    gap = found.box_gap
+    plan.add("aabb", *_words_of_boxes(gap), cost[BOXES])
+    return gap
 
 
 def _words_of_boxes(gap: float) -> tuple[str, str]:
@@ -129,11 +133,12 @@ def _words_of_boxes(gap: float) -> tuple[str, str]:
     return "meet", "world boxes meet"
 
 
-def _oriented_boxes_apart(plan: Plan, found: core.Climb) -> bool:
+def _oriented_boxes_apart(plan: Plan, found: core.Climb, cost: Costs) -> bool:
     """Whether the files' own boxes, placed, are apart by more than was asked about."""
-    result, detail = WORDS_OF_ORIENTED_BOXES[found.boxes]
-    apart = found.boxes == "apart"
-    plan.add("obb", result, found.box_feature if apart else detail, found.nanoseconds[ORIENTED])
+    boxes = found.boxes
+    result, detail = WORDS_OF_ORIENTED_BOXES[boxes]
+    apart = boxes == "apart"
+    plan.add("obb", result, found.box_feature if apart else detail, cost[ORIENTED])
     return apart
 
 
@@ -162,17 +167,17 @@ def _asked(result: T | None) -> T:
     return result
 
 
-def _convex(plan: Plan, found: core.Climb) -> Contact | None:
+def _convex(plan: Plan, found: core.Climb, cost: Costs) -> Contact | None:
     """Everything about two convex bodies; None when the solver could not decide."""
     result = _asked(found.hulls)
     detail = f"both convex: {result.method} {result.feature}".rstrip()
-    plan.add("hull", result.outcome, detail, found.nanoseconds[HULLS])
+    plan.add("hull", result.outcome, detail, cost[HULLS])
     if result.outcome == "undecided":
         return None
     relation = RELATION_NAMED[result.outcome]
     if found.nesting is not None:
         detail = "one world box holds the other"
-        plan.add("containment", found.nesting, detail, found.nanoseconds[NESTING])
+        plan.add("containment", found.nesting, detail, cost[NESTING])
         # The surfaces differ from the hulls by the rounding of the pose: a relation without a
         # common interior can then only mean a graze, which the hulls have already settled.
         if found.nesting in ("contains", "inside", "coincident"):
@@ -180,33 +185,35 @@ def _convex(plan: Plan, found: core.Climb) -> Contact | None:
     return Contact(relation, True, max(result.lower or 0.0, 0.0), result, climb=found)
 
 
-def _hulls(plan: Plan, found: core.Climb, box_lower: float) -> Contact | None:
+def _hulls(plan: Plan, found: core.Climb, cost: Costs, box_lower: float) -> Contact | None:
     """Apart, if the hulls of the whole meshes are; None otherwise."""
     result = _asked(found.hulls)
     if result.outcome != "separated":
         outcome = "undecided" if result.outcome == "undecided" else "meet"
         detail = "not both convex: hulls prove only separation"
-        plan.add("hull", outcome, detail, found.nanoseconds[HULLS])
+        plan.add("hull", outcome, detail, cost[HULLS])
         return None
     lower = max(result.lower or 0.0, box_lower)
     detail = f"hulls apart by at least {lower:.6g}"
-    plan.add("hull", "separated", detail, found.nanoseconds[HULLS])
+    plan.add("hull", "separated", detail, cost[HULLS])
     return Contact("separated", True, lower, climb=found)
 
 
-def _triangles(plan: Plan, found: core.Climb) -> Contact:
+def _triangles(plan: Plan, found: core.Climb, cost: Costs) -> Contact:
     surfaces = _asked(found.triangles)
     detail = f"{surfaces.box_tests} box tests, {surfaces.triangle_tests} triangle tests"
     crossing = None
-    if surfaces.triangle_a >= 0 and surfaces.triangle_b >= 0:
-        crossing = (surfaces.triangle_a, surfaces.triangle_b)
-        detail += f", triangles {surfaces.triangle_a} and {surfaces.triangle_b} meet"
-    if not surfaces.proven:
+    in_a, in_b = surfaces.triangle_a, surfaces.triangle_b
+    if in_a >= 0 and in_b >= 0:
+        crossing = (in_a, in_b)
+        detail += f", triangles {in_a} and {in_b} meet"
+    proven, relation = surfaces.proven, RELATION_NAMED[surfaces.relation]
+    if not proven:
         detail += ", sampled in a degenerate contact"
-    plan.add("triangles", surfaces.relation, detail, found.nanoseconds[TRIANGLES])
+    plan.add("triangles", relation, detail, cost[TRIANGLES])
     return Contact(
-        RELATION_NAMED[surfaces.relation],
-        surfaces.proven,
+        relation,
+        proven,
         crossing=crossing,
         point=surfaces.point,
         climb=found,

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
 
 
+_RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
+
+
 @frozen
 class Pair:
     """tolerance: half width of the touch band, world units.
@@ -45,14 +48,17 @@ class Pair:
 
     def _precision(self) -> float:
         plane = self.settings.planar
-        axes = (0, 1, 2) if plane is None else axes_of(plane)
-        size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
+        if plane is None:
+            size = min(self.a.diagonal, self.b.diagonal)
+        else:
+            axes = axes_of(plane)
+            size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
         written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
         return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""
-        return ACCURACIES.index(rung) <= ACCURACIES.index(self.settings.accuracy)
+        return _RANK[rung] <= _RANK[self.settings.accuracy]
 
     @property
     def asked_gap(self) -> float:

@@ -9,10 +9,11 @@ from threading import Lock, RLock
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
-from satcheck.audit.boxes import Box
+from satcheck.audit.boxes import Box, diagonal, largest_coordinate
 from satcheck.audit.settings import Settings
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.core.frozen import frozen
+from satcheck.scene.bodies import resolution_in_world
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.shape import CurvedShape
@@ -65,8 +66,8 @@ class Work:
 class SharedMesh:
     """What all bodies made of one mesh share, in file coordinates.
 
-    geometry: its tree, its hull, whether it is convex. covers_once(): a solid that covers no point
-    twice, so that its volume is that of its mesh.
+    geometry: its tree, its hull, whether it is convex. largest: coordinate, in size. covers_once():
+    a solid that covers no point twice, so that its volume is that of its mesh.
     """
 
     __slots__ = (
@@ -75,6 +76,7 @@ class SharedMesh:
         "decomposition",
         "file",
         "geometry",
+        "largest",
         "shape",
         "triangles",
     )
@@ -82,6 +84,7 @@ class SharedMesh:
     def __init__(self, file: MeshFile, settings: Settings) -> None:
         self.file = file
         self.triangles = file.mesh.triangle_count
+        self.largest = largest_coordinate(file.mesh.bounds)
         self.geometry = core.Geometry(file.mesh, file.health.solid)
         self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))
@@ -139,7 +142,8 @@ def _checked(body: Body, shared: SharedMesh) -> Placed:
 
 
 class PlacedBody:
-    """World frame. bounds: ((x, y, z), (x, y, z)); resolution: the input precision, world units.
+    """World frame. bounds: ((x, y, z), (x, y, z)), and their diagonal; resolution: the input
+    precision, world units.
 
     curved: the shape, where the body is one; its mesh is then only within it, its bounds around it.
     A scene has many bodies and most are far from each other: what is more than this is made when it
@@ -152,6 +156,7 @@ class PlacedBody:
         "body",
         "bounds",
         "curved",
+        "diagonal",
         "id",
         "resolution",
         "shared",
@@ -167,7 +172,8 @@ class PlacedBody:
         self.curved = _curved(body)
         if self.curved is not None:
             self.bounds = self.curved.bounds()
-        self.resolution = body.resolution_world
+        self.diagonal = diagonal(self.bounds)
+        self.resolution = resolution_in_world(body.file, body.transform, shared.largest)
         self.solid = body.file.health.solid
         self._geometry: core.PlacedGeometry | None = None
         self._checked: Placed | None = None

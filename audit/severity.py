@@ -7,12 +7,13 @@ warning at least, whatever they say.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from math import inf
+from typing import Any
 
 from satcheck.audit.pair import Pair
 from satcheck.audit.planner import Asked
-from satcheck.audit.report import OVERLAPS, SEVERITIES, Finding, Severity, Undecided
+from satcheck.audit.report import OVERLAPS, SEVERITIES, Relation, Severity, Undecided
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.frozen import frozen, replace
 
@@ -31,6 +32,10 @@ class Judgement:
     @property
     def passes(self) -> bool:
         return self.severity in ("note", "none") and self.undecided is None
+
+
+# As a matter of course: an overlap, a touch, and what is no finding.
+_OVERLAP, _TOUCH, _NOTHING = Judgement("error"), Judgement("note"), Judgement("none")
 
 
 def keeps(clearance: float, least: float, most: float) -> bool | None:
@@ -53,34 +58,29 @@ def of_clearance(asked: Asked, least: float, most: float) -> Judgement | None:
     return None if kept else Judgement("error", rule)
 
 
-def judged(finding: Finding, pair: Pair, gap: tuple[float, float], unseen: bool) -> Finding:
-    """The finding with its severity.
+def judged(
+    known: Mapping[str, Any], pair: Pair, gap: tuple[float, float], unseen: bool
+) -> Judgement:
+    """Of a finding, by what is known of it: its fields by name.
 
     gap: proven bounds of the distance of bodies without a common interior beyond the touch band.
     unseen: one body may lie in the other, which has no inside to check, or come to lie there by the
     way out that an overlap is let pass for.
     """
-    asked, found = pair.asked, _found(finding, pair.asked, gap)
-    unseen &= finding.relation not in OVERLAPS or found.passes
+    asked, found = pair.asked, _found(known, pair.asked, gap)
+    unseen &= known["relation"] not in OVERLAPS or found.passes
     if found.severity == "error" and asked.severity is not None:
         found = replace(found, severity=asked.severity, rule=asked.rule("severity"))
-    if unseen:
-        found = _left_open(found, pair.settings.allow_open)
-    reason = finding.reason or found.reason
-    judgement = (found.severity, found.rule, found.undecided, reason)
-    if judgement == (finding.severity, finding.rule, finding.undecided, finding.reason):
-        return finding
-    severity, rule, undecided, reason = judgement
-    return replace(finding, severity=severity, rule=rule, undecided=undecided, reason=reason)
+    return _left_open(found, pair.settings.allow_open) if unseen else found
 
 
-def _found(finding: Finding, asked: Asked, gap: tuple[float, float]) -> Judgement:
-    if finding.relation in OVERLAPS:
-        return _limited(finding, asked) if asked.limited else Judgement("error")
-    if finding.relation == "near":
+def _found(known: Mapping[str, Any], asked: Asked, gap: tuple[float, float]) -> Judgement:
+    relation: Relation = known["relation"]
+    if relation in OVERLAPS:
+        return _limited(known, asked) if asked.limited else _OVERLAP
+    if relation == "near":
         return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
-    plain = Judgement("note" if finding.relation == "touching" else "none")
-    return of_clearance(asked, *gap) or plain
+    return of_clearance(asked, *gap) or (_TOUCH if relation == "touching" else _NOTHING)
 
 
 def _left_open(found: Judgement, allow_open: bool) -> Judgement:
@@ -90,9 +90,9 @@ def _left_open(found: Judgement, allow_open: bool) -> Judgement:
     return replace(found, severity=found.severity if graver else "warning", undecided="inside")
 
 
-def _limited(finding: Finding, asked: Asked) -> Judgement:
+def _limited(known: Mapping[str, Any], asked: Asked) -> Judgement:
     """Within all limits, beyond one, or undecided."""
-    limits = list(_limits(finding, asked))
+    limits = list(_limits(known, asked))
     for limit in limits:
         if not limit.kept and limit.least is not None and limit.least > limit.most:
             return Judgement("error", limit.rule)
@@ -126,15 +126,15 @@ class _Limit:
         return f"{known}, and the pair has between {self.least:.6g} and {self.greatest:.6g}"
 
 
-def _limits(finding: Finding, asked: Asked) -> Iterator[_Limit]:
+def _limits(known: Mapping[str, Any], asked: Asked) -> Iterator[_Limit]:
     if asked.max_depth is not None:
-        least, greatest = finding.depth_bounds or (None, None)
+        least, greatest = known.get("depth_bounds") or (None, None)
         yield _Limit(asked.rule("max_depth") or "", "max_depth", asked.max_depth, least, greatest)
     if asked.max_volume is not None:
         least = greatest = None
-        if finding.volume is not None and finding.volume_error is not None:
-            least = finding.volume - finding.volume_error
-            greatest = finding.volume + finding.volume_error
+        volume, error = known.get("volume"), known.get("volume_error")
+        if volume is not None and error is not None:
+            least, greatest = volume - error, volume + error
         yield _Limit(
             asked.rule("max_volume") or "", "max_volume", asked.max_volume, least, greatest
         )

@@ -83,12 +83,8 @@ class Body:
     def resolution_world(self) -> float:
         """How finely the world coordinates are known: the file's resolution, stretched, plus that
         of the placement."""
-        if self.transform is None:
-            return self.file.resolution
         low, high = self.file.mesh.bounds
-        largest = max(max(abs(a), abs(b)) for a, b in zip(low, high, strict=True))
-        step = _largest_coordinate(self.transform, largest) * self.file.placement_step
-        return self.file.resolution * largest_stretch(self.transform) + step
+        return resolution_in_world(self.file, self.transform, max(map(abs, (*low, *high))))
 
 
 @frozen
@@ -144,6 +140,14 @@ class Scene:
         rank = {id_: number for number, id_ in enumerate(self.order)}
         everything: list[Body | Unreadable] = [*self.bodies, *self.unreadable]
         return sorted(everything, key=lambda one: rank.get(one.id, len(rank)))
+
+
+def resolution_in_world(file: MeshFile, transform: Transform | None, largest: float) -> float:
+    """`Body.resolution_world`. largest: coordinate of the file's mesh."""
+    if transform is None:
+        return file.resolution
+    step = _largest_coordinate(transform, largest) * file.placement_step
+    return file.resolution * largest_stretch(transform) + step
 
 
 def largest_stretch(transform: Transform) -> float:

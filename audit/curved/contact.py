@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 from satcheck.audit.boxes import holds as box_holds
 from satcheck.audit.curved.signed import convex_pair
 from satcheck.audit.ladder import Contact
-from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
     from satcheck.audit.placed_body import PlacedBody
     from satcheck.audit.plan import Plan
-    from satcheck.audit.report import Effect, Finding, Relation, Vector
+    from satcheck.audit.report import Effect, Relation, Vector
 
 STAGE = "curved"
 TOO_CLOSE = "one may lie within the other: too close to its surface to tell"
@@ -40,15 +39,15 @@ def frees(pair: Pair, move: Vector) -> bool:
     return frees_mesh(pair, move)
 
 
-def without_meshes(finding: Finding, pair: Pair, plan: Plan) -> Finding:
-    """What is found on meshes alone is not known of a curved shape, and that is said."""
+def without_meshes(reason: str | None, pair: Pair, plan: Plan) -> str | None:
+    """The reason of a finding, which says too that what is found on meshes alone is not known of a
+    curved shape."""
     missing = [effect for effect in ON_MESHES if pair.asked.wants(effect)]
     for effect in missing:
         plan.record(effect, "not available", "a curved shape has no triangles")
-    reason = finding.reason
     if missing:
-        reason = reason or f"{' and '.join(missing)}: not available for curved shapes"
-    return replace(finding, reason=reason, plan=tuple(plan.stages))
+        return reason or f"{' and '.join(missing)}: not available for curved shapes"
+    return reason
 
 
 def _is_convex(body: PlacedBody) -> bool:
