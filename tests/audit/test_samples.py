@@ -11,7 +11,7 @@ import pytest
 from satcheck.audit import Settings, check
 from satcheck.audit.samples import Samples, check_poses
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import load_scene
+from satcheck.scene import MeshFile, load_scene
 from satcheck.scene.robot import Pose, joint_samples, posed, read_poses
 from tests.scene.robot.robots import joint, link, robot_of
 
@@ -139,16 +139,17 @@ def test_no_work_is_done_when_a_later_pose_is_wrong() -> None:
     assert not seen
 
 
-def test_a_mesh_is_judged_convex_once_for_all_poses(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_mesh_has_is_made_once_for_all_poses(monkeypatch: pytest.MonkeyPatch) -> None:
     from satcheck.audit.placed_body import SharedMesh
 
-    judged: list[str] = []
-    convex = SharedMesh._convex
+    made: list[str] = []
+    make = SharedMesh.__init__
 
-    def counted(self: SharedMesh) -> bool:
-        judged.append(self.file.sha256)
-        return convex(self)
+    def counted(self: SharedMesh, file: MeshFile, settings: Settings) -> None:
+        made.append(file.sha256 + str(file.part))
+        make(self, file, settings)
 
-    monkeypatch.setattr(SharedMesh, "_convex", counted)
+    monkeypatch.setattr(SharedMesh, "__init__", counted)
     check_poses(ARM, joint_samples(ROBOTS, 10, 3), QUICK)
-    assert len(judged) == len(set(judged))
+    assert made
+    assert len(made) == len(set(made))
