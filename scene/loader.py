@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from satcheck.core.errors import SatcheckError
 from satcheck.scene.bodies import Scene
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
@@ -49,6 +50,8 @@ def load_scene(
     A mesh file, or a node of one, that cannot be used becomes an Unreadable with an error issue and
     the rest still loads. Raises SceneFileError for a scene file or a robot that is wrong in itself.
     """
+    if isinstance(paths, str | Path):
+        raise SatcheckError("bad-argument", f"paths: a list of paths, not one: [{str(paths)!r}]")
     files = MeshFiles(seconds_per_file, megabytes_per_file, allow_outside=allow_outside)
     builder = SceneBuilder(files)
     given = [path.as_posix() if isinstance(path, Path) else path for path in paths]

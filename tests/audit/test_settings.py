@@ -13,6 +13,7 @@ from satcheck.core.errors import SatcheckError
     [
         {"clearance": -1.0},
         {"clearance": float("nan")},
+        {"clearance": "5mm"},
         {"tolerance": float("inf")},
         {"accuracy": "best"},
         {"depth_width": 0.0},

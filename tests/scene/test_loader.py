@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from satcheck.core.errors import SatcheckError
 from satcheck.scene import CODES, load_scene
 from satcheck.scene.primitives import Box
 from tests.scene import files, graphs
@@ -190,3 +192,9 @@ def test_a_part_of_a_mesh_file_stays_where_the_file_places_it(tmp_path):
     assert hook.file is up.file is base.file
     assert [body.path for body in scene.bodies] == ["crane/hook", "crane/hook", "base", None]
     assert [lost.issue.code for lost in scene.unreadable] == ["unknown-part"]
+
+
+@pytest.mark.parametrize("one", ["cube.obj", Path("cube.obj")])
+def test_one_path_is_no_list_of_paths(one):
+    with pytest.raises(SatcheckError, match="a list of paths"):
+        load_scene(one)
