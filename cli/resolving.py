@@ -14,9 +14,12 @@ from satcheck.cli.output import Document, talk, write_file
 from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from satcheck.audit import Report, Settings
     from satcheck.audit.resolve import Resolution
     from satcheck.cli.output import Page
+    from satcheck.cli.posing import Posing
     from satcheck.scene import Scene
     from satcheck.scene.scene_builder import Split
     from satcheck.scene.units import Length
@@ -40,25 +43,45 @@ class Choices:
     allow_open: bool
     jobs: int
     form: str
+    packages: Mapping[str, Path]
+    posing: Posing
+
+    @property
+    def scene_file(self) -> str | None:
+        """The scene file, where one is all that was given."""
+        alone = len(self.paths) == 1 and Path(self.paths[0]).suffix.lower() in SCENE_SUFFIXES
+        return self.paths[0] if alone else None
 
 
 def run(choices: Choices) -> int:
     """Resolve, write the scene and the document; returns the exit code."""
-    refuse_early(choices.paths, choices.output)
+    refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     _refuse_output(choices)
     document = Document()
-    scene = load(choices.paths, split=choices.split, allow_outside=choices.allow_outside)
+    scene = _loaded(choices)
+    stray = _stray(choices, scene)
     settings = _settings(choices, scene)
     found = _resolve(scene, settings, choices)
     if choices.output:
         write_file(choices.output, _written(scene, found, choices))
         found = replace(found, report=_checked(choices.output, settings, choices.allow_outside))
     document.write(_render(found, choices, document.page), utf8=choices.form == "json")
+    if stray is not None:
+        talk(f"note: {choices.output} is read with --allow-outside alone, for {stray}")
     return exit_codes.of_report(found.report, exit_zero=False)
 
 
-def _is_scene(path: str) -> bool:
-    return Path(path).suffix.lower() in SCENE_SUFFIXES
+def _loaded(choices: Choices) -> Scene:
+    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside)
+    if not choices.posing.given:
+        return scene
+    from satcheck.cli.posing import poses_of
+    from satcheck.scene.robot import posed
+
+    pose = poses_of(scene, choices.posing)
+    if isinstance(pose, list):
+        raise click.UsageError("one pose at a time: the links stay where it puts them")
+    return posed(scene, pose)
 
 
 def _refuse_output(choices: Choices) -> None:
@@ -67,15 +90,31 @@ def _refuse_output(choices: Choices) -> None:
         return
     from satcheck.scene.loader import is_mesh
 
-    first = choices.paths[0]
-    if len(choices.paths) == 1 and _is_scene(first):
-        wanted = Path(first).suffix.lower()
-    elif all(map(is_mesh, choices.paths)):
-        wanted = ".json"
-    else:
-        raise click.UsageError("-o writes one scene file, or one of mesh files alone")
-    if choices.output.suffix.lower() != wanted:
-        raise click.UsageError(f"-o {choices.output}: this scene is written as a {wanted} file")
+    wanted = {".toml", ".json"}
+    if choices.scene_file is not None:
+        wanted = {Path(choices.scene_file).suffix.lower()}
+    elif not all(map(is_mesh, choices.paths)):
+        raise click.UsageError(
+            "-o writes one scene file, or one of mesh files alone; links of robots are not moved"
+        )
+    if choices.output.suffix.lower() not in wanted:
+        known = " or ".join(sorted(wanted))
+        raise click.UsageError(f"-o {choices.output}: this scene is written as a {known} file")
+
+
+def _stray(choices: Choices, scene: Scene) -> str | None:
+    """A mesh that OUT names outside of its folder; UsageError where nobody has allowed that."""
+    if choices.output is None:
+        return None
+    from satcheck.scene.moved_file import stray_mesh
+
+    stray = stray_mesh(choices.scene_file, choices.output, scene)
+    if stray is not None and not choices.allow_outside:
+        raise click.UsageError(
+            f"-o {choices.output}: {stray} lies outside of its folder, so that it could be read "
+            "with --allow-outside alone: write it above the meshes, or add that option"
+        )
+    return stray
 
 
 def _settings(choices: Choices, scene: Scene) -> Settings:
@@ -113,19 +152,26 @@ def _written(scene: Scene, found: Resolution, choices: Choices) -> str:
 
     assert choices.output is not None
     translations = {move.body: move.translation for move in found.moves}
-    if _is_scene(choices.paths[0]):
-        return moved_scene_file(choices.paths[0], choices.output, translations)
+    if choices.scene_file is not None:
+        return moved_scene_file(choices.scene_file, choices.output, translations)
     return scene_file_of(choices.output, scene, translations)
 
 
 def _checked(path: Path, settings: Settings, allow_outside: bool) -> Report:
-    """The file as anybody would check it; errors of reading are told."""
+    """The file as anybody would check it; errors of reading are told. What cannot be read is not
+    left behind."""
     from satcheck.audit import check
     from satcheck.audit.resolve import proof_of
     from satcheck.cli.report.words import issue_line
+    from satcheck.core.errors import SatcheckError
     from satcheck.scene import load_scene
 
-    report = check(load_scene([path], allow_outside=allow_outside), proof_of(settings))
+    try:
+        scene = load_scene([path], allow_outside=allow_outside)
+    except SatcheckError:
+        path.unlink(missing_ok=True)
+        raise
+    report = check(scene, proof_of(settings))
     for issue in report.issues:
         if issue.severity == "error":
             talk(f"satcheck: {issue_line(issue)}")

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from satcheck.scene.bodies import IDENTITY, Scene
 from satcheck.scene.format import scene_1, simple
 from satcheck.scene.format.reading import read_scene_file
-from satcheck.scene.format.text import parsed, read_text
+from satcheck.scene.format.text import is_toml, parsed, read_text
 from satcheck.scene.format.writing import moved
 
 Translation = tuple[float, float, float]
@@ -34,23 +34,55 @@ def moved_scene_file(source: str, output: Path, translations: Mapping[str, Trans
 
 
 def scene_file_of(output: Path, scene: Scene, translations: Mapping[str, Translation]) -> str:
-    """The text of a new scene file, for the place `output`, of a scene of mesh files or of parts of
-    them, as the files place them, and then moved."""
-    bodies = scene.bodies
-    in_parts = any(body.path is not None for body in bodies)
+    """The text of a new scene file of the form satcheck.scene/1, TOML or JSON by its suffix, for
+    the place `output`, of a scene of mesh files or of parts of them, as the files place them, and
+    then moved."""
     entries = []
-    for body in bodies:
+    for body in scene.bodies:
         entry: dict[str, Any] = {"id": body.id, "mesh": _path_from(output, Path(body.file.path))}
         if body.path is not None:
             entry["part"] = body.path
         if body.id in translations:
-            x, y, z = translations[body.id]
-            rows = [[1, 0, 0, x], [0, 1, 0, y], [0, 0, 1, z], [0, 0, 0, 1]]
-            entry |= {"position": [x, y, z]} if in_parts else {"transform": rows}
-        entries.append(f"\n    {json.dumps(entry, ensure_ascii=False)}")
-    schema = scene_1.SCHEMA if in_parts else simple.SCHEMA
-    units = f'\n  "units": {json.dumps(scene.units)},' if scene.units else ""
-    return f'{{\n  "schema": "{schema}",{units}\n  "bodies": [{",".join(entries)}\n  ]\n}}\n'
+            entry["position"] = list(translations[body.id])
+        entries.append(entry)
+    head = {"schema": scene_1.SCHEMA} | ({"units": scene.units} if scene.units else {})
+    return (_toml if is_toml(output) else _json)(head, entries)
+
+
+def _json(head: Mapping[str, str], bodies: Sequence[Mapping[str, Any]]) -> str:
+    lines = [f"  {_quoted(key)}: {_quoted(value)},\n" for key, value in head.items()]
+    rows = ",".join(f"\n    {_quoted(body)}" for body in bodies)
+    return f'{{\n{"".join(lines)}  "bodies": [{rows}\n  ]\n}}\n'
+
+
+def _toml(head: Mapping[str, str], bodies: Sequence[Mapping[str, Any]]) -> str:
+    tables = [_toml_lines(head), *("[[bodies]]\n" + _toml_lines(body) for body in bodies)]
+    return "\n".join(tables)
+
+
+def _toml_lines(table: Mapping[str, Any]) -> str:
+    return "".join(f"{key} = {_quoted(value)}\n" for key, value in table.items())
+
+
+def _quoted(value: object) -> str:
+    """As JSON has it, and TOML too: it alone has no raw DEL in a string."""
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def stray_mesh(source: str | None, output: Path, scene: Scene) -> str | None:
+    """A mesh file that lies outside of the folder of `output`, where that would have to be allowed
+    to read the scene written there; None: there is none. source: the scene file, if it is one."""
+    if source is not None and _is_simple(source):
+        return None
+    folder = output.absolute().parent.resolve()
+    meshes = (body.file.path for body in scene.bodies if body.shape is None)
+    return next((one for one in meshes if not Path(one).resolve().is_relative_to(folder)), None)
+
+
+def _is_simple(source: str) -> bool:
+    """A scene of the simple form names meshes anywhere."""
+    document = parsed(source, Path(source), read_text(source, Path(source))).document
+    return bool(document["schema"] == simple.SCHEMA)
 
 
 def _translated(placement: tuple[float, ...], by: Translation) -> tuple[float, ...]:

@@ -10,12 +10,13 @@ from satcheck.audit.resolve.resolution import Left, objected
 from satcheck.audit.resolve.wall import BodyPair
 
 BOTH_STAY = "both bodies stay"
+LINKS_STAY = "links of a robot stay where its joints put them"
 NO_WAY = "no way out was found"
 ONLY_MOVING = "only while they move, and motions are not resolved"
 
 
 def reasons(
-    crowd: Crowd, staying: frozenset[str], given_up: dict[BodyPair, str]
+    crowd: Crowd, staying: frozenset[str], links: frozenset[str], given_up: dict[BodyPair, str]
 ) -> dict[frozenset[str], str]:
     """Why pairs are left, of those that nobody objects to as they are placed among them."""
     found = {}
@@ -23,6 +24,8 @@ def reasons(
         ids = frozenset(crowd.home[i].id for i in pair)
         if said.kind == "free":
             found[ids] = ONLY_MOVING
+        elif ids <= links:
+            found[ids] = LINKS_STAY
         elif ids <= staying:
             found[ids] = BOTH_STAY
         else:

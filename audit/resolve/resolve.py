@@ -74,7 +74,7 @@ def resolve(
         rounds = _shortest(crowd, few, longest, iterations, progress)
         if few and not rounds.left:
             retry(crowd, overlaps, longest, iterations)
-        why = reasons(crowd, staying, rounds.left)
+        why = reasons(crowd, staying, _links(scene), rounds.left)
     moves = _moves(scene, crowd)
     moved = moved_scene(scene, {move.body: move.translation for move in moves})
     report = check(moved, proof_of(settings))
@@ -119,9 +119,13 @@ def proof_of(settings: Settings) -> Settings:
     )
 
 
+def _links(scene: Scene) -> frozenset[str]:
+    """What goes where the joints of a robot put it."""
+    return frozenset(part.id for robot in scene.robots for part in robot.bodies)
+
+
 def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
-    # A link goes where its joints put it.
-    carried = {part.id for robot in scene.robots for part in robot.bodies}
+    links = _links(scene)
     selectors = [Selector(pin) for pin in pins]
     for selector in selectors:
         if not any(selector.matches(body.id, body.groups) for body in scene.bodies):
@@ -131,7 +135,7 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
         for body in scene.bodies
         if body.static
         or body.pinned
-        or body.id in carried
+        or body.id in links
         or any(pin.matches(body.id, body.groups) for pin in selectors)
     )
 

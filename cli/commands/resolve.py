@@ -17,6 +17,7 @@ from satcheck.cli.commands.options import (
     split_option,
     table_or_json_option,
 )
+from satcheck.cli.commands.robots import package_option
 from satcheck.cli.lengths import length
 
 
@@ -60,21 +61,32 @@ from satcheck.cli.lengths import length
 @jobs_option
 @table_or_json_option
 @split_option
+@package_option
+@click.option(
+    "--pose",
+    multiple=True,
+    metavar="FILE",
+    help="Values of the joints of a robot, as in a check: its links stay where they put them.",
+)
+@click.option(
+    "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
+)
 @outside_option
 @debug_option
-def command(debug: bool, **options: Any) -> int:
+def command(debug: bool, pose: tuple[str, ...], state: tuple[str, ...], **options: Any) -> int:
     """Move the bodies of a scene apart, by short translations.
 
-    SCENE is a scene file, or mesh files. Static bodies and pinned ones stay, and so do pairs that
-    the scene allows. Of several ways the one with a small sum of squared lengths is
-    taken. The moved scene is checked afresh, and with -o it is the file written that is checked:
-    what still overlaps is said.
+    SCENE is a scene file, or mesh files, also with robots. Static bodies and pinned ones stay, so
+    do the links of robots, and pairs that the scene allows. Of several ways one with a small sum of
+    squared lengths is taken. The moved scene is checked afresh, and with -o it is the file written
+    that is checked: what still overlaps is said.
 
     Exit codes: 0, nothing overlaps any more; 1, something does; 2, wrong usage, an unreadable
     input, or an internal error; 3, nothing that is known overlaps, but not everything could be
     checked.
     """
+    from satcheck.cli.posing import Posing
     from satcheck.cli.resolving import Choices, run
 
     del debug
-    return run(Choices(**options))
+    return run(Choices(**options, posing=Posing(pose, state)))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -158,3 +160,44 @@ motion = [{bodies = "door", translation = [5, 0, 0]}]
     assert ran.code == 1
     assert "left: door and post penetrate: only while they move, and motions are" in ran.out
     assert "Nothing overlaps as the bodies are placed: nothing was moved." in ran.out
+
+
+def test_mesh_files_become_a_scene_in_toml(tmp_path: Path) -> None:
+    for name in PUSHED:
+        shutil.copy(SAMPLES / name, tmp_path)
+    moved = tmp_path / "moved.toml"
+    ran = satcheck("resolve", *(str(tmp_path / name) for name in PUSHED), "-o", str(moved))
+    assert ran.code == 0, ran.err
+    document = tomllib.loads(moved.read_text())
+    assert document["schema"] == "satcheck.scene/1"
+    assert [body["position"] for body in document["bodies"]] == [[-0.5, 0, 0], [0.5, 0, 0]]
+    assert satcheck("--no-depth", str(moved)).code == 0
+
+
+def test_a_scene_that_could_not_be_read_is_not_written(tmp_path: Path) -> None:
+    meshes = [str(SAMPLES / name) for name in PUSHED]
+    moved = tmp_path / "moved.json"
+    ran = satcheck("resolve", *meshes, "-o", str(moved))
+    assert ran.code == 2
+    assert "lies outside of its folder" in ran.err
+    assert not moved.exists()
+    ran = satcheck("resolve", *meshes, "-o", str(moved), "--allow-outside")
+    assert ran.code == 0, ran.err
+    assert "read with --allow-outside alone" in ran.err
+    assert satcheck("--no-depth", "--allow-outside", str(moved)).code == 0
+
+
+def test_the_links_of_a_robot_are_said_to_stay(tmp_path: Path) -> None:
+    box = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    robot = tmp_path / "robot.urdf"
+    robot.write_text(f"""\
+<robot name="r"><link name="base">{box}</link><link name="slide">{box}</link>
+<joint name="j" type="prismatic"><parent link="base"/><child link="slide"/>
+<axis xyz="1 0 0"/><limit lower="0" upper="2" effort="1" velocity="1"/></joint></robot>
+""")
+    ran = satcheck("resolve", str(robot), "--pose", '{"j": 0.5}')
+    assert ran.code == 1
+    assert "base and slide penetrate: links of a robot stay where" in " ".join(ran.out.split())
+    assert satcheck("resolve", str(robot), "--pose", '{"j": 1.5}').code == 0
+    refused = satcheck("resolve", str(robot), "--pose", '[{"j": 0}, {"j": 1}]')
+    assert "one pose at a time" in refused.err
