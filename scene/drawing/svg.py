@@ -1,194 +1,265 @@
-"""SVG through svgelements: every shape that is filled or closed is a body's outline.
+"""SVG by a reader of our own: every shape that is filled or closed is a body's outline.
 
 Coordinates are the user units of the outermost element, y as in the file: no conversion to pixels,
-which would round them. Sources: W3C, "Scalable Vector Graphics (SVG) 1.1".
+which would round them. An element that cannot be read is a shape that cannot be used, with all that
+it holds. Source: W3C, "Scalable Vector Graphics (SVG) 1.1".
 """
 
 from __future__ import annotations
 
-import io
-import math
 import re
-from collections.abc import Iterable, Iterator
-from typing import Any
+from collections.abc import Iterator
 from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
-from satcheck.scene.drawing.contour import Affine, Contour, Drawing, DrawnShape, FillRule, Tracer
+from satcheck.core.frozen import frozen, replace
+from satcheck.scene.drawing.contour import Affine, Drawing, DrawnShape, RefusedShape
+from satcheck.scene.drawing.expansion import refuse_explosion
+from satcheck.scene.drawing.svg_shapes import SHAPES, outlines
+from satcheck.scene.drawing.svg_style import Style, StyleSheets
+from satcheck.scene.drawing.svg_values import (
+    IDENTITY,
+    NUMBER,
+    Viewport,
+    bad,
+    compose,
+    fitted,
+    transform,
+    translation,
+    unread,
+    view_box,
+)
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.xml_guard import guarded_parser, parse_xml
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
-_SEPARATOR = r"[\s,]*"
-_ARGUMENTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7, "z": 0}
-_LENGTH = re.compile(rf"\s*({_NUMBER})\s*(um|mm|cm|m|in|px|)\s*")
-_DRAWN_ELSEWHERE = frozenset({"text", "image", "foreignObject", "switch"})
-# Drawn only where something else refers to them.
-_TEMPLATES = frozenset({"symbol", "marker", "pattern", "mask", "clipPath"})
-_FULL_TURN = 2 * math.pi
+_NAMESPACE = "http://www.w3.org/2000/svg"
+_HREFS = ("href", "{http://www.w3.org/1999/xlink}href")
+_UNIT = re.compile(rf"\s*({NUMBER})\s*(um|mm|cm|m|in)\s*")
+_GROUPS = frozenset({"a", "g"})
+_ANIMATIONS = frozenset({"animate", "animateMotion", "animateTransform", "set"})
+# Drawn only where something else refers to them, or never.
+_APART = frozenset(
+    {"clipPath", "cursor", "defs", "desc", "filter", "font", "font-face", "linearGradient"}
+    | {"marker", "mask", "metadata", "pattern", "radialGradient", "style", "symbol", "title"}
+    | {"view", *_ANIMATIONS}
+)
+_HARMLESS = re.compile(r"color|opacity|fill-opacity|stop-|stroke")  # of what is animated
+_DRAWN = SHAPES | _GROUPS | {"svg", "switch", "symbol", "use"}
 
 
 def read_svg(data: bytes) -> Drawing:
     """The shapes of a drawing; raises MeshFileError without a file name."""
     _check_xml(data)
-    import svgelements  # type: ignore[import-untyped]
-
     root = ElementTree.fromstring(data)
-    if root.tag.rpartition("}")[2] != "svg":
+    if _kind(root) != "svg":
         raise MeshFileError("not-this-format", "not an SVG file: its root is no svg element")
-    units, warnings = _units(root), set[str]()
-    for element in root.iter():
-        name = str(element.tag).rpartition("}")[2]
-        if name == "path":
-            _check_path(element.get("d", ""))
-        elif name in _DRAWN_ELSEWHERE:
-            warnings.add(f"{name} elements are ignored")
-        warnings |= {f"{key} is ignored: shapes are taken whole" for key in _cut_by(element)}
-    _put_away_templates(root)
-    for key in ("width", "height", "viewBox"):
-        root.attrib.pop(key, None)
-    # Not reified: that would bend arcs under a skewed transform. Corners are mapped instead.
-    parsed = svgelements.SVG.parse(io.BytesIO(ElementTree.tostring(root)), reify=False)
-    shapes = []
-    names = _Names()
-    for element in parsed.elements():
-        if isinstance(element, svgelements.Shape) and _is_shown(element):
-            contours, open_ = _contours(svgelements, element)
-            if open_:
-                warnings.add("open lines are ignored")
-            if contours:
-                shapes.append(DrawnShape(names.of(element), tuple(contours), _rule(element)))
-    return Drawing(tuple(shapes), units, tuple(sorted(warnings)))
-
-
-def _cut_by(element: ElementTree.Element) -> Iterator[str]:
-    for key in ("clip-path", "mask"):
-        style = re.search(rf"(?:^|[\s;]){key}\s*:\s*url", element.get("style", ""))
-        if element.get(key, "none") != "none" or style:
-            yield key
-
-
-def _put_away_templates(root: ElementTree.Element) -> None:
-    """Into <defs>: svgelements would draw some of them where they stand."""
-    for parent in list(root.iter()):
-        for place, child in enumerate(parent):
-            space, _, name = str(child.tag).rpartition("}")
-            if name in _TEMPLATES:
-                parent[place] = ElementTree.Element(f"{space}}}defs" if space else "defs")
-                parent[place].append(child)
+    reading = _Reading(root)
+    shapes = tuple(reading.shapes())
+    return Drawing(shapes, _units(root), tuple(sorted(reading.warnings)))
 
 
 def _check_xml(data: bytes) -> None:
-    """No entities, and a line number for what is not well formed."""
+    """No entities, no style sheets elsewhere, and a line number for what is not well formed."""
     parser = guarded_parser()
+
+    def check_instruction(target: str, _: str) -> None:
+        if target == "xml-stylesheet":
+            raise unread("a style sheet in another file is not read")
+
+    parser.ProcessingInstructionHandler = check_instruction
     parse_xml(lambda: parser.Parse(data, True))
 
 
-def _units(root: ElementTree.Element) -> str | None:
+def _units(root: Element) -> str | None:
     """The unit of one user unit, where width and viewBox agree on one."""
-    width, box = _LENGTH.fullmatch(root.get("width", "")), root.get("viewBox", "").split()
-    if width is None or width[2] in ("", "px") or len(box) != 4:
-        return None
-    try:
-        return width[2] if float(box[2]) == float(width[1]) else None
-    except ValueError:
-        return None
+    width, box = _UNIT.fullmatch(root.get("width", "")), view_box(root.get("viewBox", ""))
+    return width[2] if width and box and box[2] == float(width[1]) else None
 
 
-def _check_path(d: str) -> None:
-    """svgelements stops without a word where path data is malformed."""
-    rest = d.strip()
-    while rest:
-        letter = rest[0].lower()
-        if letter not in _ARGUMENTS:
-            raise MeshFileError("bad-record", f"path data: {rest[:12]!r} is no command")
-        count = _ARGUMENTS[letter]
-        if letter == "a":
-            # Flags may stand without any space between them and the number that follows.
-            one = _SEPARATOR.join((*[_NUMBER] * 3, "[01]", "[01]", *[_NUMBER] * 2))
-        else:
-            one = _SEPARATOR.join([_NUMBER] * count)
-        pattern = rf"{_SEPARATOR}(?:{one}{_SEPARATOR})+" if count else _SEPARATOR
-        found = re.compile(pattern).match(rest, 1)
-        if found is None:
-            raise MeshFileError("bad-record", f"path data: {rest[:12]!r} lacks numbers")
-        rest = rest[found.end() :]
+def _kind(element: Element) -> str:
+    """Its local name; "" for what is no element of SVG."""
+    space, _, name = str(element.tag).rpartition("}")
+    return name if space in ("", "{" + _NAMESPACE) else ""
 
 
-def _is_shown(element: Any) -> bool:
-    values = element.values
-    return bool(values.get("display") != "none" and values.get("visibility") != "hidden")
+def _describe(element: Element) -> str:
+    id_ = element.get("id")
+    return f"<{_kind(element)} id={id_!r}>" if id_ else f"<{_kind(element)}>"
 
 
-def _is_filled(element: Any) -> bool:
-    return element.fill is not None and element.fill.value is not None
+@frozen
+class _Place:
+    """Where and how an element is drawn. caller: the <use> that draws it."""
+
+    affine: Affine
+    viewport: Viewport
+    style: Style
+    caller: Element | None = None
 
 
-def _rule(element: Any) -> FillRule:
-    return "evenodd" if element.values.get("fill-rule") == "evenodd" else "nonzero"
-
-
-class _Names:
-    def __init__(self) -> None:
+class _Reading:
+    def __init__(self, root: Element) -> None:
+        self._root = root
+        self._by_id = {e.get("id", ""): e for e in reversed(list(root.iter())) if e.get("id")}
+        parents = {child: parent for parent in root.iter() for child in parent}
+        sheets = (e for e in root.iter() if _kind(e) == "style" and _is_css(e))
+        self._sheets = StyleSheets(("".join(e.itertext()) for e in sheets), parents)
         self._number = 0
+        self.warnings: set[str] = set()
 
-    def of(self, element: Any) -> str:
+    def shapes(self) -> Iterator[DrawnShape | RefusedShape]:
+        refuse_explosion(self._root, self._held, lambda _: 1, _describe)
+        style = self._sheets.style_of(self._root, Style(), True)
+        if self._root.get("transform"):
+            raise unread("<svg>: a transform of the whole drawing is not read")
+        _check_still(self._root)
+        waiting = self._children(self._root, _Place(IDENTITY, self._outermost(), style))
+        if not style.is_displayed:
+            return
+        while waiting:
+            element, place = waiting.pop()
+            try:
+                if _is_chosen(element):
+                    drawn = self._drawn(element, place)
+                    if isinstance(drawn, DrawnShape):
+                        yield drawn
+                    else:
+                        waiting += drawn
+            except MeshFileError as error:
+                message = f"{_describe(element)}: {error.message}"
+                yield RefusedShape(self._name(element, place), error.code, message)
+
+    def _outermost(self) -> Viewport:
+        box = view_box(self._root.get("viewBox", ""))
+        if box is not None:
+            return Viewport(box[2], box[3])
+        unknown = Viewport(None, None)
+        sides = []
+        for key, along in (("width", "x"), ("height", "y")):
+            text = self._root.get(key, "100%")
+            styled = key in self._sheets.values_of(self._root)
+            sides.append(
+                None
+                if "%" in text or "auto" in text or styled
+                else unknown.length(text, along, key)
+            )
+        return Viewport(*sides)
+
+    def _held(self, element: Element) -> Iterator[tuple[Element, int]]:
+        """What is drawn with an element."""
+        yield from ((child, 1) for child in element if _kind(child) not in _APART | {""})
+        if _kind(element) == "use":
+            target = self._by_id.get(_href(element)[1:])
+            if target is not None:
+                yield target, 1
+
+    def _drawn(self, element: Element, place: _Place) -> DrawnShape | list[tuple[Element, _Place]]:
+        """A shape, or what is to be drawn in the place of an element, the last first."""
+        kind = _kind(element)
+        if kind in _APART and not (kind == "symbol" and place.caller is not None):
+            return []
+        if kind not in _DRAWN:
+            self.warnings.add(f"{kind} elements are ignored")
+            return []
+        _check_still(element)
+        style = self._sheets.style_of(element, place.style, False)
+        if not style.is_displayed:
+            return []
+        if style.is_cut:
+            self.warnings.add("clip paths and masks are ignored: shapes are taken whole")
+        affine = compose(place.affine, transform(element.get("transform", "")))
+        here = replace(place, affine=affine, style=style)
+        if kind in SHAPES:
+            return self._shape(kind, element, here) if style.is_visible else []
+        if kind in _GROUPS:
+            return self._children(element, here)
+        if kind == "use":
+            return self._used(element, here)
+        if kind == "switch":
+            chosen = [pair for pair in self._children(element, here) if _is_chosen(pair[0])]
+            return chosen[-1:]
+        return self._children(element, self._inner(element, here))
+
+    @staticmethod
+    def _children(element: Element, place: _Place) -> list[tuple[Element, _Place]]:
+        return [(child, replace(place, caller=None)) for child in reversed(element)]
+
+    def _used(self, element: Element, place: _Place) -> list[tuple[Element, _Place]]:
+        href = _href(element)
+        target = self._by_id.get(href[1:]) if href.startswith("#") else None
+        if target is None:
+            raise MeshFileError("index-out-of-range", f"it refers to {href!r}, which is not there")
+        moved = self._offset(element, place)
+        return [(target, replace(place, affine=compose(place.affine, moved), caller=element))]
+
+    @staticmethod
+    def _offset(element: Element, place: _Place) -> Affine:
+        length = place.viewport.length
+        x, y = (length(element.get(key, "0"), key, key) for key in ("x", "y"))
+        return translation(x, y)
+
+    def _inner(self, element: Element, place: _Place) -> _Place:
+        """Within an inner <svg>, or a <symbol> that is used."""
+        if element.get("refX") or element.get("refY"):
+            raise unread("refX and refY are not read")
+        sizes = {"width": element.get("width", "100%"), "height": element.get("height", "100%")}
+        if place.caller is not None:
+            sizes = {key: place.caller.get(key, size) for key, size in sizes.items()}
+        box = view_box(element.get("viewBox", ""))
+        affine = compose(place.affine, self._offset(element, place))
+        lengths = {
+            key: place.viewport.length(size.replace("auto", "100%"), along, key)
+            for (key, size), along in zip(sizes.items(), "xy", strict=True)
+            if box is not None or "%" not in size
+        }
+        if any(length < 0 for length in lengths.values()):
+            raise bad("a negative size")
+        width = lengths.get("width", place.viewport.width)
+        height = lengths.get("height", place.viewport.height)
+        self.warnings.add("inner viewports cut nothing: shapes are taken whole")
+        if box is None:
+            return replace(place, affine=affine, viewport=Viewport(width, height))
+        assert width is not None
+        assert height is not None
+        inner = fitted(box, width, height, element.get("preserveAspectRatio", ""))
+        return replace(place, affine=compose(affine, inner), viewport=Viewport(box[2], box[3]))
+
+    def _shape(
+        self, kind: str, element: Element, place: _Place
+    ) -> DrawnShape | list[tuple[Element, _Place]]:
+        contours, left_out = outlines(kind, element, place.viewport, place.style.is_filled)
+        if left_out:
+            self.warnings.add("open lines are ignored")
+        if not contours:
+            return []
+        moved = tuple(contour.mapped(place.affine) for contour in contours)
+        return DrawnShape(self._name(element, place), moved, place.style.rule)
+
+    def _name(self, element: Element, place: _Place) -> str:
         self._number += 1
-        return str(element.values.get("id") or f"shape{self._number}")
+        caller = place.caller.get("id") if place.caller is not None else None
+        return element.get("id") or caller or f"shape{self._number}"
 
 
-def _contours(svg: Any, element: Any) -> tuple[list[Contour], bool]:
-    """The closed contours, and whether an open line was left out; filling closes every one."""
-    contours, left_out, filled = [], False, _is_filled(element)
-    for segments in _subpaths(svg, element.segments(transformed=False)):
-        is_closed = filled or isinstance(segments[-1], svg.Close)
-        is_closed = is_closed or segments[-1].end == segments[0].end
-        contour = _traced(svg, segments) if is_closed else None
-        if contour is not None:
-            contours.append(contour.mapped(_affine(element.transform)))
-        left_out = left_out or not is_closed
-    return contours, left_out
+def _href(element: Element) -> str:
+    return next((element.get(key, "").strip() for key in _HREFS if key in element.attrib), "")
 
 
-def _affine(matrix: Any) -> Affine:
-    return tuple(float(getattr(matrix, key)) for key in "acebdf")  # type: ignore[return-value]
+def _check_still(element: Element) -> None:
+    """Nothing that is set in time moves or shows it."""
+    for child in element:
+        if _kind(child) in _ANIMATIONS and not _HARMLESS.match(child.get("attributeName", "")):
+            raise unread("animations are not read")
 
 
-def _subpaths(svg: Any, path: Iterable[Any]) -> Iterator[list[Any]]:
-    current: list[Any] = []
-    for segment in path:
-        if isinstance(segment, svg.Move) and current:
-            yield current
-            current = []
-        current.append(segment)
-    if current:
-        yield current
+def _is_css(element: Element) -> bool:
+    if element.get("media", "all").strip() not in ("", "all", "screen"):
+        raise unread("a style sheet for some media alone is not read")
+    return element.get("type", "text/css").strip() in ("", "text/css")
 
 
-def _traced(svg: Any, segments: list[Any]) -> Contour | None:
-    tracer = Tracer(_point(segments[0].end))
-    for segment in segments[1:]:
-        if isinstance(segment, svg.QuadraticBezier):
-            tracer.bezier([_point(segment.control), _point(segment.end)])
-        elif isinstance(segment, svg.CubicBezier):
-            controls = (segment.control1, segment.control2, segment.end)
-            tracer.bezier([_point(control) for control in controls])
-        elif isinstance(segment, svg.Arc):
-            _trace_arc(tracer, segment)
-        elif isinstance(segment, svg.Line | svg.Close):
-            if segment.end is not None:
-                tracer.line(_point(segment.end))
-        else:
-            raise MeshFileError("unsupported-feature", f"path segment {type(segment).__name__}")
-    return tracer.closed()
-
-
-def _trace_arc(tracer: Tracer, arc: Any) -> None:
-    centre = _point(arc.center)
-    major = (arc.prx.x - centre[0], arc.prx.y - centre[1])
-    minor = (arc.pry.x - centre[0], arc.pry.y - centre[1])
-    sweep = math.copysign(min(abs(arc.sweep), _FULL_TURN), arc.sweep)
-    tracer.ellipse(centre, major, minor, float(arc.get_start_t()), sweep, _point(arc.end))
-
-
-def _point(point: Any) -> tuple[float, float]:
-    return float(point.x), float(point.y)
+def _is_chosen(element: Element) -> bool:
+    """By its conditions: none is a program that has extensions."""
+    if element.get("systemLanguage") or element.get("requiredFeatures"):
+        raise unread("drawn for some languages or features alone: not read")
+    return _kind(element) != "" and not element.get("requiredExtensions")

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from satcheck.scene.drawing.contour import FLATNESS, Drawing, DrawnShape
+from satcheck.scene.drawing.contour import FLATNESS, Drawing, DrawnShape, RefusedShape
 from satcheck.scene.drawing.svg import read_svg
 from satcheck.scene.errors import MeshFileError
 
@@ -19,14 +19,27 @@ def read(body: str, head: str = MM) -> Drawing:
     return read_svg(f"{HEAD}{head}{body}</svg>".encode())
 
 
-def only(body: str) -> DrawnShape:
-    (shape,) = read(body).shapes
+def drawn(body: str, head: str = MM) -> list[DrawnShape]:
+    shapes = [shape for shape in read(body, head).shapes if isinstance(shape, DrawnShape)]
+    assert len(shapes) == len(read(body, head).shapes)
+    return shapes
+
+
+def only(body: str, head: str = MM) -> DrawnShape:
+    (shape,) = drawn(body, head)
     return shape
+
+
+def extents(shape: DrawnShape) -> tuple[float, ...]:
+    """min x, min y, max x, max y."""
+    xs, ys = zip(*(p for contour in shape.contours for p in contour.points), strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
 
 
 def test_millimetres_are_not_turned_into_pixels() -> None:
     drawing = read('<rect id="r" x="10.1" y="20.2" width="5" height="4"/>')
     (shape,) = drawing.shapes
+    assert isinstance(shape, DrawnShape)
     assert (drawing.units, shape.name) == ("mm", "r")
     assert shape.contours[0].points[0] == (10.1, 20.2)
 
@@ -48,8 +61,8 @@ def test_transforms_add_up() -> None:
 
 
 def test_reuse() -> None:
-    drawing = read('<defs><rect id="r" width="5" height="5"/></defs><use x:href="#r" x="100"/>')
-    assert drawing.shapes[0].contours[0].points[0] == (100.0, 0.0)
+    shape = only('<defs><rect id="r" width="5" height="5"/></defs><use x:href="#r" x="100"/>')
+    assert shape.contours[0].points[0] == (100.0, 0.0)
 
 
 def test_holes_keep_their_fill_rule() -> None:
@@ -120,19 +133,33 @@ def test_a_closed_line_without_fill_is_an_outline() -> None:
 
 
 @pytest.mark.parametrize(
-    ("d", "code"),
+    ("element", "code"),
     [
-        ("M 0 0 L nan 3 z", "bad-record"),
-        ("M 0 0 L 5", "bad-record"),
-        ("M 0 0 X 5 5", "bad-record"),
-        ("M 0 0 A 1 1 0 2 0 5 5", "bad-record"),
-        ("M 0 0 L 1e999 0 L 0 1 z", "non-finite"),
+        ('<path d="M 0 0 L nan 3 z"/>', "bad-record"),
+        ('<path d="M 0 0 L 5"/>', "bad-record"),
+        ('<path d="M 0 0 L 55"/>', "bad-record"),
+        ('<path d="M 0 0 X 5 5"/>', "bad-record"),
+        ('<path d="L 5 5 0 5 z"/>', "bad-record"),
+        ('<path d="M 0 0 A 1 1 0 2 0 5 5"/>', "bad-record"),
+        ('<path d="M 0 0 L 1e999 0 L 0 1 z"/>', "non-finite"),
+        ('<circle r="-1"/>', "bad-record"),
+        ('<ellipse rx="1"/>', "unsupported-feature"),
+        ('<polygon points="0 0 1 0 1"/>', "bad-record"),
+        ('<rect width="1em" height="1"/>', "unsupported-feature"),
+        ('<rect width="1" height="1" transform="rotate(90deg)"/>', "bad-record"),
+        ('<use href="#nothing"/>', "index-out-of-range"),
+        ('<g transform="rotate(9)" transform-origin="5 5"/>', "unsupported-feature"),
+        ('<rect width="1" height="1" style="translate:10px"/>', "unsupported-feature"),
+        ('<g><rect width="9" height="1"/><animateTransform/></g>', "unsupported-feature"),
+        ('<g systemLanguage="de"><rect width="9" height="1"/></g>', "unsupported-feature"),
     ],
 )
-def test_broken_path_data_is_refused(d: str, code: str) -> None:
-    with pytest.raises(MeshFileError) as caught:
-        read(f'<path d="{d}"/>')
-    assert caught.value.code == code
+def test_an_element_that_is_not_read_is_a_refused_shape(element: str, code: str) -> None:
+    refused, beside = read(f'{element}<rect id="r" width="1" height="1"/>').shapes
+    assert isinstance(refused, RefusedShape)
+    assert refused.code == code
+    assert refused.message.startswith(f"{element.split()[0].split('>')[0]}")
+    assert beside.name == "r"
 
 
 def test_compact_arc_flags_are_read() -> None:
@@ -146,6 +173,9 @@ def test_compact_arc_flags_are_read() -> None:
         ("<svg>\n<rect></svg>", "bad-record"),
         ("<!DOCTYPE a [<!ENTITY a 'b'>]><svg>&a;</svg>", "entity-declaration"),
         ("<html/>", "not-this-format"),
+        ("<?xml-stylesheet href='a.css'?><svg/>", "unsupported-feature"),
+        ('<svg transform="scale(2)"/>', "unsupported-feature"),
+        ('<svg viewBox="0 0 1"/>', "bad-record"),
     ],
 )
 def test_broken_files_are_refused(text: str, code: str) -> None:
@@ -159,8 +189,7 @@ def test_a_template_is_drawn_only_where_it_is_used(template: str) -> None:
     unused = f'<{template}><rect width="9" height="9"/></{template}>'
     drawing = read(f'{unused}<rect id="r" width="1" height="1"/>')
     assert [shape.name for shape in drawing.shapes] == ["r"]
-    used = read('<symbol id="s"><rect width="9" height="9"/></symbol><use href="#s" x="3"/>')
-    (shape,) = used.shapes
+    shape = only('<symbol id="s"><rect width="9" height="9"/></symbol><use href="#s" x="3"/>')
     assert min(x for x, _ in shape.contours[0].points) == 3
 
 
@@ -168,5 +197,113 @@ def test_a_template_is_drawn_only_where_it_is_used(template: str) -> None:
 def test_what_cuts_a_shape_is_ignored_with_a_warning(how: str) -> None:
     drawing = read(f'<rect {how} width="2" height="2"/>')
     (warning,) = drawing.ignored
-    assert warning.endswith("is ignored: shapes are taken whole")
+    assert warning == "clip paths and masks are ignored: shapes are taken whole"
     assert len(drawing.shapes) == 1
+
+
+@pytest.mark.parametrize("head", ['width="200" height="100">', 'viewBox="5 5 200 100">'])
+def test_percentages_are_of_the_drawing(head: str) -> None:
+    """The radius is of the root mean square of the sides."""
+    drawing = '<rect x="50%" y="10%" width="10%" height="100%"/><circle r="10%"/>'
+    rectangle, circle = drawn(drawing, head)
+    assert extents(rectangle) == (100.0, 10.0, 120.0, 110.0)
+    assert extents(circle)[2] == pytest.approx(math.sqrt((200**2 + 100**2) / 2) / 10)
+    (refused,) = read('<rect width="10%" height="1"/>', ">").shapes
+    assert isinstance(refused, RefusedShape)
+    assert "percentage" in refused.message
+
+
+@pytest.mark.parametrize(
+    ("aspect", "expected"),
+    [
+        ("", (20.0, 20.0, 40.0, 30.0)),
+        ('preserveAspectRatio="xMinYMin"', (20.0, 15.0, 40.0, 25.0)),
+        ('preserveAspectRatio="xMaxYMax slice"', (0.0, 15.0, 40.0, 35.0)),
+        ('preserveAspectRatio="none"', (20.0, 15.0, 40.0, 35.0)),
+    ],
+)
+def test_viewports_within(aspect: str, expected: tuple[float, ...]) -> None:
+    """A box of 20 x 10 from (-10, -5), shown at (20, 15) in 20 x 20: by an inner <svg>, and by a
+    symbol that is used."""
+    box = f'viewBox="-10 -5 20 10" {aspect}'
+    place = 'x="20" y="15" width="20" height="20"'
+    within = '<rect x="-50%" y="-50%" width="100%" height="100%"/>'
+    assert extents(only(f"<svg {place} {box}>{within}</svg>")) == expected
+    symbol = f'<symbol id="s" {box}>{within}</symbol>'
+    assert extents(only(f'{symbol}<use href="#s" {place}/>')) == expected
+
+
+def test_a_symbol_without_a_size_fills_the_viewport() -> None:
+    symbol = '<symbol id="s" viewBox="0 0 1 1"><rect width="1" height="1"/></symbol>'
+    assert extents(only(f'{symbol}<use href="#s"/>', 'viewBox="0 0 8 8">')) == (0, 0, 8, 8)
+
+
+def test_quarter_turns_are_exact() -> None:
+    shape = only('<rect x="1" width="2" height="1" transform="rotate(90 5 5) rotate(-180)"/>')
+    assert shape.contours[0].points == ((10.0, -1.0), (10.0, -3.0), (11.0, -3.0), (11.0, -1.0))
+
+
+def test_lengths_have_units() -> None:
+    assert extents(only('<rect width="1in" height="72pt"/>')) == (0.0, 0.0, 96.0, 96.0)
+    assert extents(only('<rect x="1cm" width="6pc" height="1"/>'))[0] == pytest.approx(96 / 2.54)
+
+
+def test_smooth_curves_reflect_the_control_before() -> None:
+    smooth = only('<path d="M0 0 C 0 1 1 1 1 0 S 2 -1 2 0 Q 3 1 4 0 T 6 0 L 9 9 z"/>')
+    plain = only('<path d="M0 0 C 0 1 1 1 1 0 C 1 -1 2 -1 2 0 Q 3 1 4 0 Q 5 -1 6 0 L 9 9 z"/>')
+    assert smooth.contours == plain.contours
+
+
+def test_relative_commands() -> None:
+    found = only('<path d="m1 1 2 0 0 2zl-1 0v-1h1z m3 0h1v1"/>').contours
+    assert [contour.points for contour in found] == [
+        ((1.0, 1.0), (3.0, 1.0), (3.0, 3.0)),
+        ((1.0, 1.0), (0.0, 1.0), (0.0, 0.0), (1.0, 0.0)),
+        ((4.0, 1.0), (5.0, 1.0), (5.0, 2.0)),
+    ]
+
+
+@pytest.mark.parametrize("flags", ["00", "01", "10", "11"])
+def test_the_four_arcs_between_two_points(flags: str) -> None:
+    """From (0, 0) to (2, 0) at a radius of 2: about (1, -+sqrt 3), and which way round."""
+    (contour,) = only(f'<path d="M0 0A2 2 0 {flags} 2 0L1 0z"/>').contours
+    large, sweep = flags
+    ys = [y for _, y in contour.points]
+    low = 2 - math.sqrt(3) if large == "0" else 2 + math.sqrt(3)
+    reach = min(ys) if sweep == "1" else -max(ys)
+    assert reach == pytest.approx(-low, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("corners", "size"), [('rx="1"', 1.0), ('rx="9" ry="1"', 2.0), ('ry="1"', 1.0)]
+)
+def test_rounded_corners(corners: str, size: float) -> None:
+    """size: the first x at the top, after the radius was cut to half of a side."""
+    shape = only(f'<rect width="4" height="3" {corners}/>')
+    assert extents(shape) == (0.0, 0.0, 4.0, 3.0)
+    assert min(x for x, y in shape.contours[0].points if y == 0) == size
+
+
+def test_what_is_no_drawing_is_not_read() -> None:
+    inner = '<rect width="9" height="9"/>'
+    assert read(f"<foreignObject>{inner}</foreignObject>").shapes == ()
+    assert read(f'<a xmlns="other">{inner}</a>').shapes == ()
+
+
+def test_a_switch_draws_the_first_that_is_for_all() -> None:
+    extension = '<foreignObject requiredExtensions="x"/>'
+    first, second = (f'<rect id="{id_}" width="1" height="1"/>' for id_ in "ab")
+    assert only(f"<switch>{extension}{first}{second}</switch>").name == "a"
+
+
+def test_references_that_explode_are_counted_and_refused() -> None:
+    levels = "".join(
+        f'<g id="g{n}"><use href="#g{n - 1}"/><use href="#g{n - 1}"/></g>' for n in range(1, 40)
+    )
+    bomb = f'<defs><g id="g0"/>{levels}</defs><use href="#g39"/>'
+    circle = '<g id="a"><g><use href="#a"/></g></g>'
+    deep = "<g>" * 20000 + "</g>" * 20000
+    for body, code in ((bomb, "too-large"), (circle, "reference-cycle"), (deep, "too-large")):
+        with pytest.raises(MeshFileError) as caught:
+            read(body)
+        assert caught.value.code == code

@@ -1,0 +1,191 @@
+"""Numbers, lengths, transforms and viewports of SVG. Source: W3C, "SVG 1.1", chapter 7."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import reduce
+
+from satcheck.core.frozen import frozen
+from satcheck.scene.drawing.contour import Affine
+from satcheck.scene.errors import MeshFileError
+
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+IDENTITY: Affine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+
+_ONE = re.compile(NUMBER)
+_BETWEEN = re.compile(r"[\s,]*")
+_LONGEST_LENGTH = 64  # characters
+_LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-z%]*)\s*")
+_USER_UNITS = {
+    "": 1.0,
+    "px": 1.0,
+    "in": 96.0,
+    "cm": 96 / 2.54,
+    "mm": 96 / 25.4,
+    "pt": 96 / 72,
+    "pc": 16.0,
+}
+_FUNCTION = re.compile(r"[\s,]*([A-Za-z]+)\s*\(([^()]*)\)")
+_ALIGNED = re.compile(r"\s*x(Min|Mid|Max)Y(Min|Mid|Max)(?:\s+(meet|slice))?\s*")
+_SHARE = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
+_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+
+
+def bad(message: str) -> MeshFileError:
+    return MeshFileError("bad-record", message)
+
+
+def unread(message: str) -> MeshFileError:
+    return MeshFileError("unsupported-feature", message)
+
+
+def skip(text: str, place: int) -> int:
+    """The place after spaces and commas."""
+    found = _BETWEEN.match(text, place)
+    return place if found is None else found.end()
+
+
+def number_at(text: str, place: int, what: str) -> tuple[float, int] | None:
+    """The number that begins there, as long as it can be, and the place after it; None: none does.
+
+    Raises MeshFileError for one that is not finite.
+    """
+    found = _ONE.match(text, place)
+    if found is None:
+        return None
+    value = float(found[0])
+    if not math.isfinite(value):
+        raise MeshFileError("non-finite", f"{what}: non-finite number")
+    return value, found.end()
+
+
+def numbers(text: str, what: str) -> list[float]:
+    """Separated by spaces or commas, or where one cannot go on. Raises MeshFileError."""
+    values = []
+    place = skip(text, 0)
+    while place < len(text):
+        found = number_at(text, place, what)
+        if found is None:
+            raise bad(f"{what}: {text[place : place + 40]!r} is no number")
+        values.append(found[0])
+        place = skip(text, found[1])
+    return values
+
+
+@frozen
+class Viewport:
+    """What percentages are of, user units; None: the file does not say."""
+
+    width: float | None
+    height: float | None
+
+    def length(self, text: str, along: str, what: str) -> float:
+        """User units. along: "x", "y", or "d" for what is neither. Raises MeshFileError."""
+        found = _LENGTH.fullmatch(text) if len(text) <= _LONGEST_LENGTH else None
+        if found is None:
+            raise bad(f"{what}: {text[:40]!r} is no length")
+        if found[2] == "%":
+            return float(found[1]) / 100 * self._whole(along, what)
+        if found[2] not in _USER_UNITS:
+            raise unread(f"{what}: the unit of {text[:40]!r} is not read")
+        value = float(found[1]) * _USER_UNITS[found[2]]
+        if not math.isfinite(value):
+            raise MeshFileError("non-finite", f"{what}: non-finite length")
+        return value
+
+    def _whole(self, along: str, what: str) -> float:
+        sides = {"x": (self.width,), "y": (self.height,), "d": (self.width, self.height)}[along]
+        known = [side for side in sides if side is not None]
+        if len(known) < len(sides):
+            raise unread(f"{what}: a percentage of a drawing whose size is not given")
+        return math.hypot(*known) / math.sqrt(len(known)) if len(known) > 1 else known[0]
+
+
+def compose(outer: Affine, inner: Affine) -> Affine:
+    """First `inner`, then `outer`."""
+    a, b, c, d, e, f = outer
+    g, h, i, j, k, m = inner
+    return (
+        a * g + b * j,
+        a * h + b * k,
+        a * i + b * m + c,
+        d * g + e * j,
+        d * h + e * k,
+        d * i + e * m + f,
+    )
+
+
+def translation(x: float, y: float) -> Affine:
+    return (1.0, 0.0, x, 0.0, 1.0, y)
+
+
+def transform(text: str) -> Affine:
+    """A transform attribute. Raises MeshFileError."""
+    affines, end = [IDENTITY], 0
+    while found := _FUNCTION.match(text, end):
+        end = found.end()
+        affines.append(_function(found[1], numbers(found[2], found[1])))
+    if text[end:].strip(" \t\r\n,") not in ("", "none"):
+        raise bad(f"transform: {text[end : end + 40]!r} is not read")
+    return reduce(compose, affines)
+
+
+def _function(name: str, given: list[float]) -> Affine:
+    match name, given:
+        case "matrix", [a, b, c, d, e, f]:
+            return (a, c, e, b, d, f)
+        case "translate", [x]:
+            return translation(x, 0.0)
+        case "translate", [x, y]:
+            return translation(x, y)
+        case "scale", [x]:
+            return (x, 0.0, 0.0, 0.0, x, 0.0)
+        case "scale", [x, y]:
+            return (x, 0.0, 0.0, 0.0, y, 0.0)
+        case "rotate", [angle]:
+            c, s = _direction(angle)
+            return (c, -s, 0.0, s, c, 0.0)
+        case "rotate", [angle, x, y]:
+            turn = _function("rotate", [angle])
+            return compose(compose(translation(x, y), turn), translation(-x, -y))
+        case "skewX", [angle]:
+            return (1.0, math.tan(math.radians(angle)), 0.0, 0.0, 1.0, 0.0)
+        case "skewY", [angle]:
+            return (1.0, 0.0, 0.0, math.tan(math.radians(angle)), 1.0, 0.0)
+        case _:
+            raise bad(f"transform: {name} of {len(given)} numbers is none")
+
+
+def _direction(degrees: float) -> tuple[float, float]:
+    """Cosine and sine; exact for quarter turns."""
+    quarters, rest = divmod(degrees % 360, 90)
+    if rest == 0:
+        return _QUARTERS[int(quarters) % 4]
+    return math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+
+
+def view_box(text: str) -> tuple[float, float, float, float] | None:
+    """min x, min y, width, height; None where the attribute is empty. Raises MeshFileError."""
+    if not text.strip():
+        return None
+    found = numbers(text, "viewBox")
+    if len(found) != 4 or found[2] <= 0 or found[3] <= 0:
+        raise bad(f"viewBox: {text[:40]!r} is no rectangle")
+    return (found[0], found[1], found[2], found[3])
+
+
+def fitted(
+    box: tuple[float, float, float, float], width: float, height: float, aligned: str
+) -> Affine:
+    """From the coordinates of a viewBox to (0, 0, width, height), by preserveAspectRatio."""
+    x, y = width / box[2], height / box[3]
+    if aligned.strip() == "none":
+        return (x, 0.0, -box[0] * x, 0.0, y, -box[1] * y)
+    found = _ALIGNED.fullmatch(aligned or "xMidYMid")
+    if found is None:
+        raise bad(f"preserveAspectRatio: {aligned[:40]!r} is not read")
+    scale = max(x, y) if found[3] == "slice" else min(x, y)
+    left = (width - box[2] * scale) * _SHARE[found[1]] - box[0] * scale
+    top = (height - box[3] * scale) * _SHARE[found[2]] - box[1] * scale
+    return (scale, 0.0, left, 0.0, scale, top)
