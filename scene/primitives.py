@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from satcheck.core import Mesh
 from satcheck.core.frozen import fields, frozen
@@ -92,6 +92,7 @@ PRIMITIVES: dict[str, type[Primitive]] = {
     "ellipsoid": Ellipsoid,
 }
 _TRIPLES = frozenset(("size", "radii"))
+_NUMBERS = frozenset((int, float))
 
 
 def is_curved(shape: Primitive) -> bool:
@@ -207,7 +208,15 @@ def _validate(shape: Primitive) -> None:
         if isinstance(value, tuple) != (wanted == 3) or len(numbers) != wanted:
             what = "three numbers" if wanted == 3 else "a number"
             raise ValueError(f"{name} should be {what}")
-        if not all(type(number) in (int, float) for number in numbers):
+        if not _NUMBERS.issuperset(map(type, numbers)):
             raise ValueError(f"{name} holds something else than numbers")
-        if not all(number > 0 and math.isfinite(number) for number in numbers):
+        if not _are_positive(numbers):
             raise ValueError(f"{name} should be positive and finite")
+
+
+def _are_positive(numbers: Sequence[float]) -> bool:
+    """And finite."""
+    try:
+        return min(numbers) > 0 and all(map(math.isfinite, numbers))
+    except OverflowError:  # an integer beyond float64
+        return False

@@ -124,6 +124,7 @@ WRONG = {
     "two": ({"type": "box", "size": [1.0, 2.0]}, "size should be three numbers"),
     "scalar": ({"type": "box", "size": 1.0}, "size should be three numbers"),
     "list": ({"type": "sphere", "radius": [1.0]}, "radius should be a number"),
+    "huge": ({"type": "sphere", "radius": 10**400}, "radius should be positive and finite"),
     "zero": ({"type": "sphere", "radius": 0.0}, "radius should be positive and finite"),
     "negative": ({"type": "box", "size": [1.0, -1.0, 1.0]}, "size should be positive and finite"),
     "infinite": ({"type": "cone", "radius": 1.0, "height": math.inf}, "height should be positive"),
