@@ -35,7 +35,8 @@ VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 @frozen
 class Sample:
-    """One pose. number: from 1. findings: the pairs that are not plainly separated there."""
+    """One pose. number: from 1. findings: the pairs that are not plainly separated there, at rest
+    and on the way."""
 
     number: int
     posture: Posture
@@ -46,7 +47,8 @@ class Sample:
 
 @dataclass(slots=True)
 class PairTally:
-    """One asked pair over all samples, in how many of which it is what.
+    """One asked pair over all samples, in how many of which it is what, at rest or on the way: the
+    first of overlaps, touches, near, undecided that applies.
 
     undecided: indeterminate, or checked by surfaces only. first_overlap: number of the first sample
     with an overlap. Where none of the counts applies the pair is separated.
@@ -71,13 +73,14 @@ class PairTally:
         return not (self.contacts or self.near or self.undecided)
 
     def count(self, finding: Finding, number: int) -> None:
-        if finding.relation in OVERLAPS:
+        found = {finding.relation} | ({finding.motion.relation} if finding.motion else set())
+        if found & OVERLAPS:
             self.overlaps += 1
             if self.first_overlap is None:
                 self.first_overlap = number
-        elif finding.relation == "touching":
+        elif "touching" in found:
             self.touches += 1
-        elif finding.relation == "near":
+        elif "near" in found:
             self.near += 1
         elif finding.undecided is not None:
             self.undecided += 1
@@ -201,12 +204,14 @@ def _sample(number: int, report: Report, posture: Posture | None) -> tuple[Sampl
     own = {(found.code, found.message) for found in posture.issues}
     of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
     others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
-    findings = tuple(
-        finding
-        for finding in report.findings
-        if finding.relation != "separated" or finding.undecided is not None
-    )
+    findings = tuple(finding for finding in report.findings if not _is_plain(finding))
     return Sample(number, posture, report.summary.verdict, findings, tuple(of_pose)), others
+
+
+def _is_plain(finding: Finding) -> bool:
+    """Separated, at rest and on the way, with nothing to be said about it."""
+    still = finding.motion is None or finding.motion.relation == "separated"
+    return finding.relation == "separated" and finding.severity == "none" and still
 
 
 def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:

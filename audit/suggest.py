@@ -87,11 +87,12 @@ def suggest(
     """
     known = Known()
     report = check(scene, replace(settings, depth=True, list_pruned=False), known=known)
-    samples = None
+    samples, issues = None, report.issues
     if poses:
         from satcheck.audit.samples import check_poses
 
         samples = check_poses(scene, poses, replace(settings, depth=False), progress)
+        issues = tuple(dict.fromkeys((*report.issues, *samples.issues)))
     undecided = {(f.a, f.b) for f in report.findings if f.undecided is not None}
     undecided |= {(one.a, one.b) for one in samples.pairs if one.undecided} if samples else set()
     assert known.book is not None
@@ -106,7 +107,7 @@ def suggest(
         pairs=tuple(pairs),
         undecided=len(undecided),
         may_meet=may_meet,
-        issues=report.issues,
+        issues=issues,
     )
 
 
@@ -149,9 +150,16 @@ def _why(
         return "always"
     if finding is not None and _in_contact(finding):
         return "contact"
-    if finding is not None and finding.undecided is not None:
+    if finding is not None and (finding.undecided is not None or _meets(finding)):
         return None
     return "never" if tally and tally.settled else None
+
+
+def _meets(finding: Finding) -> bool:
+    """As placed, whatever rules say of it, or on the way from there."""
+    swept = finding.motion
+    on_the_way = swept is not None and swept.relation in ("penetrating", "touching")
+    return finding.relation in OVERLAPS or on_the_way
 
 
 def _in_contact(finding: Finding) -> bool:

@@ -12,7 +12,7 @@ from rich.text import Text
 
 from satcheck.audit.report import OVERLAPS
 from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.words import counted, depth, issue_line
+from satcheck.cli.report.words import counted, depth, in_motion, issue_line
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -99,12 +99,19 @@ def _poses(samples: Sequence[Sample], *, unicode: bool) -> Table:
 def _found(findings: Sequence[Finding]) -> list[str]:
     """`base and left penetrating 0.25`, one a line, and how many more are left open."""
     wrong = [finding for finding in findings if finding.severity == "error"]
-    lines = [f"{each.a} and {each.b} {each.relation}{_depth(each)}" for each in wrong[:FOUND]]
+    lines = [_line(each) for each in wrong[:FOUND]]
     if len(wrong) > FOUND:
         lines.append(f"{counted(len(wrong) - FOUND, 'more pair')}")
     if undecided := sum(finding.severity == "warning" for finding in findings):
         lines.append(f"{counted(undecided, 'pair')} undecided")
     return lines
+
+
+def _line(finding: Finding) -> str:
+    pair = f"{finding.a} and {finding.b}"
+    if finding.relation == "separated" and finding.motion is not None:
+        return f"{pair}, while they move: {in_motion(finding)}"
+    return f"{pair} {finding.relation}{_depth(finding)}"
 
 
 def _depth(finding: Finding) -> str:

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import math
 from itertools import combinations
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.audit.samples import Samples, check_poses
+from satcheck.audit.suggest import suggest
+from satcheck.cli.output import PLAIN_PAGE
+from satcheck.cli.report.samples import render
+from satcheck.cli.report.schema import text as schema_text
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import MeshFile, load_scene
+from satcheck.scene import MeshFile, Scene, load_scene
 from satcheck.scene.robot import Pose, joint_samples, posed, read_poses
 from tests.scene.robot.robots import joint, link, robot_of
 
@@ -124,6 +130,39 @@ def test_issues_stand_with_their_pose_and_the_others_once() -> None:
     assert [issue.code for issue in found.samples[0].issues] == ["beyond-limits"]
     assert not found.samples[1].issues
     assert [issue.code for issue in found.issues] == ["no-collision-geometry"]
+
+
+def with_cart(path: str) -> Scene:
+    """A box that is driven along x, 5 to -5, past or through the column of the arm."""
+    cart = '{id = "cart", shape = {type = "box", size = [0.2, 0.2, 0.2]}, position = [5, 0, 0.5]}'
+    text = f'schema = "satcheck.scene/1"\nbodies = [{cart}]\n[[motion]]\nbodies = "cart"\n{path}\n'
+    Path("cart.toml").write_text(text, encoding="utf-8")
+    return load_scene(["cart.toml", SAMPLES / "arm.urdf"])
+
+
+def test_what_hits_on_the_way_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    scene = with_cart("translation = [-10, 0, 0]")
+    drawn = joint_samples([robot.robot for robot in scene.robots], 3, 1)
+    found = check_poses(scene, drawn, QUICK)
+    tallies = {(one.a, one.b): one for one in found.pairs}
+    for number, pose in enumerate(drawn, 1):
+        report = check(posed(scene, pose), QUICK)
+        hits = {
+            (one.a, one.b)
+            for one in report.findings
+            if one.motion is not None and one.motion.relation == "penetrating"
+        }
+        assert hits
+        listed = {(one.a, one.b) for one in found.samples[number - 1].findings}
+        assert hits <= listed
+        assert all(tallies[pair].first_overlap <= number for pair in hits)
+    text = render(found, PLAIN_PAGE)
+    assert "while they move: hits at" in text
+    assert "separated" not in text
+    jsonschema.validate(json.loads(json.dumps(found.to_dict())), json.loads(schema_text("samples")))
+    why = {(one.a, one.b): one.why for one in suggest(scene, poses=drawn, seed=1).pairs}
+    assert all(why.get(pair) != "never" for pair in hits)
 
 
 def test_progress_counts_poses() -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
 
 from satcheck.audit import check
+from satcheck.audit.finding import examine
+from satcheck.audit.report import INTERNAL_ERROR
 from satcheck.audit.suggest import Suggestions, suggest
 from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Selector, load_scene
@@ -98,6 +101,37 @@ def test_random_poses_tell_always(tmp_path):
     assert found["base", "tip"].why == "always"
     assert found["base", "tip"].contacts == 5
     assert found["base", "mid"].why == "adjacent"
+
+
+def test_never_is_not_said_of_what_overlaps_as_placed(tmp_path, monkeypatch):
+    """By 0.05, as a rule allows it; in the random poses the arm is far from the post."""
+    shape = '<collision>{}<geometry><box size="1 1 1"/></geometry></collision>'
+    arm = shape.format('<origin xyz="1.9 0 0"/>')
+    limit = '<axis xyz="1 0 0"/><limit lower="-100" upper="100" effort="1" velocity="1"/>'
+    links = [link("base", shape.format("")), link("mid", ""), link("arm", arm)]
+    joints = [joint("fix", "base", "mid", "fixed"), joint("j", "mid", "arm", "prismatic", limit)]
+    (tmp_path / "r.urdf").write_text(robot_of(*links, *joints))
+    monkeypatch.chdir(tmp_path)
+    post = '{id = "post", shape = {type = "box", size = [1, 1, 1]}, position = [2.85, 0, 0]}'
+    text = f'schema = "satcheck.scene/1"\nbodies = [{post}]\n'
+    (tmp_path / "post.toml").write_text(text)
+    scene = load_scene(["post.toml", "r.urdf"])
+    scene = replace(scene, rules=(*scene.rules, allow("post", "arm", max_depth=0.125)))
+    drawn = joint_samples([robot.robot for robot in scene.robots], 20, 3)
+    found = suggest(scene, poses=drawn, seed=3)
+    assert pairs(found)["post", "base"] == "never"
+    assert ("post", "arm") not in pairs(found)
+
+
+def test_an_internal_error_in_a_random_pose_is_told(monkeypatch):
+    def fails(pair, plan, climb=None):
+        if not pair.asked.wants("depth"):
+            raise RuntimeError("boom")
+        return examine(pair, plan, climb)
+
+    monkeypatch.setattr(sys.modules["satcheck.audit.check"], "examine", fails)
+    found = suggest(ARM, poses=POSES[:2], seed=0)
+    assert INTERNAL_ERROR in {issue.code for issue in found.issues}
 
 
 def test_bodies_of_links_that_may_meet_are_remembered():
