@@ -36,6 +36,8 @@ def finding_id(a: str, b: str) -> str:
 def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     """Everything asked about one pair. Warnings go to the plan. climb: where it has been made."""
     contact = settle(pair, plan, climb)
+    if contact.relation == "indeterminate":
+        return indeterminate(pair.a.id, pair.b.id, contact.reason or "undecided", plan)
     gap, unseen = (0.0, 0.0), None
     if contact.relation in OVERLAPS:
         known = _overlapping(pair, contact, plan)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 STAGE = "curved"
 TOO_CLOSE = "one may lie within the other: too close to its surface to tell"
 ON_MESHES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
+OPEN_BOUNDS = "the bounds of a curved shape did not close"
 CLOSE_CONTACT = "a curved shape in contact as far as its bounds tell"
 
 
@@ -57,8 +58,8 @@ def _is_convex(body: PlacedBody) -> bool:
 def _settle_convex(pair: Pair, plan: Plan) -> Contact:
     found = convex_pair(pair.a, pair.b)
     if found is None:
-        plan.record(STAGE, "undecided", "the bounds of the shapes did not close")
-        return Contact("penetrating", False, reason="the bounds of a curved shape did not close")
+        plan.record(STAGE, "undecided", OPEN_BOUNDS)
+        return Contact("indeterminate", False, reason=f"undecided: {OPEN_BOUNDS}")
     plan.record(STAGE, found.outcome, "convex shapes")
     if found.outcome != "penetrating":
         reason = None if found.exact else CLOSE_CONTACT

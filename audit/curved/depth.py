@@ -10,6 +10,7 @@ from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.plan import Plan
 from satcheck.audit.report import OVERLAPS
+from satcheck.audit.tolerances import rounding_pad
 from satcheck.core import Mesh
 from satcheck.core.frozen import replace
 from satcheck.scene.remeshed import remeshed
@@ -18,8 +19,8 @@ from satcheck.scene.remeshed import remeshed
 def sandwiched_depth(pair: Pair, plan: Plan) -> Depth:
     inner, outer = _depth_with(pair, around=False), _depth_with(pair, around=True)
     if outer is None:
-        raise AssertionError("what overlaps a shape overlaps the mesh around it")
-    lower = 0.0 if inner is None else min(inner.lower, outer.upper)
+        raise AssertionError("what is known to overlap a shape overlaps the mesh around it")
+    lower = 0.0 if inner is None else max(min(inner.lower, outer.upper) - _sticks_out(pair), 0.0)
     plan.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
     verified = "separated" if outer.escape.verified else "failed"
     plan.record("verify", verified, "the mesh around the shape, moved by the MTV")
@@ -32,6 +33,12 @@ def _depth_with(pair: Pair, *, around: bool) -> Depth | None:
     plan = Plan()
     contact = settle(meshes, plan)
     return measure_depth(meshes, contact, None, plan) if contact.relation in OVERLAPS else None
+
+
+def _sticks_out(pair: Pair) -> float:
+    """World units: how far the mesh within the shape may be outside of it, by rounding."""
+    slack = sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
+    return slack + rounding_pad(pair.largest_coordinate)
 
 
 def _as_mesh(pair: Pair, body: PlacedBody, around: bool) -> PlacedBody:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 from satcheck.audit.boxes import holds as box_holds
 from satcheck.audit.curved.contact import CLOSE_CONTACT, STAGE, TOO_CLOSE
 from satcheck.audit.curved.nesting import holds
-from satcheck.audit.curved.signed import Signed
-from satcheck.audit.curved.triangles import Nearest, against_triangles
+from satcheck.audit.curved.signed import ORIGIN, Signed
+from satcheck.audit.curved.triangles import Nearest, against_triangles, cancelling
 from satcheck.audit.ladder import Contact
+from satcheck.audit.vectors import added
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.shape import CurvedShape
@@ -19,28 +20,28 @@ if TYPE_CHECKING:
     from satcheck.audit.plan import Plan
     from satcheck.audit.report import Relation, Vector
 
+# Points of the unit ball, the middle first: where that lies on the surface another one may not.
+_TRIED: tuple[Vector, ...] = (
+    (0.0, 0.0, 0.0),
+    (0.37, 0.61, 0.53),
+    (-0.59, 0.31, -0.47),
+    (0.23, -0.71, 0.41),
+)
+
 
 def settle_mesh(pair: Pair, plan: Plan) -> Contact:
     curved, mesh, sign = _sides(pair)
-    seen = against_triangles(curved, mesh.mesh, pair.asked_gap)
-    if seen.undecided:
-        plan.record(STAGE, "undecided", "the bounds of a triangle and the shape did not close")
-        reason = "the bounds of a curved shape and a triangle did not close"
-        return Contact("penetrating", False, reason=reason)
-    crossed = [int(k) for k in seen.crossed if not mesh.solid or mesh.surface().is_boundary(int(k))]
+    seen = _seen(curved, mesh, pair.asked_gap)
+    crossed = _ends(mesh, seen)
     if crossed:
         return _crossing(pair, plan, len(crossed))
-    if len(seen.crossed):
-        plan.record(STAGE, "undecided", "only faces that bound no material meet the shape")
-        reason = "a curved shape meets only faces that bound no material"
-        return Contact("penetrating", False, reason=reason)
-    if not _is_outside(mesh, curved.centre):
-        if seen.nearest is not None and seen.nearest.outcome != "separated":
-            plan.record(STAGE, "penetrating", f"within, and close to triangle {seen.triangle}")
-            return Contact("penetrating", False, reason=TOO_CLOSE)
-        relation: Relation = "inside" if sign > 0 else "contains"
-        plan.record(STAGE, relation, "no triangle meets the shape, and its middle lies inside")
-        return Contact(relation, True)
+    winding = _winding_within(curved, mesh)
+    if winding:
+        return _within(plan, seen, sign)
+    if winding is None or seen.undecided or len(seen.crossed):
+        reason = _open(seen)
+        plan.record(STAGE, "undecided", reason)
+        return Contact("indeterminate", False, reason=f"undecided: {reason}")
     return _apart(pair, plan, seen, sign)
 
 
@@ -48,11 +49,47 @@ def frees_mesh(pair: Pair, move: Vector) -> bool:
     """Whether A, moved, provably has no common interior with B."""
     curved, mesh, sign = _sides(pair)
     moved = (sign * move[0], sign * move[1], sign * move[2])
-    seen = against_triangles(curved, mesh.mesh, 0.0, moved)
-    apart = seen.nearest is None or (seen.nearest.lower >= 0 and not seen.undecided)
-    x, y, z = curved.centre
-    centre = (x + moved[0], y + moved[1], z + moved[2])
-    return apart and not seen.undecided and _is_outside(mesh, centre)
+    seen = _seen(curved, mesh, 0.0, moved)
+    apart = seen.nearest is None or seen.nearest.outcome == "separated" or seen.nearest.lower >= 0
+    return apart and not seen.undecided and _winding_within(curved, mesh, moved) == 0
+
+
+def _seen(curved: CurvedShape, mesh: PlacedBody, reach: float, move: Vector = ORIGIN) -> Nearest:
+    """The triangles of a solid that cancel each other, as those of a wall without thickness may,
+    are no part of it: where no other one is crossed, they are left out."""
+    seen = against_triangles(curved, mesh.mesh, reach, move)
+    if not mesh.solid or not len(seen.crossed) or _ends(mesh, seen):
+        return seen
+    without = cancelling(mesh.mesh, seen.crossed.tolist())
+    if not len(without):
+        return seen
+    return against_triangles(curved, mesh.mesh, reach, move, without)
+
+
+def _ends(mesh: PlacedBody, seen: Nearest) -> list[int]:
+    """Of the triangles that the inside of the shape meets those on which the body ends; a body
+    without an inside is its triangles."""
+    crossed: list[int] = seen.crossed.tolist()
+    return [k for k in crossed if not mesh.solid or mesh.surface().is_boundary(k)]
+
+
+def _within(plan: Plan, seen: Nearest, sign: float) -> Contact:
+    """A point inside the shape is known to lie within the mesh: they overlap."""
+    nearest = seen.nearest
+    if seen.undecided or (nearest is not None and nearest.outcome != "separated"):
+        plan.record(STAGE, "penetrating", f"within, and close to triangle {seen.triangle}")
+        return Contact("penetrating", False, reason=TOO_CLOSE)
+    relation: Relation = "inside" if sign > 0 else "contains"
+    plan.record(STAGE, relation, "no triangle meets the shape, and its middle lies inside")
+    return Contact(relation, True)
+
+
+def _open(seen: Nearest) -> str:
+    if len(seen.crossed):
+        return "a curved shape meets only faces that bound no material"
+    if seen.undecided:
+        return "the bounds of a curved shape and a triangle did not close"
+    return "no point of a curved shape could be told to lie within the mesh or not"
 
 
 def _crossing(pair: Pair, plan: Plan, triangles: int) -> Contact:
@@ -90,6 +127,15 @@ def _sides(pair: Pair) -> tuple[CurvedShape, PlacedBody, float]:
     return curved, pair.a, -1.0
 
 
-def _is_outside(mesh: PlacedBody, point: Vector) -> bool:
-    """A body without an inside has nothing within it."""
-    return not mesh.solid or mesh.surface().winding_number(point) == 0
+def _winding_within(curved: CurvedShape, mesh: PlacedBody, move: Vector = ORIGIN) -> int | None:
+    """The winding number of the mesh about a point inside the shape, moved; 0 for a body without
+    an inside: it has nothing within it. None where those that were tried lie on its surface."""
+    if not mesh.solid:
+        return 0
+    x, y, z = added(curved.centre, move)
+    step = 0.5 * curved.inner_radius
+    for u, v, w in _TRIED:
+        found = mesh.surface().winding_number((x + step * u, y + step * v, z + step * w))
+        if found is not None:
+            return found
+    return None

@@ -26,7 +26,7 @@ def holds(curved: CurvedShape, other: PlacedBody) -> bool | None:
     if inner is None:
         return _all_within(curved, np.asarray(other.mesh.vertices))
     outside = _world(inner, np.asarray(mesh_around(inner.primitive).vertices))
-    if _all_within(curved, outside):
+    if _all_within(curved, outside, inner.slack):
         return True
     return False if _all_within(curved, np.asarray(other.mesh.vertices)) is False else None
 
@@ -41,11 +41,12 @@ def _turned(points: Floats, quaternion: tuple[float, ...]) -> Floats:
     return turned
 
 
-def _all_within(curved: CurvedShape, points: Floats) -> bool | None:
+def _all_within(curved: CurvedShape, points: Floats, slack: float = 0.0) -> bool | None:
+    """slack: how far the body that the points stand for may stick out of them, world units."""
     turned = _turned(points - np.array(curved.centre), _inverse(curved.pose[3:]))
     beyond = _beyond(curved.primitive, turned)
     size = float(np.abs(points).max()) + float(np.abs(curved.centre).max())
-    pad = curved.slack + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * size
+    pad = curved.slack + slack + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * size
     if (beyond > pad).any():
         return False
     return True if (beyond < -pad).all() else None
@@ -75,16 +76,23 @@ def _beyond(primitive: Primitive, points: Floats) -> Floats:
 
 
 def is_within_hull(curved: CurvedShape, hull: core.Polytope) -> bool | None:
-    """Whether the shape lies within a polytope and reaches no face; None: too close to tell."""
+    """Whether the shape lies within a polytope and reaches no face; None: too close to tell.
+
+    The normal of a face, a cross product, is off by some roundoffs of the product of the lengths of
+    its edges: of a sliver that is more than of its own length, and the pad of its plane with it."""
     vertices = np.asarray(hull.vertices)
     a, b, c = (vertices[np.asarray(hull.triangles)[:, k]] for k in range(3))
-    normals = np.cross(b - a, c - a)
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    normals, edges = np.cross(b - a, c - a), (np.linalg.norm(p - a, axis=1) for p in (b, c))
+    lengths = np.linalg.norm(normals, axis=1)
+    if not lengths.all():
+        return None
+    slant = math.prod(edges) / lengths  # >= 1
+    normals /= lengths[:, None]
     turned = _turned(normals, _inverse(curved.pose[3:]))
     reaches = np.array([support(curved.primitive, tuple(n)) for n in turned.tolist()])
     beyond = reaches - np.einsum("ij,ij->i", normals, a - np.array(curved.centre))
     size = float(np.abs(vertices - np.array(curved.centre)).max()) + float(reaches.max())
-    pad = curved.slack + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * size
+    pad = curved.slack + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * size * slant
     if (beyond < -pad).all():
         return True
     return False if (beyond > pad).any() else None

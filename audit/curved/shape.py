@@ -36,6 +36,11 @@ class CurvedShape:
     def centre(self) -> Vector:
         return self.pose[0], self.pose[1], self.pose[2]
 
+    @property
+    def inner_radius(self) -> float:
+        """No more than that of a ball about the centre within the shape, world units."""
+        return _inner_radius(self.primitive) - self.slack
+
     def moved(self, by: Vector) -> Pose:
         return (*(c + d for c, d in zip(self.centre, by, strict=True)), *self.pose[3:])
 
@@ -109,6 +114,20 @@ def support(primitive: Primitive, direction: Vector) -> float:
             return max(height / 2 * z, radius * across - height / 2 * z)
         case Ellipsoid((a, b, c)):
             return math.hypot(a * x, b * y, c * z)
+        case _:
+            raise ValueError("a box is its mesh")
+
+
+def _inner_radius(primitive: Primitive) -> float:
+    match primitive:
+        case Cylinder(radius, height):
+            return min(radius, height / 2)
+        case Cone(radius, height):  # half way up, by the slope of its side
+            return min(height / 2, radius / 2 * (height / math.hypot(radius, height)))
+        case Ellipsoid(radii):
+            return min(radii)
+        case Sphere(radius) | Capsule(radius, _):
+            return radius
         case _:
             raise ValueError("a box is its mesh")
 

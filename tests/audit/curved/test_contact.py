@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 
+from satcheck import core
 from satcheck.audit import Settings
+from satcheck.audit.curved import contact
+from satcheck.audit.curved.nesting import holds, is_within_hull
+from satcheck.audit.curved.shape import curved_shape
 from satcheck.audit.curved.signed import convex_pair
 from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.core import Mesh
+from satcheck.core.frozen import replace
+from satcheck.scene import Body
 from satcheck.scene.primitives import (
     Box,
     Capsule,
@@ -215,3 +223,82 @@ def test_a_clearance_within_the_bounds_of_a_gap_is_not_decided(swapped: bool) ->
     assert ask(*pair, clearance=bounds.lower).undecided is None
     near = ask(*pair, clearance=2 * bounds.upper)
     assert (near.relation, near.severity, near.undecided) == ("near", "error", None)
+
+
+def finned(*fin: tuple[int, int, int]) -> Body:
+    """A box from 0 to 2 with a fin of no thickness beside it, in the plane z = 2."""
+    corners = [(x, y, z) for z in (0.0, 2.0) for y in (0.0, 2.0) for x in (0.0, 2.0)]
+    quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    faces = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    tips = [(4.0, 0.0, 2.0), (4.0, 2.0, 2.0)]
+    mesh = Mesh(np.array(corners + tips), np.array([*faces, *fin], dtype=np.uint32))
+    return mesh_body("fin", mesh)
+
+
+TWINS = ((5, 8, 9), (5, 9, 7), (8, 5, 9), (9, 5, 7))
+CROSSWISE = ((5, 8, 9), (5, 9, 7), (8, 5, 7), (8, 7, 9))
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize(
+    ("x", "relation"), [(3.0, "separated"), (3.3, "separated"), (2.25, "touching"), (2.1, None)]
+)
+def test_a_fin_of_no_thickness_is_no_material(
+    x: float, relation: str | None, swapped: bool
+) -> None:
+    pair = shape("ball", Sphere(0.25), moved(x, 1.0, 2.0)), finned(*TWINS)
+    found = ask(*(pair[::-1] if swapped else pair), tolerance=0.0)
+    assert found.relation == (relation or "penetrating")
+    if relation == "separated":
+        assert (found.exact_relation, found.quality, found.severity) == (relation, "exact", "none")
+    if relation is None:
+        assert found.mtv_verified
+
+
+def test_a_fin_whose_sides_are_cut_differently_is_not_decided() -> None:
+    """No triangle lies in one of the other side: nothing here proves that they cancel."""
+    found = ask(shape("ball", Sphere(0.25), moved(3.0, 1.0, 2.0)), finned(*CROSSWISE))
+    assert (found.relation, found.exact_relation) == ("indeterminate", None)
+    assert (found.severity, found.undecided) == ("warning", "relation")
+    assert found.depth is None
+    deep = ask(shape("ball", Sphere(0.75), moved(2.5, 1.0, 2.0)), finned(*CROSSWISE))
+    assert (deep.exact_relation, deep.severity) == ("penetrating", "error")
+
+
+def test_bounds_that_do_not_close_leave_the_relation_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    pair = shape("a", Sphere(1.0)), shape("b", Sphere(1.0), moved(1.5, 0.0, 0.0))
+    monkeypatch.setattr(contact, "convex_pair", lambda *_: None)
+    found = ask(*pair)
+    assert (found.relation, found.severity, found.undecided) == (
+        "indeterminate",
+        "warning",
+        "relation",
+    )
+    assert "did not close" in (found.reason or "")
+
+
+def test_the_rounding_of_a_placement_counts_in_depths_and_nesting() -> None:
+    turned = shape("capsule", Capsule(0.25, 1.0), tilted(180.0, 2.5, 0.0, 1.5))
+    slack = curved_shape(Capsule(0.25, 1.0), tilted(180.0, 2.5, 0.0, 1.5)).slack
+    found = ask(turned, bracket())
+    assert found.depth_bounds is not None
+    assert slack > 0.0
+    assert found.depth_bounds[0] <= 0.25 - slack
+    outer, body = curved_shape(Sphere(2.0), None), shape("inner", Sphere(1.0))
+    inner = PlacedBody(body, SharedMesh(body.file, Settings()))
+    assert holds(outer, inner)
+    assert inner.curved is not None
+    inner.curved = replace(inner.curved, slack=1.0)
+    assert holds(outer, inner) is None
+
+
+def test_the_normal_of_a_sliver_is_not_trusted_to_the_last_digit() -> None:
+    """A ball 1e-10 within a box. A face of it is cut so that one triangle is 1e-12 high: its plane
+    is known to some 1e-4 of its size only."""
+    ball, box = curved_shape(Sphere(1.0 - 1e-10), None), mesh_of(Box((2.0, 2.0, 2.0)))
+    assert is_within_hull(ball, box.convex_hull())
+    ends = [(-1.0, 1.0, 1.0), (1.0, 1.0, 1.0), (0.0, 1.0 - 1e-12, 1.0)]
+    vertices = np.concatenate((box.vertices, ends))
+    faces = np.concatenate((box.triangles, [np.arange(3)[::-1] + box.vertex_count]))
+    cut = SimpleNamespace(vertices=vertices, triangles=faces)
+    assert is_within_hull(ball, cast("core.Polytope", cut)) is None

@@ -1,0 +1,80 @@
+"""Bounds over many triangles, and triangles that bound nothing."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from satcheck import core
+from satcheck.audit.curved.shape import CurvedShape, curved_shape
+from satcheck.audit.curved.signed import AT_ORIGIN, signed
+from satcheck.audit.curved.triangles import against_triangles, cancelling
+from satcheck.scene.primitives import Cone
+from tests.audit.curved.bodies import tilted
+
+SIDES = 6
+
+
+def fan(curved: CurvedShape, rng: np.random.Generator) -> core.Mesh:
+    """Six triangles about a corner that hangs 1e-13 to 1e-11 over the shape, open away from it."""
+    way = rng.normal(size=3)
+    far = core.Hull(np.array([5.0 * way / np.linalg.norm(way)]))
+    found = core.check_pair(curved.shape, far, curved.pose, AT_ORIGIN, query="distance")
+    normal, foot = np.array(found.normal), np.array(found.witness_a)
+    across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    across /= np.linalg.norm(across)
+    corner = foot + normal * 10.0 ** rng.uniform(-13.0, -11.0)
+    ring = [
+        corner
+        + 2.0 * (math.cos(angle) * across + math.sin(angle) * np.cross(normal, across))
+        + rng.uniform(0.02, 1.0) * normal
+        for angle in np.arange(SIDES) * (2.0 * math.pi / SIDES)
+    ]
+    faces = [(0, 1 + k, 1 + (k + 1) % SIDES) for k in range(SIDES)]
+    return core.Mesh(np.array([corner, *ring]), np.array(faces, dtype=np.uint32))
+
+
+def test_bounds_hold_for_all_triangles() -> None:
+    rng = np.random.default_rng(5)
+    misled = 0
+    for degrees in range(1, 90, 2):
+        curved = curved_shape(Cone(1.0, 2.0), tilted(degrees, 0.0, 0.0, 0.0))
+        mesh = fan(curved, rng)
+        alone = [
+            signed(
+                core.check_pair(
+                    curved.shape,
+                    core.Hull(np.asarray(mesh.vertices)[face]),
+                    curved.pose,
+                    AT_ORIGIN,
+                    query="depth",
+                ),
+                curved.slack,
+            )
+            for face in mesh.triangles
+        ]
+        known = [one for one in alone if one is not None]
+        assert len(known) == SIDES
+        nearest = against_triangles(curved, mesh, 0.1).nearest
+        assert nearest is not None
+        assert nearest.lower == min(one.lower for one in known)
+        assert nearest.upper == min(one.upper for one in known)
+        apart = all(one.outcome == "separated" for one in known)
+        assert (nearest.outcome == "separated") == apart
+        misled += min(known, key=lambda one: one.distance).lower > nearest.lower
+    assert misled > 0
+
+
+def test_what_cancels() -> None:
+    """Two sheets of one triangle, turned towards each other; a third one; one that only shares
+    two corners; all with corners of their own."""
+    sheet = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
+    back = [(1.0, 0.0, -0.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
+    other = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 2.0, 0.0)]
+    faces = np.arange(12, dtype=np.uint32).reshape(4, 3)
+    mesh = core.Mesh(np.array(sheet + back + other + sheet), faces)
+    assert cancelling(mesh, [0, 1]).tolist() == [0, 1]
+    assert cancelling(mesh, [0, 1, 2]).tolist() == [0, 1]
+    assert cancelling(mesh, [0, 1, 3]).tolist() == []
+    assert cancelling(mesh, [0, 2, 3]).tolist() == []
