@@ -1,6 +1,5 @@
 #include "patches.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 namespace satcheck {
@@ -24,17 +23,6 @@ DisjointSets::DisjointSets(std::size_t n) : parent_(n) {
   std::iota(parent_.begin(), parent_.end(), 0u);
 }
 
-std::uint32_t DisjointSets::find(std::uint32_t i) {
-  while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-  return i;
-}
-
-void DisjointSets::unite(std::uint32_t a, std::uint32_t b) {
-  a = find(a);
-  b = find(b);
-  parent_[std::max(a, b)] = std::min(a, b);
-}
-
 std::vector<std::vector<std::uint32_t>> Labels::members() const {
   std::vector<std::vector<std::uint32_t>> result(count);
   for (std::uint32_t t = 0; t < of_triangle.size(); ++t) result[of_triangle[t]].push_back(t);
@@ -44,7 +32,8 @@ std::vector<std::vector<std::uint32_t>> Labels::members() const {
 Labels label_components(const Mesh& welded, const EdgeTable& edges) {
   DisjointSets sets(welded.triangles.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const std::uint32_t h : edges.half_edges(e)) sets.unite(edges.half_edges(e)[0] / 3, h / 3);
+    const auto half_edges = edges.half_edges(e);
+    for (const std::uint32_t h : half_edges.subspan(1)) sets.unite(half_edges[0] / 3, h / 3);
   }
   return number_sets(sets, welded.triangles.size());
 }

@@ -1,6 +1,7 @@
 // Connected sets of triangles of a welded mesh.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "edge_table.hpp"
@@ -12,8 +13,15 @@ namespace satcheck {
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n);
-  std::uint32_t find(std::uint32_t i);
-  void unite(std::uint32_t a, std::uint32_t b);
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
 
  private:
   std::vector<std::uint32_t> parent_;

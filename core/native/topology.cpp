@@ -107,15 +107,29 @@ void count_edges(Topology& topology, const EdgeTable& edges) {
   topology.oriented = topology.misoriented_edges == 0;
 }
 
-void count_triangles(Topology& topology, const Mesh& welded) {
-  std::vector<Triangle> sorted = welded.triangles;
-  for (Triangle& t : sorted) {
-    if (repeats_a_corner(t) ||
-        collinear(welded.vertices[t[0]], welded.vertices[t[1]], welded.vertices[t[2]])) {
+// Copies of a triangle have their edges and the corner across from each in common.
+bool may_have_copies(const Mesh& welded, const EdgeTable& edges) {
+  const auto across = [&](std::uint32_t h) { return welded.triangles[h / 3][(h % 3 + 2) % 3]; };
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.half_edges(e);
+    if (h.size() > 2 || (h.size() == 2 && across(h[0]) == across(h[1]))) return true;
+  }
+  return false;
+}
+
+void count_triangles(Topology& topology, const Mesh& welded, const EdgeTable& edges) {
+  std::size_t pointed = 0;  // that name a corner twice: they have no edges
+  for (const Triangle& t : welded.triangles) {
+    if (repeats_a_corner(t)) {
+      ++pointed;
+    } else if (collinear(welded.vertices[t[0]], welded.vertices[t[1]], welded.vertices[t[2]])) {
       ++topology.degenerate_triangles;
     }
-    std::sort(t.begin(), t.end());
   }
+  topology.degenerate_triangles += pointed;
+  if (pointed < 2 && !may_have_copies(welded, edges)) return;
+  std::vector<Triangle> sorted = welded.triangles;
+  for (Triangle& t : sorted) std::sort(t.begin(), t.end());
   sort_triangles(sorted, welded.vertices.size());
   for (std::size_t i = 1; i < sorted.size(); ++i) {
     topology.duplicate_triangles += sorted[i] == sorted[i - 1] ? 1 : 0;
@@ -190,7 +204,7 @@ Topology measure_welded(const Mesh& welded, const EdgeTable& edges) {
   topology.triangles = welded.triangles.size();
   topology.components = label_components(welded, edges).count;
   count_edges(topology, edges);
-  count_triangles(topology, welded);
+  count_triangles(topology, welded, edges);
   if (topology.closed && topology.oriented) {
     topology.volume = signed_volume(welded.vertices, welded.triangles);
   }
