@@ -1,6 +1,7 @@
 // The readers without Python: what they return, and that no prefix or damage of a file harms them.
 #include <cstdint>
 #include <cstdio>
+#include <initializer_list>
 #include <random>
 #include <string>
 
@@ -122,6 +123,30 @@ void test_places() {
   CHECK(error_of(cut) && error_of(cut)->offset == 130);
 }
 
+void append_facet(std::string& bytes, std::initializer_list<float> corners) {
+  for (int i = 0; i < 3; ++i) append(bytes, 0.f);
+  for (float c : corners) append(bytes, c);
+  append<std::uint16_t>(bytes, 0);
+}
+
+void test_corners_of_stl_are_vertices_once() {
+  constexpr std::uint32_t facets = 1000;  // a fan: many more vertices than a table begins with
+  std::string bytes(80, ' ');
+  append<std::uint32_t>(bytes, facets);
+  for (std::uint32_t i = 0; i < facets; ++i) {
+    const float x = static_cast<float>(i);
+    append_facet(bytes, {x, 1, 0, x + 1, 1, 0, 0, 0, -1});
+  }
+  const ReadOutcome outcome = read_stl(bytes);
+  const MeshData* mesh = std::get_if<MeshData>(&outcome);
+  CHECK(mesh && mesh->vertices.size() == 3 * (facets + 2));
+  if (!mesh) return;
+  for (std::uint32_t i = 0; i < facets; ++i) {
+    const auto at = [&](std::uint32_t corner) { return mesh->vertices[3 * mesh->triangles[3 * i + corner]]; };
+    CHECK(at(0) == i && at(1) == i + 1 && mesh->triangles[3 * i + 2] == 2);
+  }
+}
+
 void test_numbers() {
   const ReadOutcome outcome = read_obj(
       "v 0.1 -1.5e-3 +2\nv 1e-400 0.3333333333333333 .5\nv 5. 1E2 -0\nv 123456789012345678901234567890 0 4e-320\n"
@@ -146,6 +171,7 @@ int main() {
   test_every_prefix();
   test_random_damage();
   test_places();
+  test_corners_of_stl_are_vertices_once();
   test_numbers();
   std::printf("%d failures\n", failures);
   return failures == 0 ? 0 : 1;
