@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Iterable
 from typing import Literal
 
 from satcheck.core.frozen import frozen
@@ -31,8 +32,10 @@ class Contour:
     deviation: float = 0.0
 
     def mapped(self, affine: Affine) -> Contour:
+        """Raises MeshFileError: it does not stay finite."""
         a, b, c, d, e, f = affine
         points = tuple((a * x + b * y + c, d * x + e * y + f) for x, y in self.points)
+        refuse_non_finite(points)
         # No length is stretched by more than the Frobenius norm.
         return Contour(points, self.deviation * math.hypot(a, b, d, e))
 
@@ -131,12 +134,16 @@ class Tracer:
     def closed(self) -> Contour | None:
         """The contour, equal neighbours merged; None when fewer than 3 corners are left."""
         corners = [p for p, q in zip(self._points, self._rotated(), strict=True) if p != q]
-        if any(not math.isfinite(c) for p in corners for c in p):
-            raise MeshFileError("non-finite", "non-finite coordinates")
+        refuse_non_finite(corners)
         return Contour(tuple(corners), self._deviation) if len(corners) >= 3 else None
 
     def _rotated(self) -> list[Point]:
         return [*self._points[1:], self._points[0]]
+
+
+def refuse_non_finite(points: Iterable[Point]) -> None:
+    if any(not math.isfinite(c) for p in points for c in p):
+        raise MeshFileError("non-finite", "non-finite coordinates")
 
 
 def _segments(wanted: float) -> int:

@@ -6,7 +6,7 @@ import math
 from typing import Any, Literal
 
 from satcheck.core.frozen import frozen
-from satcheck.scene.drawing.contour import FLATNESS, Affine, Contour, Point
+from satcheck.scene.drawing.contour import FLATNESS, Affine, Contour, Point, refuse_non_finite
 from satcheck.scene.drawing.joining import JOIN
 from satcheck.scene.errors import MeshFileError
 
@@ -108,4 +108,6 @@ def _corners(entity: Any) -> tuple[list[Point], float]:
 
 
 def _flat(point: Any) -> Point:
-    return float(point[0]), float(point[1])
+    flat = float(point[0]), float(point[1])
+    refuse_non_finite([flat])
+    return flat

@@ -236,3 +236,17 @@ def test_references_that_explode_are_counted_and_refused() -> None:
         with pytest.raises(MeshFileError) as caught:
             read(draw)
         assert caught.value.code == "too-large"
+
+
+def test_coordinates_that_are_not_finite_spoil_their_own_shape() -> None:
+    def draw(space: Any, document: Any) -> None:
+        square(document.blocks.new("b"), 0, 1e200)
+        space.add_blockref("b", (0, 0), dxfattribs={"yscale": 1e200})
+        space.add_line((0, 0), (math.nan, 1))
+        square(space, 0, 0)
+
+    block, line, contour = read(draw).shapes
+    assert extents(contour) == (0, 0, 1, 1)
+    for refused in (block, line):
+        assert isinstance(refused, RefusedShape)
+        assert refused.code == "non-finite"

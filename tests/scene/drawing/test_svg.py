@@ -143,6 +143,7 @@ def test_a_closed_line_without_fill_is_an_outline() -> None:
         ('<path d="M 0 0 A 1 1 0 2 0 5 5"/>', "bad-record"),
         ('<path d="M 0 0 L 1e999 0 L 0 1 z"/>', "non-finite"),
         ('<circle r="-1"/>', "bad-record"),
+        ('<rect width="1e10" height="1" transform="scale(1e300)"/>', "non-finite"),
         ('<ellipse rx="1"/>', "unsupported-feature"),
         ('<polygon points="0 0 1 0 1"/>', "bad-record"),
         ('<rect width="1em" height="1"/>', "unsupported-feature"),
