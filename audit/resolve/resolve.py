@@ -10,6 +10,7 @@ from contextlib import ExitStack
 from satcheck.audit.check import check, volume_meter
 from satcheck.audit.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
+from satcheck.audit.resolve.plain_numbers import write_plainly
 from satcheck.audit.resolve.pull_back import pull_back
 from satcheck.audit.resolve.reasons import left_pairs, reasons
 from satcheck.audit.resolve.resolution import Move, Resolution
@@ -74,6 +75,8 @@ def resolve(
         rounds = _shortest(crowd, few, longest, iterations, progress)
         if few and not rounds.left:
             retry(crowd, overlaps, longest, iterations)
+        if few:
+            write_plainly(crowd, rounds.left, longest)
         why = reasons(crowd, staying, _links(scene), rounds.left)
     moves = _moves(scene, crowd)
     moved = moved_scene(scene, {move.body: move.translation for move in moves})
