@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <thread>
 
 #include "boundary_contact.hpp"
 #include "broad_phase.hpp"
@@ -12,8 +13,10 @@
 namespace satcheck {
 namespace {
 
-// Pairs that one thread takes at a time: neighbours along the curve share their bodies.
+// Pairs that one thread takes at a time, at most: neighbours along the curve share their bodies. Of few, which
+// may be large, each thread gets several turns.
 constexpr std::size_t kTogether = 8;
+constexpr std::size_t kTurns = 4;
 
 // Vertices of a body that are worth a thread of their own.
 constexpr std::size_t kManyVertices = 8192;
@@ -164,13 +167,15 @@ Climb climb(const ClimbRequest& request, Rung first, Rung last) { return Climber
 
 std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads) {
   std::vector<std::optional<Climb>> found(requests.size());
+  const std::size_t workers = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t together = std::clamp<std::size_t>(requests.size() / (kTurns * workers), 1, kTogether);
   parallel_for(requests.size(), threads, [&](std::size_t i) {
     try {
       found[i] = climb(requests[i], Rung::aabb, last);
     } catch (const std::exception&) {  // said when the pair is asked alone
       found[i].reset();
     }
-  }, kTogether);
+  }, together);
   return found;
 }
 
