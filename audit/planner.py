@@ -88,7 +88,7 @@ class Planner:
             return (MOTIONS,) if self.moving else ()
         flag = asked_by(self.settings, composed=self._composed).by.get(effect)
         key = ASKING_KEYS.get(effect)
-        rules = (rule.name for rule in self._book.rules if key and getattr(rule, key))
+        rules = (rule.name for rule in self._book.rules if key and _asks(rule, key))
         return tuple(dict.fromkeys(([flag] if flag else []) + list(rules)))
 
     @property
@@ -162,6 +162,12 @@ def _who_wants_depth(settings: Settings, rule: Rule | None, composed: bool) -> s
     if rule is not None:
         return rule.name
     return FOR_MESHES if settings.depth is None and not composed else None
+
+
+def _asks(rule: Rule, key: str) -> bool:
+    """A clearance of 0 is none; a limit of 0 is one."""
+    value = getattr(rule, key)
+    return bool(value) if key == "clearance" else value is not None
 
 
 def _name(rule: Rule | None) -> str | None:

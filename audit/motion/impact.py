@@ -51,9 +51,10 @@ def first_impact(pair: MovingPair) -> Impact:
         return Impact(0.0, None, 0.0, None, str(why))
     if overlaps(start):
         return Impact(0.0, 0.0, 0.0, 0.0)
-    if start.exact_relation is None:
+    if start.relation == "indeterminate" or start.relation in OVERLAPS:
         reason = f"undecided where the motion starts: {start.reason}"
         return Impact(0.0, None, 0.0, 0.0, reason)
+    # A touch as far as bounds tell is a contact: how deep it may be, the scan proves by itself.
     scan = _Scan(pair, outside=start.exact_relation in FREE)
     try:
         scan.run()

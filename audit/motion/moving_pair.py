@@ -10,12 +10,12 @@ from satcheck.audit.boxes import diagonal
 from satcheck.audit.curved.shape import rows_of
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
-from satcheck.audit.motion.track import ORIGIN, WORLD, Frame, Track
+from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.plan import Plan
 from satcheck.audit.planner import ALWAYS, Asked
-from satcheck.audit.tolerances import TOUCH_FRACTION
+from satcheck.audit.tolerances import TOUCH_FRACTION, UNIT_ROUNDOFF
 from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
@@ -56,6 +56,7 @@ class MovingPair:
         self.track_a = track_a
         self.track_b = track_b
         self.pad = track_a.pad(pair.a.bounds) + track_b.pad(pair.b.bounds)
+        self.pad += _placing(pair.a, track_a) + _placing(pair.b, track_b)
         self.pad += sum(body.curved.slack for body in (pair.a, pair.b) if body.curved is not None)
         rounding = PADS_IN_BAND * self.pad
         size = min(diagonal(pair.a.bounds), diagonal(pair.b.bounds))
@@ -194,6 +195,20 @@ def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
         return body.hull_shape(), WORLD
     x, y, z = rows_of(body.curved.pose[3:])
     return body.curved.shape, ((x, y, z), body.curved.centre)
+
+
+def _placing(body: PlacedBody, track: Track) -> float:
+    """World units: what rounding the matrix that poses the file may do to a point of the body. It
+    goes by the coordinates of the file, which may be far larger than those of the world."""
+    transform = body.body.transform
+    if transform is None or not track.moves:
+        return 0.0
+    low, high = body.body.file.mesh.bounds
+    reach = math.hypot(*(transform[4 * row + 3] for row in range(3)))
+    for column, ends in enumerate(zip(low, high, strict=True)):
+        stretch = math.hypot(*(transform[4 * row + column] for row in range(3)))
+        reach += stretch * max(map(abs, ends))
+    return PLACING_ROUNDOFFS * UNIT_ROUNDOFF * reach
 
 
 def _placed(body: PlacedBody, track: Track, t: float) -> PlacedBody:

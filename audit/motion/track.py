@@ -38,8 +38,18 @@ WORLD: Frame = (STILL, ORIGIN)
 # 128, and the angle itself, which carries its relative error of 4 into the turn. The arithmetic of
 # a gap along an axis, again on three coordinates, below 128.
 POSE_ROUNDOFFS = 256
+# A pose after a placement, as one matrix: each entry is a sum of up to four products, rounded, then
+# rounded itself, below 8 roundoffs of the lengths that go into it; applied to a point of the file,
+# on three coordinates, that is below 16 of what the placement makes of it before its parts add up.
+PLACING_ROUNDOFFS = 16
 # A rate of closing: the axis 4, the angular velocity 8, products and sums of three coordinates 16
 # each, and what bends, relative to the rate, as much again.
+# Where the body that stands is seen to turn instead (core/native/moving.hpp, Views), its rate is
+# off by 8 roundoffs of spin times reach, and its own speed, 0, has no share in the slack. The pads
+# cover it. A gap is at least gap - rate s - bend s^2 / 2, and gap - steady s; bend = spin * steady.
+# The first is the greater only where bend s / 2 < steady - rate <= 2 steady, within 4 radians:
+# below 32 roundoffs of the reach, of which a body that needs no pose has 128 to spare. The second
+# takes no difference of large terms: it is off by some roundoffs of what the gap loses.
 RATE_ROUNDOFFS = 128
 # The turn between two orientations is known to so many roundoffs, however small it is.
 LEG_ROUNDOFFS = 16

@@ -84,8 +84,6 @@ class MixedSearch {
     raise_answer(a_, part, axis, views_, rounding_, question_, value);
   }
 
-  static Vec3 towards(Vec3 axis, Vec3 direction) { return dot(axis, direction) < 0 ? -axis : axis; }
-
   const Shape& shape_;
   PlacedShape a_;
   const Surface& b_;

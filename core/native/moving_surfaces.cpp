@@ -103,8 +103,6 @@ class MotionSearch {
     return !(value < result_.value);
   }
 
-  static Vec3 towards(Vec3 axis, Vec3 direction) { return dot(axis, direction) < 0 ? -axis : axis; }
-
   const Surface& a_;
   const Surface& b_;
   const Moving& moving_a_;

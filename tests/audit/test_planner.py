@@ -108,3 +108,14 @@ def test_no_pair_is_asked_further_than_its_reach() -> None:
                 gap = planner.asked_gap(i, j, resolution[i] + resolution[j])
                 assert gap <= reach[i] + reach[j] + 1e-15
     assert Planner(Settings(), book).asked_gap(0, 1, 0.3) == 1.0  # the last rule decides
+
+
+@pytest.mark.parametrize(("effect", "key"), [("depth", "max_depth"), ("volume", "max_volume")])
+def test_a_limit_of_nothing_asks_too(effect: str, key: str) -> None:
+    """A clearance of 0 is none, but an overlap that must have no depth has one to be measured."""
+    none = rule(where="none", clearance=0.0)
+    book = RuleBook([Subject("a"), Subject("b")], [rule(where="zero", **{key: 0.0}), none])
+    planner = Planner(Settings(), book, composed=True)
+    assert planner.asked(0, 1).by[effect] == "zero"
+    assert planner.who_asks(effect) == ("zero",)
+    assert planner.who_asks("distance") == ()

@@ -103,3 +103,18 @@ def test_any_curved_shape_turns_in_front_of_a_wall(tmp_path: Path, kind: str) ->
     truth = math.asin(1.4 / 1.5) / math.pi  # of a thin one; its width of 0.001 is worth 0.001 rad
     assert found.relation == "penetrating"
     assert abs(found.time_of_impact[0] - truth) <= 0.002 / math.cos(math.pi * truth)
+
+
+@pytest.mark.parametrize("way", ["[0, 0, 2]", "[2, 1, 0]"])
+@pytest.mark.parametrize("tolerance", [0.0, 0.01])
+def test_a_can_is_lifted_off_the_floor_or_slid_along_it(
+    tmp_path: Path, way: str, tolerance: float
+) -> None:
+    """It stands on the floor as far as bounds tell, which is no reason not to look on."""
+    can = '{id = "a", shape = {type = "cylinder", radius = 0.55, height = 1.1}'
+    floor = '{id = "b", shape = {type = "box", size = [10, 10, 1]}, position = [0, 0, -0.5]}'
+    bodies = f"{can}, position = [0.1, 0.2, 0.55]}}, {floor}"
+    found = swept(tmp_path, bodies, f"translation = {way}", tolerance)
+    assert (found.relation, found.reached, found.contact) == ("touching", 1.0, 0.0)
+    down = swept(tmp_path, bodies, "translation = [0, 0, -0.5]", tolerance)
+    assert down.relation == "penetrating"

@@ -18,7 +18,7 @@ from satcheck.core.frozen import replace
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation, Waypoint
 from satcheck.scene.rules import Rule, Selector
 from satcheck.verify import verify
-from tests.audit.shapes import box, bracket, moved, scene_of, unit_box
+from tests.audit.shapes import box, bracket, moved, scene_of, unit_box, write
 
 RIGHT = Translation((5.0, 0.0, 0.0))
 
@@ -154,6 +154,29 @@ def test_a_touch_within_a_wide_band_may_keep_its_clearance(tmp_path: Path) -> No
     report = checked(tmp_path, [along], settings=asked, a=unit_box(), b=unit_box(1.5))
     (finding,) = report.findings
     assert (finding.motion.relation, finding.severity) == ("touching", "note")
+
+
+def test_a_file_written_far_from_where_it_stands_makes_no_hit(tmp_path: Path) -> None:
+    """An L slides along a wall at 45 degrees. Its file lies 2**30 off along x, and its placement
+    takes that back, exactly; with the motion it is one matrix, rounded to some 1e-7."""
+
+    def turned(mesh, off):
+        points, faces = mesh
+        return [(u - v + off, u + v, z) for u, v, z in points], faces
+
+    wall = turned(box((-20.0, -2.0, -1.0), (20.0, 0.0, 5.0)), 0.0)
+    write(tmp_path, slider=turned(bracket(), 2.0**30), wall=wall)
+    scene = tmp_path / "far.toml"
+    scene.write_text(
+        'schema = "satcheck.scene/1"\n'
+        f'bodies = [{{id = "a", mesh = "slider.obj", position = [{-(2.0**30)}, 0, 0]}}, '
+        '{id = "b", mesh = "wall.obj"}]\n'
+        '[[motion]]\nbodies = "a"\ntranslation = [3.3, 3.3, 0]\n'
+    )
+    (finding,) = check([scene], Settings(tolerance=1e-9)).findings
+    assert (finding.relation, finding.exact_relation) == ("touching", "touching")
+    assert finding.motion.relation == "touching"
+    assert 2.0**30 * 2.0**-53 < finding.motion.tolerance < 1e-4
 
 
 @pytest.mark.parametrize(

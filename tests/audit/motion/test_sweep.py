@@ -7,6 +7,7 @@ import math
 import pytest
 
 from satcheck.audit.motion import moving_pair, sweep, worst
+from satcheck.audit.motion.limits import STEPS
 from satcheck.scene.motion import PosePath, Rotation, Translation, Waypoint
 from tests.audit.motion.pairs import pair_of
 from tests.audit.shapes import box, bracket, moved, open_box, unit_box
@@ -106,11 +107,13 @@ def test_a_budget_that_ends_at_a_contact_leaves_the_gap_open(monkeypatch):
 
 
 def test_a_million_turns_end():
-    """Next to a wall that the corners pass at 0.1: proven, or open by the budget."""
+    """Next to a wall that the corners pass at 0.1. A step is a part of a turn: that is more of them
+    than the budget has."""
     square = box((-1, -1, 0), (1, 1, 1))
     wall = box((math.sqrt(2.0) + 0.1, -5, 0), (9, 5, 1))
     found = swept(square, Rotation(ORIGIN, Z, 3.6e8), wall)
-    assert found.relation in ("separated", "indeterminate")
+    assert (found.relation, found.steps) == ("indeterminate", STEPS + 1)
+    assert found.reason.startswith("the budget of the sweep was spent")
 
 
 @pytest.mark.parametrize("scale", [2.0**-100, 2.0**-20, 1.0, 2.0**60])
