@@ -24,7 +24,7 @@ Tangent tangent_plane(Vec3 axis) {
   return {u, cross(axis, u)};
 }
 
-AxisSupport support_along(const MinkowskiDifference& m, Vec3 direction) {
+SATCHECK_WIDE AxisSupport support_along(const MinkowskiDifference& m, Vec3 direction) {
   const Vec3 axis = direction * (1 / norm(direction));
   const SupportPoint point = m.support(axis);
   return {axis, point, dot(axis, point.w)};

@@ -294,7 +294,7 @@ Simplex weighted_facet(const ExpandingPolytope& polytope, const Face& face) {
 
 }  // namespace
 
-EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
+SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
   EpaResult result;
   thread_local Workspace workspace;
   ExpandingPolytope polytope(m, workspace);

@@ -25,7 +25,7 @@ Vec3 first_direction(const MinkowskiDifference& m) {
 
 }  // namespace
 
-GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
+SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
   const double noise = m.support_error();
   GjkResult result;
   result.lower = -INFINITY;
@@ -34,8 +34,8 @@ GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
   result.upper = norm(result.v);
   const double gap = m.curved ? kCurvedGap * m.scale : 4 * kUnitRoundoff * m.scale;
   while (result.upper > noise) {
+    const SupportPoint w = m.support(-result.v);
     const Vec3 axis = result.v * (1 / result.upper);
-    const SupportPoint w = m.support(-axis);
     ++result.iterations;
     const double lower = dot(axis, w.w);
     if (lower > result.lower) {
@@ -45,8 +45,8 @@ GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
     if (goal == GjkGoal::overlap && result.lower > noise) break;
     if (result.upper - result.lower <= gap || result.simplex.contains(w)) break;
     result.simplex.add(w);
-    const ClosestPoint closest = closest_point(result.simplex);
-    if (closest.count == 0) {
+    const ClosestPoint closest = closest_point_with_last(result.simplex);
+    if (closest.count == 0 && closest.distance_squared == 0) {
       result.v = {0, 0, 0};
       result.status = GjkResult::Status::encloses;
       return result;

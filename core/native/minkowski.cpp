@@ -1,7 +1,5 @@
 #include "minkowski.hpp"
 
-#include "tolerances.hpp"
-
 namespace satcheck {
 
 namespace {
@@ -32,10 +30,6 @@ MinkowskiDifference::MinkowskiDifference(const Shape& shape_a, const Pose& pose_
   b_in_a.rotation = {{{cx.x, cy.x, cz.x}, {cx.y, cy.y, cz.y}, {cx.z, cy.z, cz.z}}};
   b_in_a.translation = transpose_times(ra, offset_between(a, pose_a, b, pose_b));
   scale = a.extent + a.margin + b.extent + b.margin + max_abs(b_in_a.translation);
-}
-
-double MinkowskiDifference::support_error() const {
-  return (curved ? kCurvedSupportError : kSupportError) * scale;
 }
 
 Pose core_placement(const Shape& shape, const Pose& pose) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "shape.hpp"
+#include "tolerances.hpp"
 
 namespace satcheck {
 
@@ -30,15 +31,15 @@ struct MinkowskiDifference {
   MinkowskiDifference(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
   // The point of A - B farthest along `direction` (any length but zero).
-  SupportPoint support(Vec3 direction) const {
-    const CorePoint on_a = core_support(a, direction);
-    const CorePoint on_b = core_support(b, transpose_times(b_in_a.rotation, -direction));
+  SATCHECK_INLINE SupportPoint support(Vec3 direction) const {
+    const CorePoint on_a = inlined_core_support(a, direction);
+    const CorePoint on_b = inlined_core_support(b, transpose_times(b_in_a.rotation, -direction));
     const Vec3 pb = b_in_a * on_b.point;
     return {on_a.point - pb, on_a.point, on_a.index, on_b.index};
   }
 
   // Upper bound on the rounding error of a support value along a unit axis.
-  double support_error() const;
+  double support_error() const { return (curved ? kCurvedSupportError : kSupportError) * scale; }
 };
 
 // A's frame, with the recentred origin of a hull: p_world = placement * p_core.

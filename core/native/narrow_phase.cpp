@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "box_contact.hpp"
 #include "contact_region.hpp"
 #include "curved_axis.hpp"
 #include "epa.hpp"
@@ -33,20 +34,23 @@ bool solid_polytopes(const MinkowskiDifference& m) {
   return is_solid(m.a) && is_solid(m.b);
 }
 
+bool are_boxes(const MinkowskiDifference& m) { return m.a.kind == ShapeKind::box && m.b.kind == ShapeKind::box; }
+
 bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
-  if (method == MethodChoice::gjk || !solid_polytopes(m)) return false;
+  if (method == MethodChoice::gjk) return false;
+  if (are_boxes(m)) return true;
+  if (!solid_polytopes(m)) return false;
   if (method == MethodChoice::sat) return true;
-  if (m.a.kind == ShapeKind::box && m.b.kind == ShapeKind::box) return true;
   return std::max(m.a.polytope.vertices.size(), m.b.polytope.vertices.size()) <= kSatVertexLimit;
 }
 
 CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
-  const bool boxes = m.a.kind == ShapeKind::box && m.b.kind == ShapeKind::box;
   const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
-  const SatResult sat = boxes ? sat_boxes(m, goal) : sat_polytopes(m, goal);
+  const SatResult sat = are_boxes(m) ? sat_boxes(m) : sat_polytopes(m, goal);
   result.axes_tested += sat.axes_tested;
   CoreAnswer answer;
-  answer.lower = answer.upper = answer.value = sat.penetration;
+  answer.lower = sat.lower;
+  answer.upper = answer.value = sat.penetration;
   answer.axis = sat.axis;
   answer.has_axis = true;
   answer.method = Method::sat;
@@ -54,7 +58,8 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   answer.index_a = sat.index_a;
   answer.index_b = sat.index_b;
   if (query != Query::overlap && sat.penetration >= -m.support_error()) {
-    answer.witness = contact_region_centre(m, sat.axis, sat.penetration);
+    const auto sole = are_boxes(m) ? sole_contact_of_boxes(m, sat) : std::nullopt;
+    answer.witness = sole ? *sole : contact_region_centre(m, sat.axis, sat.penetration);
   }
   return answer;
 }
@@ -143,12 +148,19 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
   return answer;
 }
 
-CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& result) {
+CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, double noise, PairResult& result) {
   const double margin = m.a.margin + m.b.margin;
   const bool overlap_only = query == Query::overlap && margin == 0;
   const GjkResult g = gjk(m, overlap_only ? GjkGoal::overlap : GjkGoal::distance);
   result.gjk_iterations += g.iterations;
   if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
+  if (overlap_only && g.status == GjkResult::Status::encloses) {
+    CoreAnswer answer;
+    answer.lower = enclosed_radius(g.simplex) - m.support_error();
+    answer.method = Method::gjk;
+    answer.feature = m.curved ? Feature::curved : Feature::vertices;
+    if (answer.lower > noise) return answer;
+  }
   return from_epa(m, g, query, result);
 }
 
@@ -187,11 +199,12 @@ Polytope world_hull(const Shape& shape, const Pose& pose) {
   return in_place && shape.has_faces ? hull : convex_hull(hull.vertices);
 }
 
-// How far the rounding of a pose moves a vertex at most: 3 products, 2 sums and the translation make 6
-// roundings of no more than the core's reach in a coordinate, times sqrt(3) for the vector.
+// How far the rounding of a pose moves a vertex at most. In a coordinate 3 products and 2 sums make 5
+// roundings of no more than the reach of the turned vertex, sqrt(3) times its largest coordinate: as a
+// vector, 15 of that coordinate. Adding the translation rounds the sum; rounded up.
 double placement_error(const Shape& shape, const Pose& pose) {
   if (pose.rotation == Mat3{} && pose.translation == Vec3{}) return 0;
-  return 11 * kUnitRoundoff * (max_abs(pose.translation) + 2 * (max_abs(shape.origin) + shape.extent));
+  return kUnitRoundoff * (norm(pose.translation) + 20 * (max_abs(shape.origin) + shape.extent));
 }
 
 // The rounding that a proof in float64 has to beat. Cores of vertices are judged where their poses
@@ -263,18 +276,46 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (side == 0) result.distance = 0;
 }
 
+// Yes or no of two boxes, where their axes prove it.
+bool decided_by_sides(const MinkowskiDifference& m, double noise, PairResult& result) {
+  const BoxSides sides = sides_of_boxes(m, noise);
+  result.method = Method::sat;
+  result.feature = sides.feature;
+  result.index_a = sides.index_a;
+  result.index_b = sides.index_b;
+  result.axes_tested = sides.axes_tested;
+  result.outcome = sides.side < 0 ? Outcome::separated : sides.side > 0 ? Outcome::penetrating : Outcome::undecided;
+  return sides.side != 0;
+}
+
+// What an axis that separates leaves open is the distance. Of boxes that are asked for it, it comes first.
+CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
+  const bool distance_first = query == Query::distance && are_boxes(m);
+  const auto distance = [&](double lower_bound) {
+    const GjkResult g = gjk(m, GjkGoal::distance);
+    result.gjk_iterations += g.iterations;
+    return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
+  };
+  if (distance_first) {
+    const CoreAnswer core = distance(-INFINITY);
+    if (core.upper < -m.support_error()) return core;
+  }
+  const CoreAnswer core = from_sat(m, query, result);
+  const bool apart = core.upper < -m.support_error();
+  return query != Query::overlap && apart ? distance(-core.upper) : core;
+}
+
 PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                           MethodChoice method) {
   const MinkowskiDifference m(a, pose_a, b, pose_b);
-  PairResult result;
-  CoreAnswer core = takes_sat(m, method) ? from_sat(m, query, result) : from_gjk(m, query, result);
   const double noise = proof_noise(m, pose_a, pose_b), margin = m.a.margin + m.b.margin;
-  if (query != Query::overlap && core.method == Method::sat && core.upper < -m.support_error()) {
-    // An axis separates; the distance is another question.
-    const GjkResult g = gjk(m, GjkGoal::distance);
-    result.gjk_iterations += g.iterations;
-    core = from_gjk_distance(m, g, std::fmax(g.lower, -core.upper));
+  PairResult result;
+  const bool by_sat = takes_sat(m, method);
+  if (by_sat && query == Query::overlap && are_boxes(m)) {
+    if (!decided_by_sides(m, noise, result)) settle_exactly(a, pose_a, b, pose_b, true, noise, result);
+    return result;
   }
+  CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, noise, result);
   result.method = core.method;
   result.feature = core.feature;
   result.index_a = core.index_a;
@@ -288,9 +329,10 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool polytopes = a.is_polytope() && b.is_polytope();
   if (!polytopes && core.has_axis) straighten(core);
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
-  const double confirmed_below = core.method == Method::sat ? std::fmax(kShallow * m.scale, noise) : noise;
+  const double confirmed_below = core.method == Method::sat && !are_boxes(m) ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
-  const bool too_wide = result.has_distance && !(result.upper - result.lower <= kWidestInterval * m.scale);
+  const double widest = kWidestInterval * m.scale;
+  const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
   if (polytopes) {
     if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
   } else if (in_doubt && !m.curved) {

@@ -17,6 +17,7 @@ struct SatResult {
   // min over the axes n of h_A(n) + h_B(-n): how far A moves along -n to come free. Negative: n
   // separates, by that gap.
   double penetration = INFINITY;
+  double lower = -INFINITY;  // and no axis has less, rounding of a support value aside
   Vec3 axis;  // unit, from A to B, frame of A
   Feature feature = Feature::none;
   std::uint32_t index_a = Shape::kNoIndex;  // face or edge of the polytope of A
@@ -26,8 +27,17 @@ struct SatResult {
 
 enum class SatGoal { any_separating_axis, least_overlap };
 
-// Two boxes over 15 axes. With any_separating_axis the first axis whose gap exceeds rounding ends it.
-SatResult sat_boxes(const MinkowskiDifference& difference, SatGoal goal);
+// Two boxes over 15 axes: the least overlap.
+SatResult sat_boxes(const MinkowskiDifference& difference);
+
+// Two boxes over 15 axes, yes or no. `noise` bounds the rounding error of an overlap.
+struct BoxSides {
+  int side = 0;  // -1: an axis separates by more than noise; 1: the boxes overlap on all by more; 0: neither
+  Feature feature = Feature::none;  // the axis that separates
+  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+  int axes_tested = 0;
+};
+BoxSides sides_of_boxes(const MinkowskiDifference& difference, double noise);
 
 // Two solid polytopes over the face normals of both and the edge pairs whose arcs cross on the Gauss map.
 SatResult sat_polytopes(const MinkowskiDifference& difference, SatGoal goal);

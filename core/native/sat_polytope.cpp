@@ -1,7 +1,8 @@
 // Polytopes: an edge pair spans a facet of A - B exactly when the arc between the normals of the two
 // faces at A's edge crosses the negated arc of B's edge on the Gauss map (Gregorius, GDC 2013).
-// Deviation: arcs that come too close to call are projected in full instead of being decided by
-// a sign that is rounding noise.
+// Deviations: arcs that come too close to call are projected in full instead of being decided by
+// a sign that is rounding noise. Nearly parallel edges count too: the shorter their cross product, the
+// worse its direction and the lower the lower bound.
 
 #include <algorithm>
 
@@ -37,7 +38,7 @@ Arcs classify_arcs(const EdgeArc& a, const EdgeArc& b) {
   return same_side ? Arcs::cross : Arcs::apart;
 }
 
-double support_along(const MinkowskiDifference& m, Vec3 axis) { return dot(axis, m.support(axis).w); }
+SATCHECK_WIDE double support_along(const MinkowskiDifference& m, Vec3 axis) { return dot(axis, m.support(axis).w); }
 
 }  // namespace
 
@@ -68,6 +69,8 @@ SatResult sat_polytopes(const MinkowskiDifference& m, SatGoal goal) {
   }
   thread_local std::vector<EdgeArc> arcs_b;
   place_arcs(m.b.arcs, m.b_in_a, arcs_b);
+  best.lower = INFINITY;
+  double narrow_facets = 0;
   for (std::size_t i = 0; i < m.a.arcs.size(); ++i) {
     for (std::size_t j = 0; j < arcs_b.size(); ++j) {
       const EdgeArc &ea = m.a.arcs[i], &eb = arcs_b[j];
@@ -75,20 +78,27 @@ SatResult sat_polytopes(const MinkowskiDifference& m, SatGoal goal) {
       if (arcs == Arcs::apart) continue;
       Vec3 axis = cross(ea.direction, eb.direction);
       const double length_squared = norm_squared(axis);
-      if (length_squared < kParallelSquared) continue;
-      axis = axis * (1 / std::sqrt(length_squared));
+      if (length_squared < kFlat * kFlat) {  // a facet this narrow lies that close to the faces beside it
+        narrow_facets = 2 * kFlat * m.scale;
+        continue;
+      }
+      const double length = std::sqrt(length_squared);
+      axis = axis * (1 / length);
       if (dot(axis, ea.normal_left + ea.normal_right) < 0) axis = -axis;
       ++best.axes_tested;
-      if (arcs == Arcs::cross) {
-        const double overlap = dot(axis, ea.tail - eb.tail);  // the supports are these two edges
-        if (overlap < best.penetration) offer(support_along(m, axis), axis, Feature::edge_edge, i, j);
-      } else {
-        offer(support_along(m, axis), axis, Feature::edge_edge, i, j);
-        offer(support_along(m, -axis), -axis, Feature::edge_edge, i, j);
-      }
+      const auto project = [&](Vec3 along) {
+        const double overlap = support_along(m, along);
+        offer(overlap, along, Feature::edge_edge, i, j);
+        best.lower = std::fmin(best.lower, overlap - kFlat * m.scale / length);
+      };
+      // Where the arcs cross, the support is no less than these two edges reach.
+      const bool worth_it = dot(axis, ea.tail - eb.tail) - kFlat * m.scale / length < best.penetration;
+      if (worth_it || arcs == Arcs::uncertain) project(axis);
+      if (arcs == Arcs::uncertain) project(-axis);
       if (separates()) return best;
     }
   }
+  best.lower = std::fmin(best.lower, best.penetration - tie) - narrow_facets;
   return best;
 }
 

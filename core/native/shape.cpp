@@ -139,17 +139,14 @@ Vec3 disc_support(double radius, Vec3 direction, double z) {
 
 }  // namespace
 
-CorePoint core_support(const Shape& shape, Vec3 d) {
+SATCHECK_WIDE CorePoint core_support(const Shape& shape, Vec3 d) { return inlined_core_support(shape, d); }
+
+CorePoint round_support(const Shape& shape, Vec3 d) {
   const Vec3 s = shape.size;
   switch (shape.kind) {
-    case ShapeKind::hull: {
-      const std::uint32_t index = support_index(shape.lanes, d);
-      return {{shape.lanes.x[index], shape.lanes.y[index], shape.lanes.z[index]}, index};
-    }
-    case ShapeKind::box: {
-      const unsigned x = d.x >= 0, y = d.y >= 0, z = d.z >= 0;
-      return {{x ? s.x : -s.x, y ? s.y : -s.y, z ? s.z : -s.z}, x << 2 | y << 1 | z};
-    }
+    case ShapeKind::hull:
+    case ShapeKind::box:
+      break;
     case ShapeKind::sphere:
       return {{0, 0, 0}, 0};
     case ShapeKind::capsule:
@@ -168,7 +165,7 @@ CorePoint core_support(const Shape& shape, Vec3 d) {
       return {{s.x * (scaled.x / length), s.y * (scaled.y / length), s.z * (scaled.z / length)}, Shape::kNoIndex};
     }
   }
-  return {{0, 0, 0}, Shape::kNoIndex};  // not reached: every kind returns above
+  return {{0, 0, 0}, Shape::kNoIndex};  // not reached: these have supports of their own
 }
 
 }  // namespace satcheck

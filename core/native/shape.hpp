@@ -24,22 +24,22 @@ struct EdgeArc {
 struct Shape {
   static constexpr std::uint32_t kNoIndex = 0xffffffffu;
 
+  // First what every query reads.
   ShapeKind kind = ShapeKind::hull;
+  // Of a hull. False: the vertices hold all extreme points, and maybe others; faces, edges and arcs are
+  // left to those who need them (with_faces).
+  bool has_faces = true;
   // Box: half extents. Ellipsoid: radii. Cylinder, cone, capsule: radius in x and y, half height
   // in z. Sphere: radius in x. The axis is the local z; the cone's apex is at +z.
   Vec3 size;
   double margin = 0;  // radius of the ball around the core: sphere and capsule
-  // Hull and box. Hull: coordinates are relative to `origin`, which brings a hull far from the world's
-  // origin to its own without any rounding.
-  Polytope polytope;
-  VertexLanes lanes;
-  std::vector<EdgeArc> arcs;  // of a solid hull
   Vec3 origin;
   double extent = 0;  // largest |coordinate| of the core, relative to `origin`
-
-  // Of a hull. False: the vertices hold all extreme points, and maybe others; faces, edges and arcs are
-  // left to those who need them (with_faces).
-  bool has_faces = true;
+  // Hull and box. Hull: coordinates are relative to `origin`, which brings a hull far from the world's
+  // origin to its own without any rounding.
+  VertexLanes lanes;
+  Polytope polytope;
+  std::vector<EdgeArc> arcs;  // of a solid hull
 
   bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
 };
@@ -65,5 +65,18 @@ struct CorePoint {
   std::uint32_t index;
 };
 CorePoint core_support(const Shape& shape, Vec3 direction);
+CorePoint round_support(const Shape& shape, Vec3 direction);  // of neither hulls nor boxes
+
+// core_support() for loops that are compiled for wide registers as a whole.
+SATCHECK_INLINE CorePoint inlined_core_support(const Shape& shape, Vec3 d) {
+  if (shape.kind == ShapeKind::hull) {
+    const std::uint32_t index = support_index(shape.lanes, d);
+    return {{shape.lanes.x[index], shape.lanes.y[index], shape.lanes.z[index]}, index};
+  }
+  if (shape.kind != ShapeKind::box) return round_support(shape, d);
+  const Vec3 s = shape.size;
+  const unsigned x = d.x >= 0, y = d.y >= 0, z = d.z >= 0;
+  return {{x ? s.x : -s.x, y ? s.y : -s.y, z ? s.z : -s.z}, x << 2 | y << 1 | z};
+}
 
 }  // namespace satcheck

@@ -26,7 +26,8 @@ ClosestPoint closest_on_segment(const Simplex& s, int i, int j) {
   return {v, norm_squared(v), {i, j, 0}, {1 - t, t, 0}, 2};
 }
 
-ClosestPoint closest_on_triangle(const Simplex& s, int i, int j, int k) {
+// `without_k`: whether the edge from i to j counts.
+ClosestPoint closest_on_triangle(const Simplex& s, int i, int j, int k, bool without_k = true) {
   const Vec3 p = s.vertex[i].w, q = s.vertex[j].w, r = s.vertex[k].w;
   const Vec3 n = cross(q - p, r - p);
   const double area_squared = norm_squared(n);
@@ -38,7 +39,7 @@ ClosestPoint closest_on_triangle(const Simplex& s, int i, int j, int k) {
     return {v, norm_squared(v), {i, j, k}, {wp / sum, wq / sum, wr / sum}, 3};
   }
   ClosestPoint best;
-  if (!(wr > 0)) best.offer(closest_on_segment(s, i, j));
+  if (without_k && !(wr > 0)) best.offer(closest_on_segment(s, i, j));
   if (!(wp > 0)) best.offer(closest_on_segment(s, j, k));
   if (!(wq > 0)) best.offer(closest_on_segment(s, k, i));
   return best;
@@ -61,8 +62,7 @@ struct FaceSides {
   bool any() const { return outside[0] || outside[1] || outside[2] || outside[3]; }
 };
 
-FaceSides sides_of_origin(const Simplex& s) {
-  const Volumes v = volumes_of_origin(s);
+FaceSides sides_of_origin(const Volumes& v) {
   const double whole = v.whole();
   return {{!(v.opposite[0] * whole > 0), !(v.opposite[1] * whole > 0), !(v.opposite[2] * whole > 0),
            !(v.opposite[3] * whole > 0)}};
@@ -95,8 +95,34 @@ ClosestPoint closest_point(const Simplex& s) {
   if (s.count == 1) return closest_on_vertex(s, 0);
   if (s.count == 2) return closest_on_segment(s, 0, 1);
   if (s.count == 3) return closest_on_triangle(s, 0, 1, 2);
-  const FaceSides sides = sides_of_origin(s);
+  const FaceSides sides = sides_of_origin(volumes_of_origin(s));
   return sides.any() ? closest_on_faces(s, sides) : ClosestPoint{{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0};
+}
+
+ClosestPoint closest_point_with_last(const Simplex& s) {
+  if (s.count == 2) return closest_on_segment(s, 0, 1);
+  if (s.count == 3) return closest_on_triangle(s, 0, 1, 2, false);
+  const FaceSides sides = sides_of_origin(volumes_of_origin(s));
+  if (!sides.any()) return {{0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0};
+  ClosestPoint best;
+  if (sides.outside[2]) best.offer(closest_on_triangle(s, 0, 1, 3, false));
+  if (sides.outside[1]) best.offer(closest_on_triangle(s, 0, 2, 3, false));
+  if (sides.outside[0]) best.offer(closest_on_triangle(s, 1, 2, 3, false));
+  return best;
+}
+
+// The height of the origin over a face is its volume over twice the area, both times 6; twice the area is
+// at most (2 r)^2 where all vertices lie within r. A volume of 3 factors up to r carries at most 12
+// roundoffs of sqrt(3) r^3 for its terms.
+double enclosed_radius(const Simplex& s) {
+  const Volumes v = volumes_of_origin(s);
+  const double sign = v.opposite[0] > 0 ? 1 : -1;
+  double least = INFINITY, farthest_squared = 0;
+  for (int i = 0; i < 4; ++i) {
+    least = smaller(least, sign * v.opposite[i]);
+    farthest_squared = larger(farthest_squared, norm_squared(s.vertex[i].w));
+  }
+  return least / (4 * farthest_squared) - 8 * kUnitRoundoff * std::sqrt(farthest_squared);
 }
 
 // By elimination with row pivots: its residual is rounding, however thin the tetrahedron. Quotients of

@@ -40,6 +40,14 @@ struct ClosestPoint {
 // compete by distance, so a misjudged sign costs accuracy in the last digit, not the region.
 ClosestPoint closest_point(const Simplex& simplex);
 
+// The same of a simplex whose last vertex is needed: one without which there is no closer point. What the
+// other vertices span is left out. Count 0 at a distance above 0 means that rounding left nothing.
+ClosestPoint closest_point_with_last(const Simplex& simplex);
+
+// A ball around the origin that a tetrahedron holds: a lower bound of its radius, without the rounding of
+// the vertices. 0 or less when the origin may lie outside.
+double enclosed_radius(const Simplex& simplex);
+
 // Weights of the origin in a tetrahedron that encloses it, however thin. One that rounding cannot tell
 // from its faces loses the vertices that carry nothing.
 void weigh_enclosed_origin(Simplex& simplex);

@@ -24,7 +24,9 @@ inline constexpr double kCurvedSupportError = 128 * kUnitRoundoff;
 // height is rounding noise, and a face built on it would have a meaningless normal.
 inline constexpr double kVisible = 16 * kUnitRoundoff;
 
-// A simplex, or a Minkowski difference, is flat when it is thinner than this fraction of the scale.
+// A simplex, or a Minkowski difference, is flat when it is thinner than this fraction of the scale. As an
+// angle it bounds what the rounding of two unit vectors, 15 roundoffs, does to their cross product, and
+// that, times sqrt(3) for the farthest support point, to a support value.
 inline constexpr double kFlat = 64 * kUnitRoundoff;
 
 // Bounds of curved shapes close only in the limit; GJK stops at this fraction of the scale.
@@ -44,9 +46,7 @@ inline constexpr int kCurvedExpansions = 512;
 inline constexpr int kPolishSteps = 4;
 inline constexpr double kPolishAngle = 1e-8;
 
-// Cross products of edges with sin^2 of their angle below this are left to the face axes, whose
-// overlap they share to second order in the angle: 1e-12 * scale / 2 at most, below this the
-// exact stage decides.
+// Two segments with sin^2 of their angle below this count as parallel where their common points are sought.
 inline constexpr double kParallelSquared = 1e-12;
 
 // Arcs on the Gauss map whose end points come this close to the other arc's plane may or may not
@@ -56,12 +56,12 @@ inline constexpr double kArcUncertain = 1e-7;
 // An axis rounded by more than this (radians) does not serve as a filter: its exact sign is taken.
 inline constexpr double kTrustedAxis = 1e-6;
 
-// Penetrations that SAT finds below this fraction of the scale are confirmed by exact signs, because
+// Penetrations that SAT on hulls finds below this fraction of the scale are confirmed by exact signs, because
 // the stored normal of a sliver face carries more error than a support value does.
 inline constexpr double kShallow = 1e-7;
 
-// Where the proven bounds of two polytopes are further apart than this fraction of the scale, the exact
-// stage takes over. On facets of ordinary shape float64 leaves 1e-14 to 1e-13; slivers cost it more.
+// Where the proven bounds of two polytopes are further apart than this fraction of the scale, or the rounding
+// of their placement is more, the exact stage takes over. On facets of ordinary shape float64 leaves 1e-14 to 1e-13; slivers cost it more.
 inline constexpr double kWidestInterval = 1e-12;
 
 // A short chain of operations on coordinates (a rotation, a translation, a scaling about a point: fewer than 16

@@ -25,7 +25,10 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline double norm_squared(Vec3 a) { return dot(a, a); }
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
-inline double max_abs(Vec3 a) { return std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z))); }
+// Plain comparisons: one instruction each, where fmax() is a call.
+inline double larger(double a, double b) { return a > b ? a : b; }
+inline double smaller(double a, double b) { return a < b ? a : b; }
+inline double max_abs(Vec3 a) { return larger(std::fabs(a.x), larger(std::fabs(a.y), std::fabs(a.z))); }
 // An order of points that no scaling changes: by x, then y, then z.
 inline bool coordinates_less(Vec3 a, Vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 inline bool is_finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
@@ -63,7 +66,6 @@ struct Aabb {
 
   void include(Vec3 p) { include(Aabb{p, p}); }
   void include(const Aabb& box) {  // an empty one changes nothing
-    // Plain comparisons: one instruction each, where fmin() is a call.
     const Vec3 &low = box.min, &high = box.max;
     min = {low.x < min.x ? low.x : min.x, low.y < min.y ? low.y : min.y, low.z < min.z ? low.z : min.z};
     max = {high.x > max.x ? high.x : max.x, high.y > max.y ? high.y : max.y, high.z > max.z ? high.z : max.z};

@@ -94,6 +94,34 @@ def test_nearly_parallel_edges(angle: float) -> None:
 
 
 @pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("width", [1.0, 0.05])
+@pytest.mark.parametrize("angle", [1e-3, 9e-7, 3e-8, 1e-10])
+@pytest.mark.parametrize("share", [0.3, 0.05, -0.1])
+def test_nearly_parallel_edges_that_cross(
+    method: Method, width: float, angle: float, share: float
+) -> None:
+    """Two bars stand on an edge, one over the other and turned by a tiny angle: only the cross product of
+    these two edges tells how far they are apart, when that is less than the angle times their length."""
+    gap = share * angle
+    half_roll = math.sin(math.pi / 8), math.cos(math.pi / 8)
+    half_turn = math.sin(angle / 2), math.cos(angle / 2)
+    below = (0.0, 0.0, 0.0, half_roll[0], 0.0, 0.0, half_roll[1])
+    turned = (
+        half_turn[1] * half_roll[0],
+        half_turn[0] * half_roll[0],
+        half_turn[0] * half_roll[1],
+        half_turn[1] * half_roll[1],
+    )
+    above = (0.0, 0.0, 2 * math.sqrt(2) * width + gap, *turned)
+    bar = Box((1, width, width))
+    for query in ("overlap", "depth", "distance"):
+        result = check_pair(bar, bar, below, above, query=query, method=method)
+        assert result.outcome == ("separated" if gap > 0 else "penetrating")
+        if query != "overlap":
+            assert distance_of(result) == pytest.approx(gap, abs=EXACT)
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_identical_and_concentric_shapes_break_ties_the_same_way(method: Method) -> None:
     cube = Box((1, 1, 1))
     for other, depth in ((cube, 2.0), (Box((0.5, 0.5, 0.5)), 1.5), (Box((1, 1, 3)), 2.0)):

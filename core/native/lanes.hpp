@@ -1,0 +1,127 @@
+// Four float64 at a time. Every lane does what plain code would do, in the order it is written: the same
+// bits on every machine, whatever registers hold them.
+#pragma once
+
+#include <cmath>
+
+#if defined(__GNUC__)
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+// A function with this mark is compiled twice, and the machine's registers choose at run time. What it
+// calls on Lanes is inlined into both. Sanitizers and Clang cannot.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define SATCHECK_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define SATCHECK_WIDE
+#endif
+#define SATCHECK_INLINE inline __attribute__((always_inline))
+
+// How Lanes would be passed, if they were not inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace satcheck {
+
+typedef double Lanes __attribute__((vector_size(32)));
+typedef decltype(Lanes{} < Lanes{}) LaneMask;
+
+SATCHECK_INLINE Lanes load_lanes(const double* from) {
+  typedef double Unaligned __attribute__((vector_size(32), aligned(8), may_alias));
+  return *reinterpret_cast<const Unaligned*>(from);
+}
+// In bits: `mask ? a : b` is taken apart, lane by lane, where registers are narrower.
+SATCHECK_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
+  return (Lanes)((mask & (LaneMask)a) | (~mask & (LaneMask)b));
+}
+// The lanes a, b, c, d of a vector.
+template <int a, int b, int c, int d>
+SATCHECK_INLINE Lanes shuffle(Lanes v) {
+#if defined(__clang__)
+  return __builtin_shufflevector(v, v, a, b, c, d);
+#else
+  return __builtin_shuffle(v, LaneMask{a, b, c, d});
+#endif
+}
+
+SATCHECK_INLINE Lanes square_root(Lanes v) {
+#if defined(__SSE2__)
+  __m128d half[2];
+  __builtin_memcpy(half, &v, sizeof half);
+  half[0] = _mm_sqrt_pd(half[0]);
+  half[1] = _mm_sqrt_pd(half[1]);
+  __builtin_memcpy(&v, half, sizeof half);
+  return v;
+#else
+  return Lanes{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
+
+// Bit l is set where lane l holds.
+SATCHECK_INLINE int bits_of(LaneMask mask) {
+#if defined(__SSE2__)
+  __m128d half[2];
+  __builtin_memcpy(half, &mask, sizeof half);
+  return _mm_movemask_pd(half[0]) | _mm_movemask_pd(half[1]) << 2;
+#else
+  return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+#endif
+}
+
+}  // namespace satcheck
+
+#else  // plain code
+
+#define SATCHECK_WIDE
+#define SATCHECK_INLINE inline
+
+namespace satcheck {
+
+struct LaneMask {
+  bool lane[4];
+};
+struct Lanes {
+  double lane[4];
+  double operator[](int l) const { return lane[l]; }
+};
+
+template <class Function>
+Lanes each_lane(Function f) {
+  return {{f(0), f(1), f(2), f(3)}};
+}
+inline Lanes operator+(Lanes a, Lanes b) { return each_lane([&](int l) { return a[l] + b[l]; }); }
+inline Lanes operator-(Lanes a, Lanes b) { return each_lane([&](int l) { return a[l] - b[l]; }); }
+inline Lanes operator*(Lanes a, Lanes b) { return each_lane([&](int l) { return a[l] * b[l]; }); }
+inline Lanes operator/(Lanes a, Lanes b) { return each_lane([&](int l) { return a[l] / b[l]; }); }
+inline Lanes operator*(Lanes a, double s) { return each_lane([&](int l) { return a[l] * s; }); }
+inline Lanes operator-(Lanes a) { return each_lane([&](int l) { return -a[l]; }); }
+inline LaneMask operator<(Lanes a, Lanes b) { return {{a[0] < b[0], a[1] < b[1], a[2] < b[2], a[3] < b[3]}}; }
+inline LaneMask operator>(Lanes a, Lanes b) { return b < a; }
+inline LaneMask operator==(Lanes a, Lanes b) { return {{a[0] == b[0], a[1] == b[1], a[2] == b[2], a[3] == b[3]}}; }
+template <class Function>
+LaneMask each_mask(Function f) {
+  return {{f(0), f(1), f(2), f(3)}};
+}
+inline LaneMask operator&(LaneMask a, LaneMask b) { return each_mask([&](int l) { return a.lane[l] && b.lane[l]; }); }
+inline LaneMask operator|(LaneMask a, LaneMask b) { return each_mask([&](int l) { return a.lane[l] || b.lane[l]; }); }
+inline Lanes square_root(Lanes v) { return each_lane([&](int l) { return std::sqrt(v[l]); }); }
+inline Lanes load_lanes(const double* from) { return {{from[0], from[1], from[2], from[3]}}; }
+inline Lanes select(LaneMask mask, Lanes a, Lanes b) {
+  return each_lane([&](int l) { return mask.lane[l] ? a[l] : b[l]; });
+}
+template <int a, int b, int c, int d>
+Lanes shuffle(Lanes v) {
+  return {{v[a], v[b], v[c], v[d]}};
+}
+inline int bits_of(LaneMask m) { return m.lane[0] | m.lane[1] << 1 | m.lane[2] << 2 | m.lane[3] << 3; }
+
+}  // namespace satcheck
+
+#endif
+
+namespace satcheck {
+
+SATCHECK_INLINE Lanes all_lanes(double value) { return Lanes{value, value, value, value}; }
+SATCHECK_INLINE Lanes abs(Lanes v) { return select(v < all_lanes(0), -v, v); }
+
+}  // namespace satcheck
