@@ -154,11 +154,11 @@ CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, double noise, Pai
   const GjkResult g = gjk(m, overlap_only ? GjkGoal::overlap : GjkGoal::distance);
   result.gjk_iterations += g.iterations;
   if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
-  if (overlap_only && g.status == GjkResult::Status::encloses) {
+  if (overlap_only && !m.curved && g.status == GjkResult::Status::encloses) {
     CoreAnswer answer;
     answer.lower = enclosed_radius(g.simplex) - m.support_error();
     answer.method = Method::gjk;
-    answer.feature = m.curved ? Feature::curved : Feature::vertices;
+    answer.feature = Feature::vertices;
     if (answer.lower > noise) return answer;
   }
   return from_epa(m, g, query, result);

@@ -29,6 +29,7 @@ SATCHECK_INLINE LaneBest larger(LaneBest a, LaneBest b) {
   return {select(takes_b, b.value, a.value), select(takes_b, b.index, a.index)};
 }
 
+// Over all lanes.
 SATCHECK_INLINE std::uint32_t index_of_largest(LaneBest best) {
   best = larger(best, {shuffle<2, 3, 0, 1>(best.value), shuffle<2, 3, 0, 1>(best.index)});
   best = larger(best, {shuffle<1, 0, 3, 2>(best.value), shuffle<1, 0, 3, 2>(best.index)});
