@@ -1,4 +1,5 @@
-// Weights of the origin in tetrahedra as thin as support points of curved shapes make them.
+// Weights of the origin in tetrahedra as thin as support points of curved shapes make them; the steps of GJK
+// against the plain closest point.
 #include "check.hpp"
 #include "pairs.hpp"
 #include "simplex.hpp"
@@ -51,9 +52,57 @@ void test_weights_hold_the_origin() {
   }
 }
 
+Simplex random_simplex(testing::Source& source, int count) {
+  Simplex s;
+  for (int i = 0; i < count; ++i) {
+    SupportPoint point{};
+    point.w = source.on_sphere() * source.uniform(0.1, 1) + Vec3{0.2, 0, 0};
+    s.add(point);
+  }
+  return s;
+}
+
+void test_the_last_vertex_is_enough_where_it_is_needed() {
+  testing::Source source(5);
+  int needed = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Simplex s = random_simplex(source, 2 + k % 3);
+    const ClosestPoint plain = closest_point(s), stepped = closest_point_with_last(s);
+    bool has_last = plain.count == 0;
+    for (int i = 0; i < plain.count; ++i) has_last = has_last || plain.index[i] == s.count - 1;
+    if (!has_last) continue;
+    ++needed;
+    CHECK(stepped.distance_squared == plain.distance_squared);
+    CHECK(stepped.count == plain.count);
+  }
+  CHECK(needed > 500);
+}
+
+void test_the_enclosed_ball_is_enclosed() {
+  testing::Source source(7);
+  int enclosing = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Simplex s = random_simplex(source, 4);
+    const double radius = enclosed_radius(s);
+    if (closest_point(s).count != 0) {
+      CHECK(radius <= 0);
+      continue;
+    }
+    ++enclosing;
+    for (int skip = 0; skip < 4; ++skip) {
+      const Vec3 p = s.vertex[(skip + 1) % 4].w, q = s.vertex[(skip + 2) % 4].w, r = s.vertex[(skip + 3) % 4].w;
+      const Vec3 n = cross(q - p, r - p);
+      CHECK(radius < std::fabs(dot(n, p)) / norm(n));
+    }
+  }
+  CHECK(enclosing > 30);
+}
+
 }  // namespace
 
 int main() {
+  test_the_last_vertex_is_enough_where_it_is_needed();
+  test_the_enclosed_ball_is_enclosed();
   test_weights_hold_the_origin();
   return testing::exit_status();
 }
