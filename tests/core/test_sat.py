@@ -100,8 +100,8 @@ def test_nearly_parallel_edges(angle: float) -> None:
 def test_nearly_parallel_edges_that_cross(
     method: Method, width: float, angle: float, share: float
 ) -> None:
-    """Two bars stand on an edge, one over the other and turned by a tiny angle: only the cross product of
-    these two edges tells how far they are apart, when that is less than the angle times their length."""
+    """Two bars on edge, one over the other and turned a little: the cross product of those edges
+    alone tells how far they are apart, when that is less than the angle times their length."""
     gap = share * angle
     half_roll = math.sin(math.pi / 8), math.cos(math.pi / 8)
     half_turn = math.sin(angle / 2), math.cos(angle / 2)
