@@ -66,7 +66,7 @@ class _Reading:
             try:
                 if is_block:
                     yield from self._references(name, entity)
-                elif outline := self._outline(entity):
+                elif outline := outline_of(entity):
                     if outline.kind == "filled":
                         yield DrawnShape(name, (), "nonzero", self._closed([outline]))
                     else:
@@ -110,12 +110,6 @@ class _Reading:
         name = str(entity.dxf.layer)
         return reference if name == _OF_THE_REFERENCE else name
 
-    def _outline(self, entity: Any) -> Outline | None:
-        outline = outline_of(entity)
-        if outline is not None and outline.is_wide:
-            self.warnings.add("widths of lines are ignored")
-        return outline
-
     def _references(self, name: str, insert: Any) -> Iterator[DrawnShape]:
         """A shape for each copy of an array."""
         within = self._within(insert, _OF_THE_REFERENCE)
@@ -147,7 +141,7 @@ class _Reading:
             raise MeshFileError("missing-resource", what)
         for entity in self._shown(block, layer):
             if entity.dxftype() != "INSERT":
-                if outline := self._outline(entity):
+                if outline := outline_of(entity):
                     yield outline
                 continue
             inner = self._within(entity, layer)

@@ -31,11 +31,10 @@ class Outline:
     points: tuple[Point, ...]
     deviation: float
     kind: Literal["closed", "open", "filled"]
-    is_wide: bool = False
 
     def mapped(self, affine: Affine) -> Outline:
         moved = Contour(self.points, self.deviation).mapped(affine)
-        return Outline(moved.points, moved.deviation, self.kind, self.is_wide)
+        return Outline(moved.points, moved.deviation, self.kind)
 
 
 def outline_of(entity: Any) -> Outline | None:
@@ -57,12 +56,15 @@ def _unread(what: str) -> MeshFileError:
 
 
 def _polyline(entity: Any) -> Outline | None:
-    is_light = entity.dxftype() == "LWPOLYLINE"
+    kind = entity.dxftype()
+    is_light = kind == "LWPOLYLINE"
     if not is_light:
         if not (entity.is_2d_polyline or entity.is_3d_polyline):
             raise _unread("a POLYLINE that is a mesh")
         if int(entity.dxf.flags) & _FITTED:
             raise _unread("a POLYLINE that is fitted with a curve")
+    if entity.has_width:
+        raise _unread(f"{kind} with a width, a filled band,")
     points: list[Point] = []
     deviation = 0.0
     for piece in entity.virtual_entities():
@@ -77,8 +79,7 @@ def _polyline(entity: Any) -> Outline | None:
         deviation = max(deviation, off)
     if len(points) < 2:
         return None
-    is_wide = bool(entity.has_width)
-    return Outline(tuple(points), deviation, "closed" if entity.is_closed else "open", is_wide)
+    return Outline(tuple(points), deviation, "closed" if entity.is_closed else "open")
 
 
 def _curve(entity: Any) -> Outline:

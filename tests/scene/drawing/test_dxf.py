@@ -250,3 +250,12 @@ def test_coordinates_that_are_not_finite_spoil_their_own_shape() -> None:
     for refused in (block, line):
         assert isinstance(refused, RefusedShape)
         assert refused.code == "non-finite"
+
+
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_line_with_a_width_is_a_filled_band_and_not_read(closed: bool) -> None:
+    band = {"const_width": 2}
+    corners = [(0, 0), (9, 0), (9, 9)]
+    (shape,) = read(lambda s, _: s.add_lwpolyline(corners, close=closed, dxfattribs=band)).shapes
+    assert isinstance(shape, RefusedShape)
+    assert "width" in shape.message
