@@ -44,7 +44,7 @@ POSE_ROUNDOFFS = 256
 PLACING_ROUNDOFFS = 16
 # A rate of closing: the axis 4, the angular velocity 8, products and sums of three coordinates 16
 # each, and what bends, relative to the rate, as much again.
-# Where the body that stands is seen to turn instead (core/native/moving.hpp, Views), its rate is
+# Where the body that stands is seen to turn instead (core/native/motion/moving.hpp, Views), its rate is
 # off by 8 roundoffs of spin times reach, and its own speed, 0, has no share in the slack. The pads
 # cover it. A gap is at least gap - rate s - bend s^2 / 2, and gap - steady s; bend = spin * steady.
 # The first is the greater only where bend s / 2 < steady - rate <= 2 steady, within 4 radians:

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "batch.hpp"
+#include "convex/batch.hpp"
 
 using namespace satcheck;
 

@@ -1,6 +1,6 @@
 // satcheck as a peer of the peer harness (bench/README.md): the convex narrow phase at C++ level.
 //  satcheck   check_pair: overlap, depth, distance; verdicts proven
-#include "narrow_phase.hpp"
+#include "convex/narrow_phase.hpp"
 #define Shape FileShape
 #define Pose FilePose
 #include "bench.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "shape.hpp"
+#include "convex/shape.hpp"
 
 namespace satcheck::testing {
 

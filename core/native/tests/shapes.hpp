@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesh.hpp"
+#include "base/mesh.hpp"
 
 namespace satcheck::testing {
 

@@ -1,0 +1,29 @@
+// Sorting by keys of few bits, which needs no comparisons.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vec.hpp"
+
+namespace satcheck {
+
+struct Keyed {
+  std::uint64_t key;
+  std::uint32_t number;
+};
+
+// By key, equal keys by number. Equal keys must come with ascending numbers.
+void sort_by_key(std::span<Keyed> items);
+
+// The numbers of the points by x, then y, then z; points of equal coordinates in the order they have.
+std::vector<std::uint32_t> order_by_coordinates(const std::vector<Vec3>& points);
+
+// Whether each point comes after the one before it, so that no two are equal.
+bool strictly_ascending(const std::vector<Vec3>& points);
+
+// In lexicographic order. Every corner is below `vertex_count`.
+void sort_triangles(std::vector<Triangle>& triangles, std::size_t vertex_count);
+
+}  // namespace satcheck

@@ -1,0 +1,47 @@
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace satcheck {
+
+void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& task,
+                  std::size_t chunk) {
+  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  threads = static_cast<unsigned>(std::min<std::size_t>(threads, (count + chunk - 1) / chunk));
+  if (threads <= 1) {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+    return;
+  }
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::size_t failed = count;  // the task that threw it
+  std::mutex failure_mutex;
+  const auto work = [&] {
+    std::size_t i = count;
+    try {
+      for (std::size_t from = next.fetch_add(chunk); from < count; from = next.fetch_add(chunk)) {
+        for (i = from; i < std::min(from + chunk, count); ++i) task(i);
+      }
+    } catch (...) {  // carried to the caller's thread, not swallowed
+      const std::lock_guard lock(failure_mutex);
+      // What comes before a failed task was handed out before, and has run or will.
+      if (i < failed) {
+        failed = i;
+        failure = std::current_exception();
+      }
+      next = count;
+    }
+  };
+  std::vector<std::thread> pool;
+  for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
+  work();
+  for (std::thread& thread : pool) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace satcheck

@@ -1,0 +1,44 @@
+// Connected sets of triangles of a welded mesh.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "base/edge_table.hpp"
+#include "base/mesh.hpp"
+
+namespace satcheck {
+
+// Disjoint sets of 0..n-1; the representative of a set is its smallest member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n);
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// Labels run from 0 in order of the first triangle of each set.
+struct Labels {
+  std::vector<std::uint32_t> of_triangle;
+  std::size_t count = 0;
+
+  std::vector<std::vector<std::uint32_t>> members() const;
+};
+
+// Sets connected through shared edges, whatever the number of triangles at them.
+Labels label_components(const Mesh& welded, const EdgeTable& edges);
+
+// Sets connected through edges of exactly two triangles.
+Labels label_manifold_patches(const Mesh& welded, const EdgeTable& edges);
+
+}  // namespace satcheck

@@ -1,0 +1,56 @@
+// The Python face of the depth of concave pairs. Nothing but conversions.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "depth/depth_search.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace satcheck {
+namespace {
+
+using Tuple3 = std::tuple<double, double, double>;
+
+DepthInterval checked_search(const Surface& a, const Surface& b, double upper, double lower, double width,
+                             std::uint64_t work, int across) {
+  if (!(upper >= 0 && std::isfinite(upper))) throw std::invalid_argument("upper must be a finite length >= 0");
+  if (!(lower >= 0 && std::isfinite(lower))) throw std::invalid_argument("lower must be a finite length >= 0");
+  if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
+  if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
+  if (a.mesh.triangles.empty() || b.mesh.triangles.empty()) throw std::invalid_argument("a surface is empty");
+  return search_depth(a, b, {upper, lower, width, work, across});
+}
+
+}  // namespace
+
+void bind_depth(nb::module_& m) {
+  nb::class_<DepthInterval>(m, "DepthInterval", R"(lower <= depth <= upper. way_out: a translation of a, `upper` long, after which the meshes have no common
+interior; None where none was found that is shorter than the known one. stop: "narrow" or "work spent"; boxes
+of translations, exact tests of the moved meshes, convex sets of forbidden translations: what it took.)")
+      .def_ro("lower", &DepthInterval::lower)
+      .def_ro("upper", &DepthInterval::upper)
+      .def_prop_ro("way_out",
+                   [](const DepthInterval& d) {
+                     const Vec3 t = d.way_out;
+                     return d.found ? std::optional(Tuple3{t.x, t.y, t.z}) : std::nullopt;
+                   })
+      .def_prop_ro("stop", [](const DepthInterval& d) { return d.stop == DepthStop::narrow ? "narrow" : "work spent"; })
+      .def_ro("work", &DepthInterval::work)
+      .def_ro("boxes", &DepthInterval::boxes)
+      .def_ro("mesh_tests", &DepthInterval::mesh_tests)
+      .def_ro("sets", &DepthInterval::sets);
+  m.def("search_depth", &checked_search, "a"_a, "b"_a, nb::kw_only(), "upper"_a, "lower"_a, "width"_a, "work"_a,
+        "across"_a = -1,
+        nb::call_guard<nb::gil_scoped_release>(),
+        R"(The depth of two overlapping meshes as a proven interval, at most `width` wide relative to its upper end unless
+`work` units, each about a nanosecond, are spent first. upper: a known way out is this long; lower: a known bound.
+across: an axis of the world along which nothing is moved, as bodies that are prisms along it need it; -1: none.
+The same input gives the same result on every machine. ValueError on a length that is none, or an empty surface.)");
+}
+
+}  // namespace satcheck

@@ -1,0 +1,331 @@
+// The Python face of the mesh tier. Nothing but conversions.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstring>
+#include <string>
+#include <stdexcept>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "convex/polytope.hpp"
+#include "mesh/convexity.hpp"
+#include "mesh/hull_points.hpp"
+#include "mesh/inspection.hpp"
+#include "mesh/mesh_checks.hpp"
+#include "mesh/surface.hpp"
+#include "mesh/topology.hpp"
+#include "mesh_pair/boundary_contact.hpp"
+#include "mesh_pair/deviation.hpp"
+#include "mesh/nearest_point.hpp"
+#include "mesh_pair/mesh_distance.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+#include "scene/placed_bounds.hpp"
+#include "scene/words.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace satcheck {
+namespace {
+
+using Tuple3 = std::tuple<double, double, double>;
+using VertexArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+template <class Index>
+using IndexArray = nb::ndarray<const Index, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+
+Tuple3 to_tuple(Vec3 v) { return {v.x, v.y, v.z}; }
+Vec3 to_vec3(const Tuple3& t) { return {std::get<0>(t), std::get<1>(t), std::get<2>(t)}; }
+
+Vec3 finite_point(const Tuple3& t) {
+  const Vec3 p = to_vec3(t);
+  if (!is_finite(p)) throw std::invalid_argument("the point is not finite");
+  return p;
+}
+
+std::vector<Vec3> copy_vertices(const double* data, std::size_t count) {
+  std::vector<Vec3> vertices(count);
+  if (count != 0) std::memcpy(vertices.data(), data, count * sizeof(Vec3));
+  return vertices;
+}
+
+template <class Index>
+void construct_mesh(Mesh* self, VertexArray vertices, IndexArray<Index> triangles) {
+  Mesh mesh;
+  mesh.vertices = copy_vertices(vertices.data(), vertices.shape(0));
+  mesh.triangles.resize(triangles.shape(0));
+  const Index* index = triangles.data();
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) {
+      const Index i = *index++;
+      if (std::cmp_less(i, 0) || std::cmp_greater_equal(i, mesh.vertices.size())) {
+        throw std::invalid_argument("vertex index " + std::to_string(i) + " is out of range");
+      }
+      v = static_cast<std::uint32_t>(i);
+    }
+  }
+  require_valid(mesh);
+  new (self) Mesh(std::move(mesh));
+}
+
+Mesh mesh_from_bytes(nb::bytes vertices, nb::bytes triangles) {
+  if (vertices.size() % sizeof(Vec3) != 0 || triangles.size() % sizeof(Triangle) != 0) {
+    throw std::invalid_argument("the byte counts are not multiples of 24 and 12");
+  }
+  Mesh mesh;
+  mesh.vertices.resize(vertices.size() / sizeof(Vec3));
+  mesh.triangles.resize(triangles.size() / sizeof(Triangle));
+  if (vertices.size() != 0) std::memcpy(mesh.vertices.data(), vertices.data(), vertices.size());
+  if (triangles.size() != 0) std::memcpy(mesh.triangles.data(), triangles.data(), triangles.size());
+  require_valid(mesh);
+  return mesh;
+}
+
+nb::tuple mesh_to_bytes(const Mesh& mesh) {
+  return nb::make_tuple(nb::bytes(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vec3)),
+                        nb::bytes(mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle)));
+}
+
+// Read-only views that keep `owner` alive.
+template <class Scalar, class Row>
+auto rows_view(const std::vector<Row>& rows, nb::handle owner) {
+  return nb::ndarray<nb::numpy, const Scalar, nb::shape<-1, 3>>(
+      reinterpret_cast<const Scalar*>(rows.data()), {rows.size(), 3}, owner);
+}
+
+void bind_mesh_class(nb::module_& m) {
+  nb::class_<Mesh>(m, "Mesh", R"(Immutable triangle mesh: vertices (n, 3) float64, triangles (m, 3) int32, int64 or uint32, counter-clockwise
+seen from outside. ValueError when an index is out of range or a coordinate is not finite, OverflowError
+when a coordinate other than 0 lies outside 1e-80 .. 1e45, beyond which nothing is proven.)")
+      .def("__init__", &construct_mesh<std::uint32_t>, "vertices"_a.noconvert(),
+           "triangles"_a.noconvert())
+      .def("__init__", &construct_mesh<std::int32_t>, "vertices"_a.noconvert(),
+           "triangles"_a.noconvert())
+      .def("__init__", &construct_mesh<std::int64_t>, "vertices"_a.noconvert(),
+           "triangles"_a.noconvert())
+      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
+      .def("to_bytes", &mesh_to_bytes, "The inverse of from_bytes.")
+      .def_prop_ro("vertex_count", [](const Mesh& mesh) { return mesh.vertices.size(); })
+      .def_prop_ro("triangle_count", [](const Mesh& mesh) { return mesh.triangles.size(); })
+      .def_prop_ro("bounds",
+                   [](const Mesh& mesh) {
+                     if (mesh.vertices.empty()) throw std::invalid_argument("an empty mesh has no bounds");
+                     Aabb box;
+                     for (const Vec3& p : mesh.vertices) box.include(p);
+                     return std::make_tuple(to_tuple(box.min), to_tuple(box.max));
+                   })
+      .def_prop_ro("vertices",
+                   [](nb::handle self) {
+                     return rows_view<double>(nb::cast<const Mesh&>(self).vertices, self);
+                   })
+      .def_prop_ro("triangles",
+                   [](nb::handle self) {
+                     return rows_view<std::uint32_t>(nb::cast<const Mesh&>(self).triangles, self);
+                   })
+      .def(
+          "corners",
+          [](const Mesh& mesh, std::size_t triangle) {
+            if (triangle >= mesh.triangles.size()) throw nb::index_error("no such triangle");
+            const auto [i, j, k] = mesh.triangles[triangle];
+            const std::vector<Vec3>& p = mesh.vertices;
+            return std::make_tuple(to_tuple(p[i]), to_tuple(p[j]), to_tuple(p[k]));
+          },
+          "triangle"_a, "The three corners of one triangle; needs no numpy.")
+      .def("welded", &weld, ReleaseGil(), "Vertices with equal coordinates become one; unreferenced ones are dropped; triangles keep their order.")
+      .def("sorted", &sort, ReleaseGil(), "Vertices by their coordinates, triangles by their corners: an order that a file's own does not change.")
+      .def("transformed", &transform, "matrix"_a, ReleaseGil(), R"(Placed by a 4x4 matrix, 16 numbers by rows, column vectors. Each coordinate is rounded once; a mirror flips
+the winding. ValueError when the matrix is not affine, not finite or singular.)")
+      .def("translated",
+           [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
+           "offset"_a, ReleaseGil())
+      .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
+      .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding a component, outermost closed shells outward. Copies of a triangle are dropped
+where that closes the surface.)")
+      .def("components", &split_components, ReleaseGil(), "The parts that share no edge, in order of their first triangle.")
+      .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
+      .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
+equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");
+}
+
+using Bounds = std::pair<Tuple3, Tuple3>;
+
+std::vector<std::optional<Bounds>> bounds_of_placed(const std::vector<const Mesh*>& meshes,
+                                                    const std::vector<std::array<double, 16>>& matrices,
+                                                    unsigned threads) {
+  if (meshes.size() != matrices.size()) throw std::invalid_argument("meshes and matrices differ in number");
+  constexpr std::size_t kTogether = 64;  // bodies that one thread takes at a time
+  std::vector<std::optional<Bounds>> bounds(meshes.size());
+  const nb::gil_scoped_release release;
+  parallel_for(meshes.size(), threads, [&](std::size_t i) {
+    if (const auto box = placed_bounds(*meshes[i], matrices[i])) {
+      bounds[i] = Bounds{to_tuple(box->min), to_tuple(box->max)};
+    }
+  }, kTogether);
+  return bounds;
+}
+
+void bind_placed_bounds(nb::module_& m) {
+  m.def("placed_bounds", &bounds_of_placed, "meshes"_a, "matrices"_a, "threads"_a = 0,
+        R"(The bounds of meshes[i].transformed(matrices[i]) for each i, to the bit, without placing a mesh; None where that
+raises. On `threads` threads, 0: one a core. ValueError when the lengths differ.)");
+}
+
+void bind_topology(nb::module_& m) {
+  nb::class_<Topology>(m, "Topology",
+                       R"(Counts and facts of a mesh. closed: no boundary edge, every edge an even number of triangles. manifold: two
+triangles at every edge. oriented: neighbours agree on the winding. volume: signed, 0.0 when not closed.
+solid: closed, oriented and of non-zero volume, so that it has an inside.)")
+      .def_ro("vertices", &Topology::vertices)
+      .def_ro("triangles", &Topology::triangles)
+      .def_ro("components", &Topology::components)
+      .def_ro("boundary_edges", &Topology::boundary_edges)
+      .def_ro("nonmanifold_edges", &Topology::nonmanifold_edges)
+      .def_ro("misoriented_edges", &Topology::misoriented_edges)
+      .def_ro("degenerate_triangles", &Topology::degenerate_triangles)
+      .def_ro("duplicate_triangles", &Topology::duplicate_triangles)
+      .def_ro("duplicate_vertices", &Topology::duplicate_vertices)
+      .def_ro("unreferenced_vertices", &Topology::unreferenced_vertices)
+      .def_ro("closed", &Topology::closed)
+      .def_ro("manifold", &Topology::manifold)
+      .def_ro("oriented", &Topology::oriented)
+      .def_ro("volume", &Topology::volume)
+      .def_ro("solid", &Topology::solid);
+  nb::class_<Inspection>(m, "Inspection", R"(What inspect() found. mesh: welded, vertices and triangles in an order that depends on their coordinates alone;
+turned: whether orienting it then changed anything; topology: before that, repaired: of `mesh`.)")
+      .def_ro("mesh", &Inspection::mesh)
+      .def_ro("turned", &Inspection::turned)
+      .def_ro("topology", &Inspection::topology)
+      .def_ro("repaired", &Inspection::repaired);
+  m.def("inspect", &inspect, "mesh"_a, "orient"_a, ReleaseGil(), R"(mesh.welded().sorted(), its topology, and, where it is closed and `orient` says so, oriented(), for less than these
+one after another.)");
+}
+
+void bind_polytope(nb::module_& m) {
+  nb::class_<Polytope>(m, "Polytope", "Convex hull with its features; vertices are extreme points.")
+      .def_ro("dimension", &Polytope::dimension)
+      .def_prop_ro("vertices",
+                   [](nb::handle self) {
+                     return rows_view<double>(nb::cast<const Polytope&>(self).vertices, self);
+                   })
+      .def_prop_ro("triangles",
+                   [](nb::handle self) {
+                     return rows_view<std::uint32_t>(nb::cast<const Polytope&>(self).triangles, self);
+                   })
+      .def_prop_ro("source",
+                   [](nb::handle self) {
+                     const auto& source = nb::cast<const Polytope&>(self).source;
+                     return nb::ndarray<nb::numpy, const std::uint32_t, nb::shape<-1>>(
+                         source.data(), {source.size()}, self);
+                   })
+      .def_prop_ro("vertex_count", [](const Polytope& p) { return p.vertices.size(); })
+      .def_prop_ro("face_count", &Polytope::face_count)
+      .def_prop_ro("edge_count", [](const Polytope& p) { return p.edges.size(); })
+      .def("to_mesh", [](const Polytope& p) { return Mesh{p.vertices, p.triangles}; });
+}
+
+void bind_surface(nb::module_& m) {
+  nb::class_<Surface>(m, "Surface", "A mesh with its tree: built once, immutable, shared by threads.")
+      .def("__init__",
+           [](Surface* self, const Mesh& mesh, bool solid) {
+             new (self) Surface(make_surface(mesh, solid));
+           },
+           "mesh"_a, "solid"_a, ReleaseGil())
+      .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
+                   nb::rv_policy::reference_internal)
+      .def_ro("solid", &Surface::solid)
+      .def_ro("refitted", &Surface::refitted, "Whether the tree has the form of another surface's.")
+      .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of this mesh with its vertices elsewhere, `mesh`: the tree is fitted again in linear time. Made anew
+where the triangles are others, or where rounding has put two vertices into one place.)")
+      .def("winding_number",
+           [](const Surface& s, const Tuple3& point) {
+             if (!s.solid) throw std::invalid_argument("the surface is not a solid");
+             return winding_number(s, finite_point(point));
+           },
+           "point"_a, ReleaseGil())
+      .def("is_boundary",
+           [](const Surface& s, std::size_t triangle) {
+             if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
+             return is_plain_boundary(s, static_cast<std::uint32_t>(triangle));
+           },
+           "triangle"_a, ReleaseGil(), R"(Whether the body ends on all of the triangle: it is no wall without thickness, no face inside the material, and
+meets no other triangle of the surface but at shared corners and edges.)")
+      .def("has_void",
+           [](const Surface& s, std::size_t triangle) {
+             if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
+             return has_void(s, static_cast<std::uint32_t>(triangle));
+           },
+           "triangle"_a, ReleaseGil(), "Whether a part of the triangle is a wall without thickness: outside of the body on both sides.")
+      .def("nearest",
+           [](const Surface& s, const Tuple3& point) {
+             const NearestPoint nearest = nearest_point(s, finite_point(point));
+             return std::make_tuple(nearest.distance, to_tuple(nearest.point));
+           },
+           "point"_a, ReleaseGil());
+}
+
+std::int64_t triangle_number(std::uint32_t triangle) {
+  return triangle == kNoTriangle ? -1 : static_cast<std::int64_t>(triangle);
+}
+
+void bind_mesh_relation(nb::module_& m) {
+  nb::class_<MeshRelation>(m, "MeshRelation")
+      .def_prop_ro("relation", [](const MeshRelation& r) { return name_of(r.relation); })
+      .def_ro("proven", &MeshRelation::proven)
+      .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
+      .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
+      .def_prop_ro("point",
+                   [](const MeshRelation& r) {
+                     return r.point ? std::optional(to_tuple(*r.point)) : std::nullopt;
+                   })
+      .def_ro("box_tests", &MeshRelation::box_tests)
+      .def_ro("triangle_tests", &MeshRelation::triangle_tests);
+  m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
+        R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
+"touching", "penetrating" (interiors overlap, or surfaces cross where a side is not solid), "contains" (b strictly
+inside a), "inside" (a strictly inside b), "coincident" (the same solid, however triangulated). A solid is where its
+winding number is not 0: the inside of a hollow one is no material, nor is a wall without thickness.)");
+}
+
+void bind_mesh_distance(nb::module_& m) {
+  nb::class_<MeshDistance>(m, "MeshDistance",
+                           "distance: inf when beyond the limit; witness points on a and b, triangle indices.")
+      .def_ro("distance", &MeshDistance::distance)
+      .def_prop_ro("witness_a", [](const MeshDistance& d) { return to_tuple(d.witness_a); })
+      .def_prop_ro("witness_b", [](const MeshDistance& d) { return to_tuple(d.witness_b); })
+      .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
+      .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
+  m.def("mesh_distance", &mesh_distance, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
+        R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
+another is at a distance from its surface all the same: ask mesh_relation first.)");
+  m.def("deviation",
+        [](const Mesh& surface_of, const Surface& solid, double tolerance) {
+          const Deviation d = deviation(surface_of, solid, tolerance);
+          return std::make_tuple(d.lower, d.upper);
+        },
+        "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
+        R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
+most `tolerance` apart, unless the work limit was reached. Branch and bound over triangles: the distance is 1-Lipschitz.)");
+}
+
+}  // namespace
+
+void bind_mesh(nb::module_& m) {
+  bind_topology(m);
+  bind_polytope(m);
+  bind_mesh_class(m);
+  bind_placed_bounds(m);
+  bind_surface(m);
+  bind_mesh_relation(m);
+  bind_mesh_distance(m);
+}
+
+}  // namespace satcheck

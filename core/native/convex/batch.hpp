@@ -1,0 +1,23 @@
+// Many convex pairs at once, on all cores.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "convex/narrow_phase.hpp"
+
+namespace satcheck {
+
+struct PairRequest {
+  const Shape* a;
+  const Shape* b;
+  Pose pose_a, pose_b;
+};
+
+// check_pair() on request(0), ..., request(count - 1). request(i) is called once, by the thread that needs it; of
+// those that throw the first counts.
+std::vector<PairResult> check_pairs(std::size_t count, const std::function<PairRequest(std::size_t)>& request,
+                                    Query query, MethodChoice method, unsigned threads);
+
+}  // namespace satcheck

@@ -1,0 +1,32 @@
+// EPA on signed face distances: penetration depth of two convex shapes, with proven bounds.
+#pragma once
+
+#include <vector>
+
+#include "convex/gjk.hpp"
+
+namespace satcheck {
+
+struct EpaResult {
+  enum class Status {
+    depth,      // bounds met
+    bounded,    // curved shapes: the bounds hold, but came no closer than they are
+    separated,  // an axis of negative support value: the shapes do not overlap
+    flat,       // A - B has no volume (both shapes lie in one plane): `axis` is its normal
+    stalled,    // rounding broke the polytope before the bounds met: not an answer
+  };
+  Status status = Status::stalled;
+  // Signed penetration: min over unit axes n of the support value h(n) of A - B; positive inside.
+  double lower = -INFINITY, upper = INFINITY;
+  Vec3 axis;          // unit, A to B: the axis of `upper`
+  Simplex facet;      // the facet of A - B on that axis, weighted at the origin's projection
+  int iterations = 0;
+};
+
+// sign: stop as soon as the bounds agree on it; the facet is not filled in.
+enum class EpaGoal { sign, depth };
+
+// `seed` may hold the last simplex of GJK; it saves the first support points.
+EpaResult epa(const MinkowskiDifference& difference, const Simplex& seed, EpaGoal goal);
+
+}  // namespace satcheck

@@ -1,0 +1,168 @@
+// The expanding polytope algorithm of epa.cpp in exact arithmetic, where it needs no tolerance. The
+// facets that the new vertex sees, or whose plane it lies in, give way to a fan around it: no facet of
+// the fan can have area 0, because an edge in line with the new vertex lies between two such facets.
+// Rounded distances and the filter of `side` only save work; exact signs decide.
+
+#include "convex/exact_depth.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "base/tolerances.hpp"
+
+namespace satcheck {
+namespace {
+
+struct Facet {
+  std::uint32_t corner[3];  // counter-clockwise from outside
+  DyadicVec normal;
+  Dyadic height;    // normal . p on the plane
+  Vec3 unit;        // rounded
+  double distance;  // of the plane from the origin, signed, within 4 roundoffs of itself
+};
+
+class ExactPolytope {
+ public:
+  explicit ExactPolytope(const ExactDifference& difference) : difference_(difference) { start(); }
+
+  const Facet& nearest() const;
+  bool reaches_beyond(const ExactSupport& w, const Facet& f) const { return side(w, f) > 0; }
+  void expand(const ExactSupport& w);
+  ExactFigure figure(const Facet& nearest) const;
+
+ private:
+  void start();
+  void offer(const ExactSupport& p);
+  void add(std::uint32_t p, std::uint32_t q, std::uint32_t r);
+  // Sign of the height of w over the plane of f.
+  int side(const ExactSupport& w, const Facet& f) const;
+
+  const ExactDifference& difference_;
+  std::vector<ExactSupport> vertices_;
+  std::vector<Facet> facets_;
+};
+
+// Is the plane of f nearer than that of g, by signed distances?
+bool is_nearer(const Facet& f, const Facet& g) {
+  const auto signed_square = [](const Facet& facet) {
+    const Dyadic square = facet.height * facet.height;
+    return facet.height.sign() < 0 ? -square : square;
+  };
+  const Dyadic of_f = signed_square(f) * dot(g.normal, g.normal);
+  return (of_f - signed_square(g) * dot(f.normal, f.normal)).sign() < 0;
+}
+
+// The foot of the origin lies in the facet whose plane is nearest, and in no other: so rounded distances
+// only leave few to be compared.
+const Facet& ExactPolytope::nearest() const {
+  const Facet* best = &*std::min_element(facets_.begin(), facets_.end(), [](const Facet& f, const Facet& g) {
+    return f.distance < g.distance;
+  });
+  const double limit = best->distance + 16 * kUnitRoundoff * std::fabs(best->distance);
+  for (const Facet& f : facets_) {
+    if (f.distance <= limit && is_nearer(f, *best)) best = &f;
+  }
+  return *best;
+}
+
+// Takes the point as a corner of the first tetrahedron when it adds a dimension.
+void ExactPolytope::offer(const ExactSupport& p) {
+  const auto edge = [&](std::size_t i) { return vertices_[i].w - vertices_[0].w; };
+  if (vertices_.size() == 4) return;
+  bool spans = true;
+  if (!vertices_.empty()) {
+    const DyadicVec e = p.w - vertices_[0].w;
+    const DyadicVec across = vertices_.size() == 1 ? e : cross(edge(1), vertices_.size() == 2 ? e : edge(2));
+    spans = vertices_.size() == 3 ? dot(across, e).sign() != 0
+                                  : across.x.sign() != 0 || across.y.sign() != 0 || across.z.sign() != 0;
+  }
+  if (spans) vertices_.push_back(p);
+}
+
+void ExactPolytope::start() {
+  for (double sign : {1.0, -1.0}) {
+    for (Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+      offer(difference_.support(DyadicVec(axis * sign)));
+    }
+  }
+  // These span A - B from its first vertex, whatever its shape.
+  const auto corner = vertices_.front();
+  for (std::uint32_t i = 0; i < difference_.vertices_a().size(); ++i) offer(difference_.at(i, corner.b));
+  for (std::uint32_t i = 0; i < difference_.vertices_b().size(); ++i) offer(difference_.at(corner.a, i));
+  const DyadicVec& p = vertices_[0].w;
+  const DyadicVec n = cross(vertices_[1].w - p, vertices_[2].w - p);
+  if (dot(n, vertices_[3].w - p).sign() > 0) std::swap(vertices_[1], vertices_[2]);
+  constexpr std::uint32_t corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  for (const auto& c : corners) add(c[0], c[1], c[2]);
+}
+
+void ExactPolytope::add(std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+  Facet f{{p, q, r}, cross(vertices_[q].w - vertices_[p].w, vertices_[r].w - vertices_[p].w), {}, {}, 0};
+  f.height = dot(f.normal, vertices_[p].w);
+  f.unit = rounded_unit(f.normal);
+  if (f.height.sign() != 0) {
+    const double distance = rooted(f.height * f.height, dot(f.normal, f.normal)).value;
+    f.distance = f.height.sign() < 0 ? -distance : distance;
+  }
+  facets_.push_back(std::move(f));
+}
+
+int ExactPolytope::side(const ExactSupport& w, const Facet& f) const {
+  // 12 roundoffs of the unit normal, 1 of the vertex, 3 of the dot product and 4 of the distance, times
+  // sqrt(3) for three terms up to the scale: below 48.
+  const double height = dot(f.unit, w.rounded) - f.distance;
+  if (std::fabs(height) > 48 * kUnitRoundoff * difference_.scale()) return height > 0 ? 1 : -1;
+  return (dot(f.normal, w.w) - f.height).sign();
+}
+
+void ExactPolytope::expand(const ExactSupport& w) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  std::erase_if(facets_, [&](const Facet& f) {
+    if (side(w, f) < 0) return false;
+    for (int i = 0; i < 3; ++i) edges.emplace(f.corner[i], f.corner[(i + 1) % 3]);
+    return true;
+  });
+  const auto apex = static_cast<std::uint32_t>(vertices_.size());
+  vertices_.push_back(w);
+  for (const auto& [tail, head] : edges) {
+    if (!edges.contains({head, tail})) add(tail, head, apex);
+  }
+}
+
+ExactFigure ExactPolytope::figure(const Facet& nearest) const {
+  ExactFigure figure = rooted(nearest.height * nearest.height, dot(nearest.normal, nearest.normal));
+  // The normal is rounded: along it the way out is a little longer. `upper` is long enough for it.
+  figure.normal = nearest.unit;
+  const DyadicVec normal(figure.normal);
+  const double along = rounded_ratio(dot(normal, difference_.support(normal).w), dot(normal, normal));
+  figure.upper = std::fmax(figure.upper, std::nextafter(along * (1 + 4 * kUnitRoundoff), INFINITY));
+  // The foot of the origin lies in the facet, or in another triangle of its plane.
+  for (const Facet& f : facets_) {
+    const std::vector<ExactSupport> corners{vertices_[f.corner[0]], vertices_[f.corner[1]], vertices_[f.corner[2]]};
+    if (!std::all_of(corners.begin(), corners.end(), [&](const ExactSupport& c) { return side(c, nearest) == 0; })) {
+      continue;
+    }
+    const DyadicVec &p = corners[0].w, &q = corners[1].w, &r = corners[2].w;
+    const std::vector<Dyadic> weights{dot(f.normal, cross(q, r)), dot(f.normal, cross(r, p)),
+                                      dot(f.normal, cross(p, q))};
+    if (std::any_of(weights.begin(), weights.end(), [](const Dyadic& w) { return w.sign() < 0; })) continue;
+    place_witnesses(figure, difference_, corners, weights);
+    break;
+  }
+  return figure;
+}
+
+}  // namespace
+
+ExactFigure exact_depth(const ExactDifference& difference) {
+  ExactPolytope polytope(difference);
+  for (;;) {
+    const Facet& nearest = polytope.nearest();
+    const ExactSupport w = difference.support(nearest.normal);
+    if (!polytope.reaches_beyond(w, nearest)) return polytope.figure(nearest);
+    polytope.expand(w);
+  }
+}
+
+}  // namespace satcheck

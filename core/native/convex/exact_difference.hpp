@@ -1,0 +1,77 @@
+// The Minkowski difference A - B of two vertex sets without rounding: the support points of an exact
+// direction. Float64 picks the few vertices that can be farthest, exact products decide among them.
+#pragma once
+
+#include <vector>
+
+#include "base/vec.hpp"
+#include "exact/dyadic.hpp"
+
+namespace satcheck {
+
+struct DyadicVec {
+  Dyadic x, y, z;
+
+  DyadicVec() = default;
+  DyadicVec(Dyadic px, Dyadic py, Dyadic pz) : x(std::move(px)), y(std::move(py)), z(std::move(pz)) {}
+  explicit DyadicVec(Vec3 p) : x(p.x), y(p.y), z(p.z) {}
+
+  DyadicVec operator-() const { return {-x, -y, -z}; }
+};
+
+DyadicVec operator+(const DyadicVec& a, const DyadicVec& b);
+DyadicVec operator-(const DyadicVec& a, const DyadicVec& b);
+DyadicVec operator*(const DyadicVec& a, const Dyadic& s);
+Dyadic dot(const DyadicVec& a, const DyadicVec& b);
+DyadicVec cross(const DyadicVec& a, const DyadicVec& b);
+
+// The vector over its length, each coordinate within 12 roundoffs of itself. It must not be 0.
+Vec3 rounded_unit(const DyadicVec& v);
+
+// A vertex of A - B.
+struct ExactSupport {
+  std::uint32_t a = 0, b = 0;  // vertices of A and B
+  DyadicVec w;                 // a - b
+  Vec3 rounded;                // each coordinate within a roundoff of itself
+
+  bool operator==(const ExactSupport& other) const { return a == other.a && b == other.b; }
+};
+
+class ExactDifference {
+ public:
+  // World vertices; the vectors must outlive this.
+  ExactDifference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
+
+  ExactSupport at(std::uint32_t a, std::uint32_t b) const;
+  // The vertex farthest along an exact direction, not 0.
+  ExactSupport support(const DyadicVec& direction) const;
+
+  const std::vector<Vec3>& vertices_a() const { return a_; }
+  const std::vector<Vec3>& vertices_b() const { return b_; }
+  // Bounds every coordinate of A - B.
+  double scale() const { return scale_; }
+
+ private:
+  static std::uint32_t farthest(const std::vector<Vec3>& points, const DyadicVec& direction, Vec3 unit);
+
+  const std::vector<Vec3>& a_;
+  const std::vector<Vec3>& b_;
+  double scale_ = 0;
+};
+
+// A length of two hulls, rounded from its exact value: lower <= exact <= upper.
+struct ExactFigure {
+  double value = 0, lower = 0, upper = 0;
+  Vec3 normal;  // unit, from A to B, world
+  Vec3 witness_a, witness_b;
+};
+
+// The root of numerator / denominator, both positive, as the three numbers of a figure.
+ExactFigure rooted(const Dyadic& numerator, const Dyadic& denominator);
+
+// Sets the witness points: a point of difference vertices by its weights, all >= 0, not all 0, taken to the
+// vertices of A and of B and rounded once.
+void place_witnesses(ExactFigure& figure, const ExactDifference& difference,
+                     const std::vector<ExactSupport>& carriers, const std::vector<Dyadic>& weights);
+
+}  // namespace satcheck

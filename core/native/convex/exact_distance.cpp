@@ -1,0 +1,83 @@
+// P. Wolfe, "Finding the Nearest Point in a Polytope" (1976), in exact arithmetic: like GJK it comes
+// nearer with every support point, and it ends at one that is no farther along, without a tolerance. The
+// nearest point of a simplex is found by its optimality alone: the point of an affine hull with
+// positive weights that no other vertex improves on.
+
+#include "convex/exact_distance.hpp"
+
+#include <optional>
+
+namespace satcheck {
+namespace {
+
+// The point (sum of weight[i] carrier[i]) / sum, the weights positive.
+struct Nearest {
+  std::vector<ExactSupport> carriers;
+  std::vector<Dyadic> weights;
+  DyadicVec point;  // times `sum`
+  Dyadic sum;
+};
+
+// Unnormalised weights of the origin's foot on the affine hull of one to three points.
+std::vector<Dyadic> weights_of(const std::vector<ExactSupport>& carriers) {
+  const DyadicVec& p = carriers[0].w;
+  if (carriers.size() == 1) return {Dyadic(1)};
+  const DyadicVec& q = carriers[1].w;
+  if (carriers.size() == 2) return {dot(q, q - p), -dot(p, q - p)};
+  const DyadicVec& r = carriers[2].w;
+  const DyadicVec n = cross(q - p, r - p);
+  return {dot(n, cross(q, r)), dot(n, cross(r, p)), dot(n, cross(p, q))};
+}
+
+// The foot on the affine hull of the carriers, if it lies inside them and nearer than all of `simplex`.
+std::optional<Nearest> optimum(std::vector<ExactSupport> carriers, const std::vector<ExactSupport>& simplex) {
+  Nearest nearest;
+  nearest.weights = weights_of(carriers);
+  for (std::size_t i = 0; i < carriers.size(); ++i) {
+    if (nearest.weights[i].sign() <= 0) return std::nullopt;
+    nearest.point = nearest.point + carriers[i].w * nearest.weights[i];
+    nearest.sum = nearest.sum + nearest.weights[i];
+  }
+  const Dyadic squared = dot(nearest.point, nearest.point);
+  for (const ExactSupport& p : simplex) {
+    if ((dot(nearest.point, p.w) * nearest.sum - squared).sign() < 0) return std::nullopt;
+  }
+  nearest.carriers = std::move(carriers);
+  return nearest;
+}
+
+// The nearest point of a simplex that does not hold the origin: one of its vertices, edges or faces has it.
+std::optional<Nearest> nearest_in(const std::vector<ExactSupport>& simplex) {
+  for (int size = 1; size <= 3; ++size) {
+    for (unsigned subset = 1; subset < 1u << simplex.size(); ++subset) {
+      std::vector<ExactSupport> carriers;
+      for (std::size_t i = 0; i < simplex.size(); ++i) {
+        if (subset >> i & 1) carriers.push_back(simplex[i]);
+      }
+      if (static_cast<int>(carriers.size()) != size) continue;
+      if (auto nearest = optimum(std::move(carriers), simplex)) return nearest;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ExactFigure exact_distance(const ExactDifference& difference) {
+  std::optional<Nearest> nearest = nearest_in({difference.at(0, 0)});
+  for (;;) {
+    const ExactSupport w = difference.support(-nearest->point);
+    const Dyadic squared = dot(nearest->point, nearest->point);
+    if ((dot(nearest->point, w.w) * nearest->sum - squared).sign() >= 0) {
+      ExactFigure figure = rooted(squared, nearest->sum * nearest->sum);
+      figure.normal = rounded_unit(-nearest->point);
+      place_witnesses(figure, difference, nearest->carriers, nearest->weights);
+      return figure;
+    }
+    std::vector<ExactSupport> simplex = nearest->carriers;
+    simplex.push_back(w);
+    nearest = nearest_in(simplex);
+  }
+}
+
+}  // namespace satcheck

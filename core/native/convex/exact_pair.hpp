@@ -1,0 +1,16 @@
+// The verdict on two convex hulls, decided on the float64 coordinates by exact signs.
+#pragma once
+
+#include "convex/narrow_phase.hpp"
+
+namespace satcheck {
+
+// Both are exact hulls in world coordinates. `slack` bounds the rounding error
+// of a float64 support value: only axes within it of separating are tested exactly, all others
+// are known to overlap. Never undecided.
+//
+// touching: a common point, and a plane that holds the hulls apart weakly. penetrating: a common point
+// and no such plane, or one hull inside the other. separated: neither.
+Outcome decide_exactly(Polytope a, Polytope b, double slack);
+
+}  // namespace satcheck

@@ -1,0 +1,48 @@
+// The Minkowski difference A - B of two placed shapes, in the frame of A.
+//
+// A and B overlap exactly when A - B contains the origin; its support function is the sum of
+// theirs: h(n) = h_A(n) + h_B(-n). Everything below works on the cores; margins are added once,
+// at the end, by the narrow phase.
+#pragma once
+
+#include "base/tolerances.hpp"
+#include "convex/shape.hpp"
+
+namespace satcheck {
+
+struct SupportPoint {
+  Vec3 w;  // a - b
+  Vec3 a;  // witness point on A, frame of A; the one on B is a - w
+  std::uint32_t index_a, index_b;
+
+  // The same vertex pair; curved shapes have no indices and compare by position.
+  bool same_as(const SupportPoint& other) const {
+    return index_a == other.index_a && index_b == other.index_b && w == other.w;
+  }
+};
+
+struct MinkowskiDifference {
+  const Shape& a;
+  const Shape& b;
+  Pose b_in_a;   // places B's core in A's frame
+  double scale;  // bounds every coordinate of A - B: the unit of all tolerances
+  bool curved;   // a core has more than vertices: bounds close in the limit
+
+  MinkowskiDifference(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
+
+  // The point of A - B farthest along `direction` (any length but zero).
+  SATCHECK_INLINE SupportPoint support(Vec3 direction) const {
+    const CorePoint on_a = inlined_core_support(a, direction);
+    const CorePoint on_b = inlined_core_support(b, transpose_times(b_in_a.rotation, -direction));
+    const Vec3 pb = b_in_a * on_b.point;
+    return {on_a.point - pb, on_a.point, on_a.index, on_b.index};
+  }
+
+  // Upper bound on the rounding error of a support value along a unit axis.
+  double support_error() const { return (curved ? kCurvedSupportError : kSupportError) * scale; }
+};
+
+// A's frame, with the recentred origin of a hull: p_world = placement * p_core.
+Pose core_placement(const Shape& shape, const Pose& pose);
+
+}  // namespace satcheck

@@ -1,0 +1,358 @@
+#include "convex/narrow_phase.hpp"
+
+#include <algorithm>
+
+#include "base/tolerances.hpp"
+#include "convex/box_contact.hpp"
+#include "convex/contact_region.hpp"
+#include "convex/curved_axis.hpp"
+#include "convex/epa.hpp"
+#include "convex/exact_depth.hpp"
+#include "convex/exact_distance.hpp"
+#include "convex/exact_pair.hpp"
+#include "convex/exact_reach.hpp"
+#include "convex/pair_order.hpp"
+
+namespace satcheck {
+
+namespace {
+
+// Signed penetration of the cores of A and B, before margins: > 0 overlap, < 0 gap.
+struct CoreAnswer {
+  double lower = -INFINITY, upper = INFINITY;
+  double value = INFINITY;  // between them: minus the distance of the witness points, or the support value
+  Vec3 axis;      // unit, A to B, frame of A
+  Witnesses witness;
+  bool has_axis = false;  // axis and witness are set
+  Method method = Method::none;
+  Feature feature = Feature::none;
+  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+};
+
+bool solid_polytopes(const MinkowskiDifference& m) {
+  const auto is_solid = [](const Shape& s) { return s.is_polytope() && s.has_faces && s.polytope.dimension == 3; };
+  return is_solid(m.a) && is_solid(m.b);
+}
+
+bool are_boxes(const MinkowskiDifference& m) { return m.a.kind == ShapeKind::box && m.b.kind == ShapeKind::box; }
+
+bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
+  if (method == MethodChoice::gjk) return false;
+  if (are_boxes(m)) return true;
+  if (!solid_polytopes(m)) return false;
+  if (method == MethodChoice::sat) return true;
+  return std::max(m.a.polytope.vertices.size(), m.b.polytope.vertices.size()) <= kSatVertexLimit;
+}
+
+CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
+  const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
+  const SatResult sat = are_boxes(m) ? sat_boxes(m) : sat_polytopes(m, goal);
+  result.axes_tested += sat.axes_tested;
+  CoreAnswer answer;
+  answer.lower = sat.lower;
+  answer.upper = answer.value = sat.penetration;
+  answer.axis = sat.axis;
+  answer.has_axis = true;
+  answer.method = Method::sat;
+  answer.feature = sat.feature;
+  answer.index_a = sat.index_a;
+  answer.index_b = sat.index_b;
+  if (query != Query::overlap && sat.penetration >= -m.support_error()) {
+    const auto sole = are_boxes(m) ? sole_contact_of_boxes(m, sat) : std::nullopt;
+    answer.witness = sole ? *sole : contact_region_centre(m, sat.axis, sat.penetration);
+  }
+  return answer;
+}
+
+// `lower_bound` of the distance may come from another stage than GJK's own axes. What GJK calls its
+// distance is measured along a normal; the proof is the distance of two points of the shapes.
+CoreAnswer from_gjk_distance(const MinkowskiDifference& m, const GjkResult& g, double lower_bound) {
+  CoreAnswer answer;
+  answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
+  const double reached = std::fmax(lower_bound, norm(answer.witness.a - answer.witness.b));
+  answer.lower = -std::fmax(g.upper, reached);
+  answer.upper = -lower_bound;
+  answer.value = -std::clamp(g.upper, lower_bound, reached);
+  answer.axis = g.upper > 0 ? g.v * (-1 / g.upper) : -g.axis;
+  answer.has_axis = true;
+  answer.method = Method::gjk;
+  answer.feature = m.curved ? Feature::curved : Feature::vertices;
+  return answer;
+}
+
+// What is left between the witness points beside value * axis goes to both of them by halves.
+void straighten(CoreAnswer& core) {
+  const Vec3 middle = (core.witness.a + core.witness.b) * 0.5, half = core.axis * (core.value / 2);
+  core.witness = {middle + half, middle - half};
+}
+
+// GJK came too close to prove a gap, EPA found an axis that does. GJK's closest points hold; its
+// direction may be rounding noise, and only counts when it separates too.
+CoreAnswer from_epa_gap(const MinkowskiDifference& m, const GjkResult& g, const EpaResult& e) {
+  CoreAnswer answer = from_gjk_distance(m, g, -e.upper);
+  if (dot(answer.axis, m.support(answer.axis).w) < 0) return answer;
+  answer.axis = e.axis;
+  straighten(answer);
+  return answer;
+}
+
+// GJK on the shapes moved apart along the axis until they touch.
+Witnesses touching_points(const MinkowskiDifference& m, Vec3 axis, double penetration) {
+  MinkowskiDifference touching = m;
+  touching.b_in_a.translation = touching.b_in_a.translation + axis * penetration;
+  GjkResult g = gjk(touching, GjkGoal::distance);
+  if (g.status == GjkResult::Status::encloses) weigh_enclosed_origin(g.simplex);
+  return {g.simplex.witness_a(), g.simplex.witness_b() - axis * penetration};
+}
+
+// The facet that EPA ends on may hold the origin's projection only together with coplanar points it
+// never asked for: then the contact region tells, or, for curved shapes, the points where they touch.
+Witnesses overlap_witness(const MinkowskiDifference& m, const EpaResult& e) {
+  const Witnesses facet{e.facet.witness_a(), e.facet.witness_b()};
+  const double miss = norm(facet.a - facet.b - e.axis * e.upper);
+  if (e.facet.count > 0 && miss <= (m.curved ? kCurvedFacetGap * m.scale : m.support_error())) return facet;
+  if (m.a.is_polytope() && m.b.is_polytope()) return contact_region_centre(m, e.axis, e.upper);
+  return touching_points(m, e.axis, e.upper);
+}
+
+CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query query, PairResult& result) {
+  // Near contact GJK's simplex on curved shapes is a splinter, whose faces prove nothing.
+  const EpaResult e = epa(m, m.curved ? Simplex{} : g.simplex, query == Query::overlap ? EpaGoal::sign : EpaGoal::depth);
+  result.epa_iterations += e.iterations;
+  CoreAnswer answer;
+  answer.method = Method::epa;
+  answer.feature = m.curved ? Feature::curved : Feature::vertices;
+  answer.axis = e.axis;
+  answer.upper = answer.value = e.upper;
+  switch (e.status) {
+    case EpaResult::Status::depth:
+    case EpaResult::Status::bounded:
+      answer.lower = std::fmax(e.lower, -g.upper);  // the distance is at most what GJK came down to
+      answer.has_axis = true;
+      if (query != Query::overlap) answer.witness = overlap_witness(m, e);
+      return answer;
+    case EpaResult::Status::separated:
+      return from_epa_gap(m, g, e);
+    case EpaResult::Status::flat:
+      answer.lower = answer.value = -g.upper;
+      answer.has_axis = true;
+      answer.witness = {g.simplex.witness_a(), g.simplex.witness_b()};
+      return answer;
+    case EpaResult::Status::stalled:
+      break;
+  }
+  if (solid_polytopes(m)) return from_sat(m, Query::depth, result);
+  answer.lower = e.lower;
+  answer.has_axis = std::isfinite(e.upper);
+  answer.witness = overlap_witness(m, e);
+  return answer;
+}
+
+CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, double noise, PairResult& result) {
+  const double margin = m.a.margin + m.b.margin;
+  const bool overlap_only = query == Query::overlap && margin == 0;
+  const GjkResult g = gjk(m, overlap_only ? GjkGoal::overlap : GjkGoal::distance);
+  result.gjk_iterations += g.iterations;
+  if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
+  if (overlap_only && !m.curved && g.status == GjkResult::Status::encloses) {
+    CoreAnswer answer;
+    answer.lower = enclosed_radius(g.simplex) - m.support_error();
+    answer.method = Method::gjk;
+    answer.feature = Feature::vertices;
+    if (answer.lower > noise) return answer;
+  }
+  return from_epa(m, g, query, result);
+}
+
+// Curved shapes have no exact stage: bounds that close around 0 mean that they touch.
+Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m, double noise) {
+  const double margin = m.a.margin + m.b.margin;
+  const double lower = core.lower + margin, upper = core.upper + margin;
+  if (upper < -noise) return Outcome::separated;
+  if (lower > noise) return Outcome::penetrating;
+  const double band = m.curved || margin > 0 ? 2 * kCurvedFacetGap * m.scale : noise;
+  return lower >= -band && upper <= band ? Outcome::touching : Outcome::undecided;
+}
+
+// The last digits of a curved pair's axis: a smaller upper bound. An overlap takes the axis over, with
+// the points that belong to it: the support points, or, of a flat face or a mantle line, others there.
+void polish(const MinkowskiDifference& m, CoreAnswer& core) {
+  const AxisSupport best = least_support_near(m, core.axis);
+  if (!(best.value < core.upper)) return;
+  core.upper = best.value;
+  core.value = std::fmin(core.value, best.value);
+  if (core.method == Method::gjk) return;
+  core.axis = best.axis;
+  const bool unique = norm(best.point.w - best.axis * best.value) <= kCurvedFacetGap * m.scale;
+  core.witness = unique ? Witnesses{best.point.a, best.point.a - best.point.w}
+                        : touching_points(m, best.axis, best.value);
+}
+
+// The hull of the world vertices, each rounded by the pose. A hull that stays where it was made is
+// its own answer; any other is computed anew, because rounding bends its faces.
+Polytope world_hull(const Shape& shape, const Pose& pose) {
+  if (shape.kind == ShapeKind::sphere) return convex_hull({pose.translation});
+  if (shape.kind == ShapeKind::capsule) return convex_hull({pose * Vec3{0, 0, -shape.size.z}, pose * Vec3{0, 0, shape.size.z}});
+  Polytope hull = shape.polytope;
+  for (Vec3& p : hull.vertices) p = pose * (p + shape.origin);
+  const bool in_place = pose.rotation == Mat3{} && pose.translation == Vec3{};
+  return in_place && shape.has_faces ? hull : convex_hull(hull.vertices);
+}
+
+// How far the rounding of a pose moves a vertex at most. In a coordinate 3 products and 2 sums make 5
+// roundings of no more than the reach of the turned vertex, sqrt(3) times its largest coordinate: as a
+// vector, 15 of that coordinate. Adding the translation rounds the sum; rounded up.
+double placement_error(const Shape& shape, const Pose& pose) {
+  if (pose.rotation == Mat3{} && pose.translation == Vec3{}) return 0;
+  return kUnitRoundoff * (norm(pose.translation) + 20 * (max_abs(shape.origin) + shape.extent));
+}
+
+// The rounding that a proof in float64 has to beat. Cores of vertices are judged where their poses
+// round them to, curved ones where their poses put them.
+double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
+  if (m.curved) return m.support_error();
+  return m.support_error() + placement_error(m.a, pose_a) + placement_error(m.b, pose_b);
+}
+
+void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const Pose& pose_a, double noise,
+                    PairResult& result) {
+  const double margin = m.a.margin + m.b.margin;
+  const Pose to_world = core_placement(m.a, pose_a);
+  result.has_distance = true;
+  result.distance = -(core.value + margin);
+  result.lower = -(core.upper + margin) - noise;
+  result.upper = -(core.lower + margin) + noise;
+  result.normal = to_world.rotation * core.axis;
+  result.witness_a = to_world * (core.witness.a + core.axis * m.a.margin);
+  result.witness_b = to_world * (core.witness.b - core.axis * m.b.margin);
+}
+
+// The outcome is known, and not touching: its figure without float64's error.
+void measure_exactly(const Polytope& a, const Polytope& b, PairResult& result) {
+  const ExactDifference difference(a.vertices, b.vertices);
+  const bool apart = result.outcome == Outcome::separated;
+  const ExactFigure figure = apart ? exact_distance(difference) : exact_depth(difference);
+  result.distance = apart ? figure.value : -figure.value;
+  result.lower = apart ? figure.lower : -figure.upper;
+  result.upper = apart ? figure.upper : -figure.lower;
+  result.normal = figure.normal;
+  result.witness_a = figure.witness_a;
+  result.witness_b = figure.witness_b;
+  result.method = Method::exact;
+}
+
+// What float64 left open about two polytopes: the sign, or a figure with bounds too far apart.
+void settle_exactly(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, bool in_doubt,
+                    double noise, PairResult& result) {
+  const Polytope hull_a = world_hull(a, pose_a), hull_b = world_hull(b, pose_b);
+  if (in_doubt) {
+    result.outcome = decide_exactly(hull_a, hull_b, 2 * noise);
+    result.method = Method::exact;
+    result.reason = Reason::none;
+  }
+  if (!result.has_distance) return;
+  if (result.outcome == Outcome::touching) {
+    result.distance = result.lower = result.upper = 0;
+  } else {
+    measure_exactly(hull_a, hull_b, result);
+  }
+}
+
+// The same for cores of vertices with balls around them: the bounds follow the sign.
+void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double noise,
+                  PairResult& result) {
+  const Polytope core_a = world_hull(a, pose_a), core_b = world_hull(b, pose_b);
+  const bool cores_meet = decide_exactly(core_a, core_b, 2 * noise) != Outcome::separated;
+  const int side = cores_meet ? -1 : compare_distance(core_a, core_b, {a.margin, b.margin});
+  result.outcome = side > 0 ? Outcome::separated : side < 0 ? Outcome::penetrating : Outcome::touching;
+  result.method = Method::exact;
+  result.reason = Reason::none;
+  if (!result.has_distance) return;
+  if (side >= 0) result.lower = std::fmax(result.lower, 0.0);
+  if (side <= 0) result.upper = std::fmin(result.upper, 0.0);
+  // Where float64 had the sign wrong, the proven bound on the right side is the figure that is left.
+  if (side > 0 && !(result.distance > 0)) result.distance = result.upper;
+  if (side < 0 && !(result.distance < 0)) result.distance = result.lower;
+  if (side == 0) result.distance = 0;
+}
+
+// Yes or no of two boxes, where their axes prove it.
+bool decided_by_sides(const MinkowskiDifference& m, double noise, PairResult& result) {
+  const BoxSides sides = sides_of_boxes(m, noise);
+  result.method = Method::sat;
+  result.feature = sides.feature;
+  result.index_a = sides.index_a;
+  result.index_b = sides.index_b;
+  result.axes_tested = sides.axes_tested;
+  result.outcome = sides.side < 0 ? Outcome::separated : sides.side > 0 ? Outcome::penetrating : Outcome::undecided;
+  return sides.side != 0;
+}
+
+// What an axis that separates leaves open is the distance. Of boxes that are asked for it, it comes first.
+CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
+  const bool distance_first = query == Query::distance && are_boxes(m);
+  const auto distance = [&](double lower_bound) {
+    const GjkResult g = gjk(m, GjkGoal::distance);
+    result.gjk_iterations += g.iterations;
+    return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
+  };
+  if (distance_first) {
+    const CoreAnswer core = distance(-INFINITY);
+    if (core.upper < -m.support_error()) return core;
+  }
+  const CoreAnswer core = from_sat(m, query, result);
+  const bool apart = core.upper < -m.support_error();
+  return query != Query::overlap && apart ? distance(-core.upper) : core;
+}
+
+PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                          MethodChoice method) {
+  const MinkowskiDifference m(a, pose_a, b, pose_b);
+  const double noise = proof_noise(m, pose_a, pose_b), margin = m.a.margin + m.b.margin;
+  PairResult result;
+  const bool by_sat = takes_sat(m, method);
+  if (by_sat && query == Query::overlap && are_boxes(m)) {
+    if (!decided_by_sides(m, noise, result)) settle_exactly(a, pose_a, b, pose_b, true, noise, result);
+    return result;
+  }
+  CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, noise, result);
+  result.method = core.method;
+  result.feature = core.feature;
+  result.index_a = core.index_a;
+  result.index_b = core.index_b;
+  result.outcome = classify(core, m, noise);
+  const bool in_balance = result.outcome == Outcome::touching || result.outcome == Outcome::undecided;
+  if (m.curved && core.has_axis && (query != Query::overlap || in_balance)) {
+    polish(m, core);
+    result.outcome = classify(core, m, noise);
+  }
+  const bool polytopes = a.is_polytope() && b.is_polytope();
+  if (!polytopes && core.has_axis) straighten(core);
+  if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
+  const double confirmed_below = core.method == Method::sat && !are_boxes(m) ? std::fmax(kShallow * m.scale, noise) : noise;
+  const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
+  const double widest = kWidestInterval * m.scale;
+  const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
+  if (polytopes) {
+    if (in_doubt || too_wide) settle_exactly(a, pose_a, b, pose_b, in_doubt, noise, result);
+  } else if (in_doubt && !m.curved) {
+    settle_grown(a, pose_a, b, pose_b, noise, result);
+  }
+  if (result.outcome == Outcome::undecided) result.reason = Reason::bounds_not_closed;
+  return result;
+}
+
+}  // namespace
+
+PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                      MethodChoice method) {
+  const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
+  if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);
+  if (needs_faces && !b.has_faces) return check_pair(a, pose_a, with_faces(b), pose_b, query, method);
+  if (comes_before(a, pose_a, b, pose_b)) return check_in_order(a, pose_a, b, pose_b, query, method);
+  PairResult result = check_in_order(b, pose_b, a, pose_a, query, method);
+  mirror(result);
+  return result;
+}
+
+}  // namespace satcheck

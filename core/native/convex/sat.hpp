@@ -1,0 +1,45 @@
+// The separating axis test: signed penetration of two polytopes by trying every axis that can be a
+// facet normal of their Minkowski difference.
+//
+// Two disjoint convex polytopes are separated along a face normal of one of them or along the cross
+// product of an edge of each; when they overlap, the same axes hold the least overlap (S. Gottschalk,
+// M. C. Lin, D. Manocha, "OBBTree", 1996; D. Gregorius, "The Separating Axis Test between Convex
+// Polyhedra", GDC 2013).
+#pragma once
+
+#include "convex/minkowski.hpp"
+
+namespace satcheck {
+
+enum class Feature : std::uint8_t { none, face_a, face_b, edge_edge, vertices, curved };
+
+struct SatResult {
+  // min over the axes n of h_A(n) + h_B(-n): how far A moves along -n to come free. Negative: n
+  // separates, by that gap.
+  double penetration = INFINITY;
+  double lower = -INFINITY;  // and no axis has less, rounding of a support value aside
+  Vec3 axis;  // unit, from A to B, frame of A
+  Feature feature = Feature::none;
+  std::uint32_t index_a = Shape::kNoIndex;  // face or edge of the polytope of A
+  std::uint32_t index_b = Shape::kNoIndex;
+  int axes_tested = 0;
+};
+
+enum class SatGoal { any_separating_axis, least_overlap };
+
+// Two boxes over 15 axes: the least overlap.
+SatResult sat_boxes(const MinkowskiDifference& difference);
+
+// Two boxes over 15 axes, yes or no. `noise` bounds the rounding error of an overlap.
+struct BoxSides {
+  int side = 0;  // -1: an axis separates by more than noise; 1: the boxes overlap on all by more; 0: neither
+  Feature feature = Feature::none;  // the axis that separates
+  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
+  int axes_tested = 0;
+};
+BoxSides sides_of_boxes(const MinkowskiDifference& difference, double noise);
+
+// Two solid polytopes over the face normals of both and the edge pairs whose arcs cross on the Gauss map.
+SatResult sat_polytopes(const MinkowskiDifference& difference, SatGoal goal);
+
+}  // namespace satcheck

@@ -1,0 +1,171 @@
+#include "convex/shape.hpp"
+
+#include <stdexcept>
+
+#include "base/numeric_range.hpp"
+
+namespace satcheck {
+
+namespace {
+
+void require_positive(double value, const char* what) {
+  if (!(value >= kSmallestSize && value <= kLargestCoordinate)) {
+    throw std::invalid_argument(std::string(what) + " must be positive, and between 1e-45 and 1e45");
+  }
+}
+
+// The middle along the axes on which the shape is far from 0, by more than 1.5 sizes: its coordinates lie
+// within a third of it there, so that subtracting it rounds nothing (P. H. Sterbenz, "Floating-Point
+// Computation", 1974). 0 along the others.
+Vec3 exact_centre(const Aabb& bounds) {
+  const Vec3 size = bounds.max - bounds.min, middle = bounds.min + size * 0.5;
+  const double far = 1.5 * max_abs(size);
+  const auto taken = [&](double coordinate) { return std::fabs(coordinate) > far ? coordinate : 0.0; };
+  return {taken(middle.x), taken(middle.y), taken(middle.z)};
+}
+
+double largest_coordinate(const std::vector<Vec3>& points) {
+  double extent = 0;
+  for (Vec3 p : points) extent = std::fmax(extent, max_abs(p));
+  return extent;
+}
+
+std::vector<EdgeArc> arcs_of(const Polytope& p) {
+  std::vector<EdgeArc> arcs;
+  if (p.dimension < 3) return arcs;
+  arcs.reserve(p.edges.size());
+  for (const PolytopeEdge& e : p.edges) {
+    const Vec3 d = p.vertices[e.head] - p.vertices[e.tail];
+    arcs.push_back({p.vertices[e.tail], d * (1 / norm(d)), p.face_normal[e.left], p.face_normal[e.right]});
+  }
+  return arcs;
+}
+
+}  // namespace
+
+Shape make_hull(Polytope polytope) {
+  Shape shape;
+  shape.kind = ShapeKind::hull;
+  Aabb bounds;
+  for (Vec3 p : polytope.vertices) bounds.include(p);
+  shape.origin = exact_centre(bounds);
+  for (Vec3& p : polytope.vertices) p = p - shape.origin;
+  shape.polytope = std::move(polytope);
+  shape.arcs = arcs_of(shape.polytope);
+  shape.lanes = VertexLanes(shape.polytope.vertices);
+  shape.extent = largest_coordinate(shape.polytope.vertices);
+  return shape;
+}
+
+Shape make_hull(const std::vector<Vec3>& points) { return make_hull(convex_hull(points)); }
+
+Shape make_hull_without_faces(std::vector<Vec3> points) {
+  Polytope polytope;
+  polytope.dimension = 3;
+  polytope.vertices = std::move(points);
+  Shape shape = make_hull(std::move(polytope));
+  shape.has_faces = false;
+  return shape;
+}
+
+Shape with_faces(const Shape& hull) {
+  std::vector<Vec3> points = hull.polytope.vertices;
+  for (Vec3& p : points) p = p + hull.origin;
+  return make_hull(points);
+}
+
+Shape make_box(Vec3 half_extents) {
+  for (int axis = 0; axis < 3; ++axis) require_positive(half_extents[axis], "a half extent of the box");
+  std::vector<Vec3> corners;
+  for (double x : {-1.0, 1.0}) {
+    for (double y : {-1.0, 1.0}) {
+      for (double z : {-1.0, 1.0}) corners.push_back({x * half_extents.x, y * half_extents.y, z * half_extents.z});
+    }
+  }
+  Shape shape = make_hull(corners);
+  shape.kind = ShapeKind::box;
+  shape.size = half_extents;
+  return shape;
+}
+
+namespace {
+
+Shape make_round(ShapeKind kind, Vec3 size, double margin, double extent) {
+  Shape shape;
+  shape.kind = kind;
+  shape.size = size;
+  shape.margin = margin;
+  shape.extent = extent;
+  return shape;
+}
+
+}  // namespace
+
+Shape make_sphere(double radius) {
+  require_positive(radius, "the radius of the sphere");
+  return make_round(ShapeKind::sphere, {radius, 0, 0}, radius, 0);
+}
+
+Shape make_capsule(double radius, double half_height) {
+  require_positive(radius, "the radius of the capsule");
+  require_positive(half_height, "the half height of the capsule");
+  return make_round(ShapeKind::capsule, {radius, radius, half_height}, radius, half_height);
+}
+
+Shape make_cylinder(double radius, double half_height) {
+  require_positive(radius, "the radius of the cylinder");
+  require_positive(half_height, "the half height of the cylinder");
+  return make_round(ShapeKind::cylinder, {radius, radius, half_height}, 0, std::fmax(radius, half_height));
+}
+
+Shape make_cone(double radius, double half_height) {
+  require_positive(radius, "the radius of the cone");
+  require_positive(half_height, "the half height of the cone");
+  return make_round(ShapeKind::cone, {radius, radius, half_height}, 0, std::fmax(radius, half_height));
+}
+
+Shape make_ellipsoid(Vec3 radii) {
+  for (int axis = 0; axis < 3; ++axis) require_positive(radii[axis], "a radius of the ellipsoid");
+  return make_round(ShapeKind::ellipsoid, radii, 0, max_abs(radii));
+}
+
+namespace {
+
+Vec3 disc_support(double radius, Vec3 direction, double z) {
+  const double length = std::hypot(direction.x, direction.y);
+  if (length == 0) return {radius, 0, z};
+  return {radius * (direction.x / length), radius * (direction.y / length), z};
+}
+
+}  // namespace
+
+SATCHECK_WIDE CorePoint core_support(const Shape& shape, Vec3 d) { return inlined_core_support(shape, d); }
+
+CorePoint round_support(const Shape& shape, Vec3 d) {
+  const Vec3 s = shape.size;
+  switch (shape.kind) {
+    case ShapeKind::hull:
+    case ShapeKind::box:
+      break;
+    case ShapeKind::sphere:
+      return {{0, 0, 0}, 0};
+    case ShapeKind::capsule:
+      return {{0, 0, d.z >= 0 ? s.z : -s.z}, d.z >= 0 ? 1u : 0u};
+    case ShapeKind::cylinder:
+      return {disc_support(s.x, d, d.z >= 0 ? s.z : -s.z), Shape::kNoIndex};
+    case ShapeKind::cone: {
+      const Vec3 apex{0, 0, s.z}, rim = disc_support(s.x, d, -s.z);
+      if (dot(apex, d) >= dot(rim, d)) return {apex, 0};
+      return {rim, Shape::kNoIndex};
+    }
+    case ShapeKind::ellipsoid: {
+      const Vec3 scaled{s.x * d.x, s.y * d.y, s.z * d.z};
+      const double length = norm(scaled);
+      if (length == 0) return {{s.x, 0, 0}, Shape::kNoIndex};
+      return {{s.x * (scaled.x / length), s.y * (scaled.y / length), s.z * (scaled.z / length)}, Shape::kNoIndex};
+    }
+  }
+  return {{0, 0, 0}, Shape::kNoIndex};  // not reached: these have supports of their own
+}
+
+}  // namespace satcheck

@@ -1,0 +1,82 @@
+// Convex shapes given by their support function.
+//
+// A sphere and a capsule are a core (a point, a segment) and a margin: the Minkowski sum with a
+// ball, which moves every support value by the radius and nothing else (van den Bergen, "Collision
+// Detection in Interactive 3D Environments", 2003, chapter 4).
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "convex/polytope.hpp"
+#include "convex/support_scan.hpp"
+
+namespace satcheck {
+
+enum class ShapeKind : std::uint8_t { hull, box, sphere, capsule, cylinder, cone, ellipsoid };
+
+// An edge as the separating axis test needs it: where it runs and the normals of its two faces.
+struct EdgeArc {
+  Vec3 tail, direction;  // unit direction
+  Vec3 normal_left, normal_right;
+};
+
+struct Shape {
+  static constexpr std::uint32_t kNoIndex = 0xffffffffu;
+
+  // First what every query reads.
+  ShapeKind kind = ShapeKind::hull;
+  // Of a hull. False: the vertices hold all extreme points, and maybe others; faces, edges and arcs are
+  // left to those who need them (with_faces).
+  bool has_faces = true;
+  // Box: half extents. Ellipsoid: radii. Cylinder, cone, capsule: radius in x and y, half height
+  // in z. Sphere: radius in x. The axis is the local z; the cone's apex is at +z.
+  Vec3 size;
+  double margin = 0;  // radius of the ball around the core: sphere and capsule
+  Vec3 origin;
+  double extent = 0;  // largest |coordinate| of the core, relative to `origin`
+  // Hull and box. Hull: coordinates are relative to `origin`, which brings a hull far from the world's
+  // origin to its own without any rounding.
+  VertexLanes lanes;
+  Polytope polytope;
+  std::vector<EdgeArc> arcs;  // of a solid hull
+
+  bool is_polytope() const { return kind == ShapeKind::hull || kind == ShapeKind::box; }
+};
+
+// Points (n >= 1) in any order; the shape is their convex hull, computed exactly.
+Shape make_hull(const std::vector<Vec3>& points);
+Shape make_hull(Polytope polytope);
+// The hull of points of which the faces are not computed; they span a solid.
+Shape make_hull_without_faces(std::vector<Vec3> points);
+// The same hull, with its faces.
+Shape with_faces(const Shape& hull);
+// All sizes are positive and finite, or std::invalid_argument is thrown.
+Shape make_box(Vec3 half_extents);
+Shape make_sphere(double radius);
+Shape make_capsule(double radius, double half_height);
+Shape make_cylinder(double radius, double half_height);
+Shape make_cone(double radius, double half_height);
+Shape make_ellipsoid(Vec3 radii);
+
+// Support point of the core in the local frame, and its index where the core has vertices.
+struct CorePoint {
+  Vec3 point;
+  std::uint32_t index;
+};
+CorePoint core_support(const Shape& shape, Vec3 direction);
+CorePoint round_support(const Shape& shape, Vec3 direction);  // of neither hulls nor boxes
+
+// core_support() for loops that are compiled for wide registers as a whole.
+SATCHECK_INLINE CorePoint inlined_core_support(const Shape& shape, Vec3 d) {
+  if (shape.kind == ShapeKind::hull) {
+    const std::uint32_t index = support_index(shape.lanes, d);
+    return {{shape.lanes.x[index], shape.lanes.y[index], shape.lanes.z[index]}, index};
+  }
+  if (shape.kind != ShapeKind::box) return round_support(shape, d);
+  const Vec3 s = shape.size;
+  const unsigned x = d.x >= 0, y = d.y >= 0, z = d.z >= 0;
+  return {{x ? s.x : -s.x, y ? s.y : -s.y, z ? s.z : -s.z}, x << 2 | y << 1 | z};
+}
+
+}  // namespace satcheck

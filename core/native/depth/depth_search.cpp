@@ -1,0 +1,404 @@
+// Method: branch and bound over boxes in the space of translations, least norm first. A box is dropped when
+// one convex set of translations that are proven to leave an overlap (overlap_proof.hpp) holds all of it,
+// or all that is short enough to matter. Where no set holds a point near the box's nearest one, the meshes
+// themselves are asked: free, and an upper bound is found; overlapping, and that proves one more set.
+#include "depth/depth_search.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "base/tolerances.hpp"
+#include "depth/forbidden_set.hpp"
+#include "depth/overlap_proof.hpp"
+#include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+#include "mesh_pair/moved_surface.hpp"
+#include "mesh_pair/wall_corner.hpp"
+
+namespace satcheck {
+namespace {
+
+// Measured, in nanoseconds.
+constexpr std::uint64_t kPlaneWork = 2, kBoxWork = 300, kPairWork = 100, kVertexWork = 5,
+                        kJudgedWork = 10'000;
+
+// Steps out of one set after another until the meshes are free.
+constexpr int kStepsOut = 8;
+constexpr std::size_t kMostWalls = 24;
+// How far beyond the boundary of a set a step leads, so that rounding does not leave it inside: a share of
+// the known way out.
+constexpr double kBeyond = 1e-10;
+// Sets that a point may be moved out of within its box.
+constexpr std::size_t kSetsLeft = 24;
+// How far into the open, in halves of the box.
+constexpr double kIntoTheOpen = 1.0 / 16;
+// A way out that ends at a face is shortened to that face where the two agree to this share of it.
+constexpr double kSnap = 1e-6;
+// The first box is larger than it has to be by an odd number, so that halving it does not end at facets.
+constexpr double kRootSize = 1.0309;
+// Boxes below this share of the known way out lie on a seam of two sets, if no set holds them.
+constexpr double kSeam = 1e-5;
+
+// After this part of the work, spheres from this part of the known way out on are scanned for a shorter one.
+constexpr std::uint64_t kScanAfter = 8;
+constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
+
+// Rounding of the norm of a point.
+constexpr double kNormError = 4 * kUnitRoundoff;
+
+// Few enough digits that the centres of boxes are exact after some 90 halvings, 30 an axis.
+constexpr int kShortDigits = 20;
+double short_number_above(double x) {
+  int exponent = 0;
+  const double fraction = std::frexp(x, &exponent);
+  return std::ldexp(std::ceil(std::ldexp(fraction, kShortDigits)), exponent - kShortDigits);
+}
+
+struct Box {
+  double key;  // distance of its nearest point from the origin
+  Vec3 centre, half;
+  std::vector<std::uint32_t> sets;  // which of the first `seen` may hold a part of it
+  std::uint32_t seen;
+  std::uint64_t number;
+};
+
+struct Later {
+  bool operator()(const Box& a, const Box& b) const { return a.key != b.key ? a.key > b.key : a.number > b.number; }
+};
+
+Vec3 nearest_to_origin(const Box& box) {
+  const auto clamp = [](double c, double h) { return c - h > 0 ? c - h : c + h < 0 ? c + h : 0.0; };
+  return {clamp(box.centre.x, box.half.x), clamp(box.centre.y, box.half.y), clamp(box.centre.z, box.half.z)};
+}
+
+bool is_in(const Box& box, Vec3 t) {
+  const Vec3 d = t - box.centre;
+  return std::fabs(d.x) <= box.half.x && std::fabs(d.y) <= box.half.y && std::fabs(d.z) <= box.half.z;
+}
+
+// Unit vectors all round: towards the points of a lattice on the surface of a cube.
+std::vector<Vec3> ways() {
+  std::vector<Vec3> found;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        const Vec3 v{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+        if (max_abs(v) == 2) found.push_back(v * (1 / norm(v)));
+      }
+    }
+  }
+  return found;
+}
+
+class Search {
+ public:
+  Search(const Surface& a, const Surface& b, const DepthGoal& goal) : a_(a), b_(b), moved_(a), goal_(goal) {
+    result_.upper = goal.upper;
+  }
+
+  DepthInterval run() {
+    ask_meshes({0, 0, 0});
+    push({0, 0, 0}, in_plane(Vec3{1, 1, 1} * short_number_above(kRootSize * result_.upper)), {}, 0);
+    double open_from = result_.upper;
+    while (!open_.empty()) {
+      Box box = open_.top();
+      open_.pop();
+      open_from = box.key;
+      if (std::fmax(std::fmin(open_from, covered_to_), goal_.lower) >= enough()) break;
+      if (result_.work >= goal_.work) {
+        result_.stop = DepthStop::work_spent;
+        break;
+      }
+      if (!scanned_ && result_.work >= goal_.work / kScanAfter) {
+        scan_spheres(std::fmax(box.key, result_.upper / kSmallestSphere));
+        push(box.centre, box.half, std::move(box.sets), box.seen);
+        continue;
+      }
+      ++result_.boxes;
+      open_from = result_.upper;
+      if (is_covered(box)) continue;
+      Vec3 t = nearest_to_origin(box);
+      if (is_on_seam(box)) {
+        fit(on_facets(box));
+      } else if (find_open(box, t) || is_open(box, t = box.centre)) {
+        ask_meshes(t);
+      }
+      if (is_covered(box)) continue;
+      split(box);
+    }
+    snap();
+    result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
+    result_.lower = std::fmin(result_.lower, result_.upper);
+    result_.sets = static_cast<std::uint32_t>(sets_.size());
+    return result_;
+  }
+
+ private:
+  // Where translations lie in a plane, the boxes are flat, and so is whatever points at them.
+  Vec3 in_plane(Vec3 t) const {
+    switch (goal_.across) {
+      case 0: return {0, t.y, t.z};
+      case 1: return {t.x, 0, t.z};
+      case 2: return {t.x, t.y, 0};
+      default: return t;
+    }
+  }
+
+  // Translations that are longer need not be forbidden.
+  double enough() const { return (1 - goal_.width) * result_.upper; }
+
+  void push(Vec3 centre, Vec3 half, std::vector<std::uint32_t> sets, std::uint32_t seen) {
+    Box box{0, centre, half, std::move(sets), seen, next_number_++};
+    box.key = norm(nearest_to_origin(box));
+    if (box.key >= result_.upper) return;
+    result_.work += kBoxWork;
+    open_.push(std::move(box));
+  }
+
+  void split(const Box& box) {
+    const Vec3 h = box.half;
+    const int axis = h.x >= h.y && h.x >= h.z ? 0 : h.y >= h.z ? 1 : 2;
+    Vec3 half = h, shift;
+    (axis == 0 ? half.x : axis == 1 ? half.y : half.z) *= 0.5;
+    (axis == 0 ? shift.x : axis == 1 ? shift.y : shift.z) = half[axis];
+    push(box.centre - shift, half, box.sets, box.seen);
+    push(box.centre + shift, half, box.sets, box.seen);
+  }
+
+  // Whether one set forbids all translations in the box that are short enough to matter.
+  bool is_covered(Box& box) {
+    const Aabb bounds{box.centre - box.half, box.centre + box.half};
+    for (; box.seen < sets_.size(); ++box.seen) {
+      if (meet(sets_[box.seen].box, bounds)) box.sets.push_back(box.seen);
+    }
+    double farthest = -INFINITY;
+    std::size_t kept = 0;
+    for (const std::uint32_t i : box.sets) {
+      result_.work += kPlaneWork * sets_[i].normal.size();
+      const ForbiddenSet::Reach reach = sets_[i].reach(box.centre, box.half);
+      if (reach.meets) box.sets[kept++] = i;
+      farthest = std::fmax(farthest, reach.length);
+      if (farthest >= result_.upper) break;
+    }
+    if (farthest >= enough()) {
+      covered_to_ = std::fmin(covered_to_, farthest);
+      return true;
+    }
+    box.sets.resize(kept);
+    return false;
+  }
+
+  // Whether no set holds t, and it is short enough to matter.
+  bool is_open(const Box& box, Vec3 t) {
+    return norm(t) < enough() && std::none_of(box.sets.begin(), box.sets.end(), [&](std::uint32_t i) {
+      result_.work += kPlaneWork * sets_[i].normal.size();
+      return sets_[i].exit(t).depth > 0;
+    });
+  }
+
+  // The point nearest to t that no set holds, if it is in the box and short enough to matter.
+  bool find_open(const Box& box, Vec3& t) {
+    const Vec3 start = t;
+    const double beyond = kIntoTheOpen * max_abs(box.half);
+    std::vector<Wall> walls;
+    while (norm(t) < enough()) {
+      ForbiddenSet::Exit deepest;
+      for (const std::uint32_t i : box.sets) {
+        result_.work += kPlaneWork * sets_[i].normal.size();
+        const ForbiddenSet::Exit exit = sets_[i].exit(t);
+        if (exit.depth > deepest.depth) deepest = exit;
+      }
+      if (!(deepest.depth > 0)) return is_in(box, t);
+      if (walls.size() >= kSetsLeft) return false;
+      walls.push_back({deepest.normal, dot(deepest.normal, t - start) + deepest.depth + beyond});
+      const std::optional<Vec3> next = nearest_beyond(walls);
+      if (!next) return false;
+      t = in_plane(start + *next);
+    }
+    return false;
+  }
+
+  bool is_on_seam(const Box& box) const { return max_abs(box.half) < kSeam * result_.upper; }
+
+  MeshRelation relation_at(Vec3 t) {
+    ++result_.mesh_tests;
+    const MeshRelation r = mesh_relation(moved_.at(t), b_);
+    result_.work += kVertexWork * a_.mesh.vertices.size() + kPairWork * (r.box_tests + r.triangle_tests) +
+                    kJudgedWork * r.judged;
+    return r;
+  }
+
+  static bool is_free(const MeshRelation& r) {
+    return r.proven && (r.relation == Relation::separated || r.relation == Relation::touching);
+  }
+
+  void take(Vec3 way_out) {
+    if (norm(way_out) >= result_.upper) return;
+    result_.upper = norm(way_out);
+    result_.way_out = way_out;
+    result_.found = true;
+  }
+
+  // Settles t, a way out or one more set that holds it; then, as long as that leads to a shorter way out than
+  // is known, the nearest point to the origin beyond the walls of the sets that were met.
+  void ask_meshes(Vec3 t) {
+    std::vector<Wall> walls;
+    for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls;) {
+      ForbiddenSet::Exit exit = deepest_exit(t);
+      if (!(exit.depth > 0)) {
+        ++asked;
+        const MeshRelation relation = relation_at(t);
+        if (is_free(relation)) return take(t);
+        OverlapProof proof = prove_overlap(a_, moved_.at(t), b_, t, relation);
+        result_.work += proof.work;
+        if (proof.set.empty()) return;
+        exit = proof.set.exit(t);
+        sets_.push_back(std::move(proof.set));
+      }
+      walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
+      const std::optional<Vec3> next = nearest_beyond(walls);
+      if (!next || norm(*next) >= result_.upper) return;
+      t = in_plane(*next);
+    }
+  }
+
+  ForbiddenSet::Exit deepest_exit(Vec3 t) {
+    ForbiddenSet::Exit deepest;
+    const Aabb point{t, t};
+    for (const ForbiddenSet& set : sets_) {
+      if (!meet(set.box, point)) continue;
+      result_.work += kPlaneWork * set.normal.size();
+      const ForbiddenSet::Exit exit = set.exit(t);
+      if (exit.depth > deepest.depth) deepest = exit;
+    }
+    return deepest;
+  }
+
+  // A way out on the smallest of some spheres, for what is longer than it need not be searched.
+  void scan_spheres(double radius) {
+    scanned_ = true;
+    for (; radius < result_.upper; radius *= kSphereRatio) {
+      for (const Vec3 way : ways()) {
+        if (!(in_plane(way) == way)) continue;
+        const Vec3 t = way * radius;
+        const auto holds = [&](const ForbiddenSet& set) { return set.exit(t).depth > 0; };
+        if (std::any_of(sets_.begin(), sets_.end(), holds)) continue;
+        if (is_free(relation_at(t))) take(t);
+      }
+    }
+    if (result_.found) ask_meshes(result_.way_out * (1 - kScanStep));
+  }
+
+  // The box's nearest point, shifted onto the facets that cut the box.
+  Vec3 on_facets(const Box& box) const {
+    Vec3 t = nearest_to_origin(box);
+    for (const std::uint32_t i : box.sets) {
+      for (std::size_t k = 0; k < sets_[i].normal.size(); ++k) {
+        const Vec3 n = sets_[i].normal[k];
+        const double spread = std::fabs(n.x) * box.half.x + std::fabs(n.y) * box.half.y + std::fabs(n.z) * box.half.z;
+        if (std::fabs(sets_[i].facet[k] - dot(n, box.centre)) <= spread) t = t + n * (sets_[i].facet[k] - dot(n, t));
+      }
+    }
+    return in_plane(t);
+  }
+
+  // Where forbidden sets only touch, A fits between the parts of B without play: t is shifted by less than
+  // the rounding of the sets until corners lie in faces, to see whether the meshes are free there.
+  void fit(Vec3 t) {
+    for (int step = 0; step < kStepsOut; ++step) {
+      const MeshRelation relation = relation_at(t);
+      if (is_free(relation)) return take(t);
+      Touch nearest{INFINITY, -1, {}};
+      for (const Touch& touch : touches(relation)) {
+        const double shift = std::fabs(touch.height - dot(touch.normal, t));
+        if (shift > 0 && shift < std::fabs(nearest.height - dot(nearest.normal, t))) nearest = touch;
+      }
+      if (!(std::fabs(nearest.height - dot(nearest.normal, t)) <= kSeam * result_.upper)) break;
+      t = in_plane(moved_to(t, nearest));
+    }
+    ask_meshes(t);
+  }
+
+  // A way out along the normal of a face ends exactly where a corner leaves the plane of that face.
+  void snap() {
+    if (!result_.found) return;
+    const double length = norm(result_.way_out);
+    for (const Touch& touch : touches(relation_at(result_.way_out * (1 - kSnap)))) {
+      const Vec3 t = in_plane(touch.normal * touch.height);
+      const bool agrees = norm(t - result_.way_out) <= kSnap * length;
+      if (agrees && norm(t) < result_.upper && is_free(relation_at(t))) take(t);
+    }
+  }
+
+  // A translation t with normal . t = height puts a corner of one triangle into the plane of the other.
+  struct Touch {
+    double height;
+    int axis;  // along which the plane's normal is, or -1
+    Vec3 normal;
+  };
+
+  static Vec3 moved_to(Vec3 t, const Touch& touch) {
+    switch (touch.axis) {
+      case 0: return {touch.height * touch.normal.x, t.y, t.z};
+      case 1: return {t.x, touch.height * touch.normal.y, t.z};
+      case 2: return {t.x, t.y, touch.height * touch.normal.z};
+      default: return t + touch.normal * (touch.height - dot(touch.normal, t));
+    }
+  }
+
+  std::vector<Touch> touches(const MeshRelation& relation) const {
+    std::vector<Touch> found;
+    if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return found;
+    const Corners p = corners(a_.mesh, relation.triangle_a), q = corners(b_.mesh, relation.triangle_b);
+    for (const bool of_a : {true, false}) {
+      const Corners& plane = of_a ? p : q;
+      const Vec3 normal = rounded_normal(plane[0], plane[1], plane[2]);
+      if (!(norm(normal) > 0)) continue;
+      const Vec3 unit = normal * (1 / norm(normal));
+      const int axis = unit.y == 0 && unit.z == 0 ? 0 : unit.z == 0 && unit.x == 0 ? 1 : unit.x == 0 && unit.y == 0 ? 2 : -1;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 t = of_a ? q[k] - plane[0] : plane[0] - p[k];
+        found.push_back({dot(unit, t), axis, unit});
+      }
+    }
+    return found;
+  }
+
+  const Surface& a_;
+  const Surface& b_;
+  MovedSurface moved_;
+  DepthGoal goal_;
+  DepthInterval result_;
+  double covered_to_ = INFINITY;  // the boxes that were dropped hold no shorter way out
+  std::vector<ForbiddenSet> sets_;
+  std::priority_queue<Box, std::vector<Box>, Later> open_;
+  std::uint64_t next_number_ = 0;
+  bool scanned_ = false;
+};
+
+// An order that does not depend on which mesh is called A: the smaller mesh is moved.
+bool comes_first(const Mesh& a, const Mesh& b) {
+  if (a.triangles.size() != b.triangles.size()) return a.triangles.size() < b.triangles.size();
+  if (a.vertices.size() != b.vertices.size()) return a.vertices.size() < b.vertices.size();
+  const auto less = [](Vec3 p, Vec3 q) { return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z; };
+  const auto precedes = [&](const Mesh& p, const Mesh& q) {
+    return std::lexicographical_compare(p.vertices.begin(), p.vertices.end(), q.vertices.begin(), q.vertices.end(), less);
+  };
+  if (precedes(a, b) || precedes(b, a)) return precedes(a, b);
+  return a.triangles <= b.triangles;
+}
+
+}  // namespace
+
+DepthInterval search_depth(const Surface& a, const Surface& b, const DepthGoal& goal) {
+  if (comes_first(a.mesh, b.mesh)) return Search(a, b, goal).run();
+  DepthInterval result = Search(b, a, goal).run();
+  result.way_out = Vec3{} - result.way_out;
+  return result;
+}
+
+}  // namespace satcheck

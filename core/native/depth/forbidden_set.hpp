@@ -1,0 +1,41 @@
+// A convex set of translations of A, each of which leaves A and B with a common interior.
+#pragma once
+
+#include <vector>
+
+#include "base/vec.hpp"
+
+namespace satcheck {
+
+// The Minkowski difference B' - A' of two convex bodies: A' inside A, B' inside B. What is on the inner side of
+// all planes is proven to be in its interior: they lie inside its facets by the rounding.
+struct ForbiddenSet {
+  std::vector<Vec3> normal;  // unit, outward
+  std::vector<double> offset;
+  std::vector<double> facet;  // the offset of the facet itself, rounded to nearest
+  Aabb box;
+
+  bool empty() const { return normal.empty(); }
+
+  // The shortest way to the planes: positive inside, then also the radius of a ball of forbidden
+  // translations about t.
+  struct Exit {
+    double depth = 0;
+    Vec3 normal;
+  };
+  Exit exit(Vec3 t) const;
+
+  // length: the set holds all translations in the box that are shorter than this, for planes at least that
+  // far from the origin cut off longer ones only; infinite where it holds the whole box, -infinite where
+  // they do not meet.
+  struct Reach {
+    double length;
+    bool meets;
+  };
+  Reach reach(Vec3 centre, Vec3 half) const;
+};
+
+// Convex hulls of points; none where the difference has no volume.
+ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b);
+
+}  // namespace satcheck

@@ -1,0 +1,40 @@
+// Points in the plane of a triangle, rounded ones and exact ones: one set of names for both.
+#pragma once
+
+#include <cmath>
+
+#include "exact/predicates.hpp"
+
+namespace satcheck {
+
+inline int orientation_2d_at(Vec3 a, Vec3 b, Vec3 p, int drop_axis) {
+  return orientation_2d(a, b, p, drop_axis);
+}
+inline Aabb point_box(Vec3 p) { return {p, p}; }
+inline Vec3 rounded_point(Vec3 p) { return p; }
+
+// The axis along which a triangle with a normal of rounded components is widest.
+inline int projection_axis(Vec3 normal) {
+  const double x = std::fabs(normal.x), y = std::fabs(normal.y), z = std::fabs(normal.z);
+  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+}
+
+// Does a point, known to be in the plane of a triangle that is not collinear, lie in the closed
+// triangle?
+template <class Point>
+bool plane_point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
+  const int axis = projection_axis(rounded_normal(a, b, c));
+  const int ab = orientation_2d_at(a, b, p, axis);
+  const int bc = orientation_2d_at(b, c, p, axis);
+  const int ca = orientation_2d_at(c, a, p, axis);
+  return (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+}
+
+// Is p in the closed triangle? Collinear triangles have no inside and contain nothing here: in a
+// closed mesh their edges belong to other triangles too.
+template <class Point>
+bool point_in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
+  return orientation(a, b, c, p) == 0 && !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c);
+}
+
+}  // namespace satcheck

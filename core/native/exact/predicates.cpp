@@ -1,0 +1,282 @@
+// Method: Jonathan R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
+// Geometric Predicates" (1997): a float64 filter, then expansions. Where we deviate: one exact
+// stage instead of an adaptive ladder, since zero elimination already keeps the expansions of
+// grid-like input at one or two terms; and EXPANSION-SUM instead of FAST-EXPANSION-SUM, because it
+// keeps terms nonadjacent through every operation used here (his theorems 12 and 19).
+#include "exact/predicates.hpp"
+
+#include <limits>
+
+namespace satcheck {
+namespace {
+
+// u, the largest relative error of one rounding.
+constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
+
+// A term of the rounded 3x3 determinant carries at most 3 rounded differences, 2 products and
+// 3 additions: |error| <= ((1 + u)^8 - 1) * permanent. The ninth u covers the roundings of the
+// permanent and of the bound.
+constexpr double kDeterminantBound = 9 * kRoundoff;
+
+// Likewise 2 differences, 1 product, 1 addition; the fifth u covers the bound's own roundings.
+constexpr double kOrientation2dBound = 5 * kRoundoff;
+
+// What rounded_normal() promises, relative to the length of the normal.
+constexpr double kNormalTolerance = 1e-14;
+
+// An unevaluated exact sum of nonoverlapping float64 terms, of increasing magnitude, none zero.
+template <int Capacity>
+struct Expansion {
+  double term[Capacity];
+  int size = 0;
+
+  void append(double value) {
+    if (value != 0) term[size++] = value;
+  }
+  // Adding from the smallest term up: a relative error of a few u.
+  double rounded() const {
+    double total = 0;
+    for (int i = 0; i < size; ++i) total += term[i];
+    return total;
+  }
+  int sign() const { return size == 0 ? 0 : term[size - 1] > 0 ? 1 : -1; }
+};
+
+struct Rounded {
+  double value, error;
+};
+
+Rounded two_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  const double a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+
+Rounded two_product(double a, double b) {
+  const double product = a * b;
+  return {product, std::fma(a, b, -product)};
+}
+
+Expansion<2> difference(double a, double b) {
+  const Rounded d = two_sum(a, -b);
+  Expansion<2> result;
+  result.append(d.error);
+  result.append(d.value);
+  return result;
+}
+
+template <int Capacity>
+void grow(Expansion<Capacity>& e, double value) {
+  double carry = value;
+  int kept = 0;
+  for (int i = 0; i < e.size; ++i) {
+    const Rounded s = two_sum(carry, e.term[i]);
+    carry = s.value;
+    if (s.error != 0) e.term[kept++] = s.error;
+  }
+  e.size = kept;
+  e.append(carry);
+}
+
+void grow(std::vector<double>& e, double value) {
+  double carry = value;
+  std::size_t kept = 0;
+  for (const double part : e) {
+    const Rounded s = two_sum(carry, part);
+    carry = s.value;
+    if (s.error != 0) e[kept++] = s.error;
+  }
+  e.resize(kept);
+  if (carry != 0) e.push_back(carry);
+}
+
+template <int A, int B>
+Expansion<A + B> sum(const Expansion<A>& e, const Expansion<B>& f) {
+  Expansion<A + B> result;
+  for (int i = 0; i < e.size; ++i) result.term[i] = e.term[i];
+  result.size = e.size;
+  for (int i = 0; i < f.size; ++i) grow(result, f.term[i]);
+  return result;
+}
+
+template <int A>
+Expansion<2 * A> scaled(const Expansion<A>& e, double factor) {
+  Expansion<2 * A> result;
+  if (e.size == 0) return result;
+  Rounded carry = two_product(e.term[0], factor);
+  result.append(carry.error);
+  for (int i = 1; i < e.size; ++i) {
+    const Rounded product = two_product(e.term[i], factor);
+    const Rounded low = two_sum(carry.value, product.error);
+    result.append(low.error);
+    carry = two_sum(product.value, low.value);
+    result.append(carry.error);
+  }
+  result.append(carry.value);
+  return result;
+}
+
+template <int A>
+Expansion<4 * A> product(const Expansion<A>& e, const Expansion<2>& f) {
+  Expansion<4 * A> result;
+  if (f.size == 0) return result;
+  const Expansion<2 * A> low = scaled(e, f.term[0]);
+  if (f.size == 2) return sum(low, scaled(e, f.term[1]));
+  for (int i = 0; i < low.size; ++i) result.term[i] = low.term[i];
+  result.size = low.size;
+  return result;
+}
+
+template <int A>
+Expansion<A> negated(Expansion<A> e) {
+  for (int i = 0; i < e.size; ++i) e.term[i] = -e.term[i];
+  return e;
+}
+
+struct ExactVector {
+  Expansion<2> x, y, z;
+};
+
+ExactVector exact_difference(Vec3 head, Vec3 tail) {
+  return {difference(head.x, tail.x), difference(head.y, tail.y), difference(head.z, tail.z)};
+}
+
+Expansion<16> exact_minor(const Expansion<2>& a, const Expansion<2>& b, const Expansion<2>& c,
+                          const Expansion<2>& d) {
+  return sum(product(a, d), negated(product(b, c)));  // a d - b c
+}
+
+Expansion<192> exact_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
+  const ExactVector a = exact_difference(q1, p1);
+  const ExactVector b = exact_difference(q2, p2);
+  const ExactVector c = exact_difference(q3, p3);
+  const Expansion<64> x = product(exact_minor(b.y, b.z, c.y, c.z), a.x);
+  const Expansion<64> y = product(exact_minor(b.z, b.x, c.z, c.x), a.y);
+  const Expansion<64> z = product(exact_minor(b.x, b.y, c.x, c.y), a.z);
+  return sum(sum(x, y), z);
+}
+
+// Is a row or a column of the matrix 0? Rounded differences are 0 only if exact ones are. The usual
+// case of axis-aligned geometry.
+bool has_zero_line(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 zero;
+  return (a.x == 0 && b.x == 0 && c.x == 0) || (a.y == 0 && b.y == 0 && c.y == 0) ||
+         (a.z == 0 && b.z == 0 && c.z == 0) || a == zero || b == zero || c == zero;
+}
+
+}  // namespace
+
+int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
+  const Vec3 a = q1 - p1, b = q2 - p2, c = q3 - p3;
+  const double yz = b.y * c.z, zy = b.z * c.y;
+  const double zx = b.z * c.x, xz = b.x * c.z;
+  const double xy = b.x * c.y, yx = b.y * c.x;
+  const double determinant = a.x * (yz - zy) + a.y * (zx - xz) + a.z * (xy - yx);
+  const double permanent = std::fabs(a.x) * (std::fabs(yz) + std::fabs(zy)) +
+                           std::fabs(a.y) * (std::fabs(zx) + std::fabs(xz)) +
+                           std::fabs(a.z) * (std::fabs(xy) + std::fabs(yx));
+  const double bound = kDeterminantBound * permanent;
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  if (permanent == 0 && has_zero_line(a, b, c)) return 0;
+  return exact_determinant(p1, q1, p2, q2, p3, q3).sign();
+}
+
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return determinant_sign(a, b, a, c, a, d); }
+
+TrianglePlane::TrianglePlane(Vec3 a, Vec3 b, Vec3 c) : a(a), b(b), c(c) {
+  const Vec3 u = b - a, v = c - a;
+  const double yz = u.y * v.z, zy = u.z * v.y;
+  const double zx = u.z * v.x, xz = u.x * v.z;
+  const double xy = u.x * v.y, yx = u.y * v.x;
+  normal_ = {yz - zy, zx - xz, xy - yx};
+  permanent_ = {std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz), std::fabs(xy) + std::fabs(yx)};
+}
+
+int TrianglePlane::side(Vec3 d) const {
+  // As many roundings as in determinant_sign(), with the rows in another order.
+  const Vec3 w = d - a;
+  const double determinant = dot(normal_, w);
+  const double bound = kDeterminantBound *
+                       (permanent_.x * std::fabs(w.x) + permanent_.y * std::fabs(w.y) + permanent_.z * std::fabs(w.z));
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return orientation(a, b, c, d);
+}
+
+int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
+  const int i = drop_axis == 2 ? 0 : drop_axis + 1;
+  const int j = drop_axis == 0 ? 2 : drop_axis - 1;
+  const double left = (b[i] - a[i]) * (c[j] - a[j]);
+  const double right = (b[j] - a[j]) * (c[i] - a[i]);
+  const double determinant = left - right;
+  const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right));
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  if ((b[i] == a[i] || c[j] == a[j]) && (b[j] == a[j] || c[i] == a[i])) return 0;
+  return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
+                     difference(c[j], a[j]))
+      .sign();
+}
+
+bool collinear(Vec3 a, Vec3 b, Vec3 c) {
+  return orientation_2d(a, b, c, 0) == 0 && orientation_2d(a, b, c, 1) == 0 &&
+         orientation_2d(a, b, c, 2) == 0;
+}
+
+Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 u = b - a, v = c - a;
+  const Vec3 normal = cross(u, v);
+  // Each component is off by at most kOrientation2dBound times its two products' magnitudes.
+  const double products = std::fabs(u.y * v.z) + std::fabs(u.z * v.y) + std::fabs(u.z * v.x) +
+                          std::fabs(u.x * v.z) + std::fabs(u.x * v.y) + std::fabs(u.y * v.x);
+  if (kOrientation2dBound * products <= kNormalTolerance * max_abs(normal)) return normal;
+  const ExactVector p = exact_difference(b, a), q = exact_difference(c, a);
+  return {exact_minor(p.y, p.z, q.y, q.z).rounded(), exact_minor(p.z, p.x, q.z, q.x).rounded(),
+          exact_minor(p.x, p.y, q.x, q.y).rounded()};
+}
+
+double rounded_affine(Vec3 a, Vec3 b, double offset) {
+  // T. Ogita, S. M. Rump, S. Oishi, "Accurate Sum and Dot Product" (2005), Dot2.
+  double total = offset, correction = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Rounded p = two_product(a[axis], b[axis]);
+    const Rounded s = two_sum(total, p.value);
+    total = s.value;
+    correction += s.error + p.error;
+  }
+  return total + correction;
+}
+
+double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
+  if (triangles.empty()) return 0;
+  const Vec3 origin = vertices[triangles[0][0]];
+  double total = 0, correction = 0, permanent = 0;
+  for (const Triangle& t : triangles) {
+    const Vec3 a = vertices[t[0]] - origin, b = vertices[t[1]] - origin, c = vertices[t[2]] - origin;
+    const Rounded s = two_sum(total, dot(a, cross(b, c)));
+    total = s.value;
+    correction += s.error;
+    const Vec3 size_b{std::fabs(b.x), std::fabs(b.y), std::fabs(b.z)};
+    const Vec3 size_c{std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)};
+    permanent += std::fabs(a.x) * (size_b.y * size_c.z + size_b.z * size_c.y) +
+                 std::fabs(a.y) * (size_b.z * size_c.x + size_b.x * size_c.z) +
+                 std::fabs(a.z) * (size_b.x * size_c.y + size_b.y * size_c.x);
+  }
+  const double six_volumes = total + correction;
+  // The determinants' own bound, and as much again for the compensated sum of up to 2^32 terms.
+  if (std::fabs(six_volumes) > 2 * kDeterminantBound * permanent) return six_volumes / 6;
+
+  std::vector<double> exact;  // an expansion of unlimited length
+  for (const Triangle& t : triangles) {
+    const auto term = exact_determinant(origin, vertices[t[0]], origin, vertices[t[1]], origin,
+                                        vertices[t[2]]);
+    for (int i = 0; i < term.size; ++i) grow(exact, term.term[i]);
+  }
+  double rounded = 0;
+  for (const double part : exact) rounded += part;
+  return rounded / 6;
+}
+
+}  // namespace satcheck

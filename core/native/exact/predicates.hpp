@@ -1,0 +1,55 @@
+// Exact signs of determinants of float64 coordinates.
+//
+// Method: Jonathan R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
+// Geometric Predicates" (1997). A float64 filter with a static bound decides the generic case;
+// otherwise the determinant is expanded without rounding, for the sign alone.
+//
+// Range: exact for the coordinates of numeric_range.hpp, which everything that calls them enforces.
+#pragma once
+
+#include <vector>
+
+#include "base/vec.hpp"
+
+namespace satcheck {
+
+// Sign (-1, 0, +1) of det[b - a; c - a; d - a]: +1 when d lies on the side of the plane of the
+// triangle a, b, c to which its counter-clockwise normal (b - a) x (c - a) points.
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+
+// The plane of a triangle, for the sides of many points: side(d) == orientation(a, b, c, d).
+class TrianglePlane {
+ public:
+  TrianglePlane(Vec3 a, Vec3 b, Vec3 c);
+  int side(Vec3 d) const;
+
+  Vec3 a, b, c;
+
+ private:
+  Vec3 normal_;     // (b - a) x (c - a) in float64
+  Vec3 permanent_;  // the same with the magnitudes of its products added
+};
+
+// Sign of det[q1 - p1; q2 - p2; q3 - p3], rows being differences of the given points.
+// orientation(a, b, c, d) == determinant_sign(a, b, a, c, a, d).
+int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3);
+
+// Sign of the z, x or y component (drop_axis 2, 0, 1) of (b - a) x (c - a): the orientation of the
+// triangle projected along the named axis.
+int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis);
+
+// Do the three points lie on one line (or coincide)?
+bool collinear(Vec3 a, Vec3 b, Vec3 c);
+
+// (b - a) x (c - a) with a relative error below 1e-14 of its length, however thin the triangle; zero
+// exactly when the points are collinear.
+Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c);
+
+// a.x b.x + a.y b.y + a.z b.z + offset, summed in twice the precision and rounded once.
+double rounded_affine(Vec3 a, Vec3 b, double offset);
+
+// Signed volume enclosed by a closed, consistently wound surface, positive when wound outwards.
+// Rounded, but its sign is exact: 0.0 only when the volume is exactly 0.
+double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
+
+}  // namespace satcheck

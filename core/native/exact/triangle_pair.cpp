@@ -1,0 +1,242 @@
+// Method: Philippe Guigue, Olivier Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using
+// Orientation Predicates" (2003): two triangles that straddle each other's planes meet when their
+// intervals on the common line do, and the ends of the intervals compare by one orientation each.
+// Where we deviate: the comparison is derived for any signs including zeros, strict overlap is told
+// from contact, and coplanar or collinear triangles go to exact segment tests.
+#include "exact/triangle_pair.hpp"
+
+#include <utility>
+
+#include "exact/point_in_triangle.hpp"
+
+namespace satcheck {
+namespace {
+
+// Closed segments on one line (or points); order along a line is lexicographic order.
+bool collinear_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
+  if (coordinates_less(q, p)) std::swap(p, q);
+  if (coordinates_less(s, r)) std::swap(r, s);
+  return !coordinates_less(q, r) && !coordinates_less(s, p);
+}
+
+bool point_on_segment(Vec3 x, Vec3 p, Vec3 q) {
+  return collinear(p, q, x) && collinear_segments_meet(x, x, p, q);
+}
+
+// Closed segments of positive length in a plane that the projection along `axis` does not flatten.
+bool coplanar_segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s, int axis) {
+  const int pr = orientation_2d(p, q, r, axis), ps = orientation_2d(p, q, s, axis);
+  if (pr == 0 && ps == 0) return collinear_segments_meet(p, q, r, s);
+  if (pr * ps > 0) return false;
+  return orientation_2d(r, s, p, axis) * orientation_2d(r, s, q, axis) <= 0;
+}
+
+bool segments_meet(Vec3 p, Vec3 q, Vec3 r, Vec3 s) {
+  if (p == q) return point_on_segment(p, r, s);
+  if (r == s) return point_on_segment(r, p, q);
+  if (orientation(p, q, r, s) != 0) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (orientation_2d(p, q, r, axis) != 0 || orientation_2d(p, q, s, axis) != 0) {
+      return coplanar_segments_meet(p, q, r, s, axis);
+    }
+  }
+  return collinear_segments_meet(p, q, r, s);
+}
+
+// The ends of a collinear triangle.
+std::pair<Vec3, Vec3> extremes(const Corners& t) {
+  Vec3 low = t[0], high = t[0];
+  for (const Vec3& p : t) {
+    if (coordinates_less(p, low)) low = p;
+    if (coordinates_less(high, p)) high = p;
+  }
+  return {low, high};
+}
+
+bool any_edge_meets(const Corners& edges_of, const Corners& t) {
+  for (int i = 0; i < 3; ++i) {
+    if (segment_meets_triangle(edges_of[i], edges_of[(i + 1) % 3], t)) return true;
+  }
+  return false;
+}
+
+// Signs of the corners of `t` with respect to the plane of `plane`.
+std::array<int, 3> sides(const TrianglePlane& plane, const Corners& t) {
+  return {plane.side(t[0]), plane.side(t[1]), plane.side(t[2])};
+}
+std::array<int, 3> sides(const Corners& plane, const Corners& t) {
+  return sides(TrianglePlane(plane[0], plane[1], plane[2]), t);
+}
+
+bool all_strictly_on_one_side(const std::array<int, 3>& s) {
+  return s[0] == s[1] && s[1] == s[2] && s[0] != 0;
+}
+bool all_zero(const std::array<int, 3>& s) { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
+bool straddles(const std::array<int, 3>& s) {
+  return (s[0] > 0 || s[1] > 0 || s[2] > 0) && (s[0] < 0 || s[1] < 0 || s[2] < 0);
+}
+
+// The triangle from its lone corner: the one strictly higher (`direction` +1) or strictly lower (-1)
+// than both others, by sign. The two edges at it cross, or reach, the other plane.
+struct Lone {
+  Vec3 p, q, r;
+  int direction;
+};
+
+Lone from_lone_corner(const Corners& t, const std::array<int, 3>& s) {
+  for (int i = 0; i < 3; ++i) {
+    const int next = (i + 1) % 3, last = (i + 2) % 3;
+    if (s[i] > s[next] && s[i] > s[last]) return {t[i], t[next], t[last], 1};
+    if (s[i] < s[next] && s[i] < s[last]) return {t[i], t[next], t[last], -1};
+  }
+  return {};  // three equal signs, which the callers exclude
+}
+
+// With d = normal(a) x normal(b): sign of (y - x) . d, where x is where the edge a.p -> ax meets the
+// plane of b, and y where b.p -> by meets the plane of a.
+int compare_along_line(const Lone& a, Vec3 ax, const Lone& b, Vec3 by) {
+  return a.direction * b.direction * orientation(a.p, ax, b.p, by);
+}
+
+// The ends of an interval along d, as the far ends of the edges that make them.
+struct Interval {
+  Vec3 low, high;
+};
+Interval interval_of_first(const Lone& a) {
+  return a.direction > 0 ? Interval{a.r, a.q} : Interval{a.q, a.r};
+}
+Interval interval_of_second(const Lone& b) {
+  return b.direction > 0 ? Interval{b.q, b.r} : Interval{b.r, b.q};
+}
+
+Vec3 plane_crossing(const Corners& plane, Vec3 p, Vec3 q) {
+  const Vec3 normal = rounded_normal(plane[0], plane[1], plane[2]);
+  const double hp = dot(normal, p - plane[0]), hq = dot(normal, q - plane[0]);
+  const double t = hp == hq ? 0.5 : std::fmin(1.0, std::fmax(0.0, hp / (hp - hq)));
+  return p + (q - p) * t;
+}
+
+// Where two edges of coplanar or collinear triangles meet.
+Vec3 edge_meeting_point(const Corners& a, const Corners& b) {
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = a[i], q = a[(i + 1) % 3], r = b[k], s = b[(k + 1) % 3];
+      if (!segments_meet(p, q, r, s)) continue;
+      // The point of p q in the plane through r s across p q.
+      const Vec3 u = q - p, v = s - r, across = cross(v, cross(u, v));
+      const double speed = dot(u, across);
+      const double t = speed == 0 ? 0.5 : dot(r - p, across) / speed;
+      return p + u * std::fmin(1.0, std::fmax(0.0, t));
+    }
+  }
+  return a[0];
+}
+
+}  // namespace
+
+bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t) {
+  if (collinear(t[0], t[1], t[2])) {
+    const auto [low, high] = extremes(t);
+    return segments_meet(p, q, low, high);
+  }
+  const int sp = orientation(t[0], t[1], t[2], p), sq = orientation(t[0], t[1], t[2], q);
+  if (sp * sq > 0) return false;
+  if (sp == 0 && plane_point_in_triangle(p, t[0], t[1], t[2])) return true;
+  if (sq == 0 && plane_point_in_triangle(q, t[0], t[1], t[2])) return true;
+  if (p == q) return false;
+  if (sp == 0 && sq == 0) {
+    const int axis = projection_axis(rounded_normal(t[0], t[1], t[2]));
+    for (int i = 0; i < 3; ++i) {
+      if (coplanar_segments_meet(p, q, t[i], t[(i + 1) % 3], axis)) return true;
+    }
+    return false;
+  }
+  if (sp == 0 || sq == 0) return false;
+  const int a = orientation(p, q, t[0], t[1]), b = orientation(p, q, t[1], t[2]);
+  if (a * b < 0) return false;
+  const int c = orientation(p, q, t[2], t[0]);
+  return a * c >= 0 && b * c >= 0;
+}
+
+TriangleContact classify(const Corners& a, const Corners& b) {
+  return classify(TrianglePlane(a[0], a[1], a[2]), b);
+}
+
+TriangleContact classify(const TrianglePlane& plane, const Corners& b) {
+  const std::array<int, 3> sb = sides(plane, b);
+  if (all_strictly_on_one_side(sb)) return TriangleContact::disjoint;
+  const Corners a{plane.a, plane.b, plane.c};
+  const std::array<int, 3> sa = sides(b, a);
+  if (all_strictly_on_one_side(sa)) return TriangleContact::disjoint;
+  if (all_zero(sa) || all_zero(sb)) {
+    // Coplanar, or one of them is collinear.
+    const bool meet = any_edge_meets(a, b) || any_edge_meets(b, a);
+    return meet ? TriangleContact::touching : TriangleContact::disjoint;
+  }
+  const Lone la = from_lone_corner(a, sa), lb = from_lone_corner(b, sb);
+  const Interval ia = interval_of_first(la), ib = interval_of_second(lb);
+  const int low_a_before_high_b = compare_along_line(la, ia.low, lb, ib.high);
+  if (low_a_before_high_b < 0) return TriangleContact::disjoint;
+  const int low_b_before_high_a = -compare_along_line(la, ia.high, lb, ib.low);
+  if (low_b_before_high_a < 0) return TriangleContact::disjoint;
+  const bool common_segment = low_a_before_high_b > 0 && low_b_before_high_a > 0;
+  return common_segment && straddles(sa) && straddles(sb) ? TriangleContact::crossing
+                                                          : TriangleContact::touching;
+}
+
+CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
+  if (collinear(a[0], a[1], a[2]) || collinear(b[0], b[1], b[2])) return CoplanarOverlap::none;
+  if (!all_zero(sides(a, b))) return CoplanarOverlap::none;
+  const int axis = projection_axis(rounded_normal(a[0], a[1], a[2]));
+  const int turn_a = orientation_2d(a[0], a[1], a[2], axis);
+  const int turn_b = orientation_2d(b[0], b[1], b[2], axis);
+  // Convex sets have no common area when a line along an edge of one parts them.
+  const auto edge_parts = [&](const Corners& t, int turn, const Corners& other) {
+    for (int i = 0; i < 3; ++i) {
+      bool outside = true;
+      for (const Vec3& p : other) {
+        outside = outside && turn * orientation_2d(t[i], t[(i + 1) % 3], p, axis) <= 0;
+      }
+      if (outside) return true;
+    }
+    return false;
+  };
+  if (edge_parts(a, turn_a, b) || edge_parts(b, turn_b, a)) return CoplanarOverlap::none;
+  return turn_a == turn_b ? CoplanarOverlap::agreeing : CoplanarOverlap::opposing;
+}
+
+Vec3 crossing_point(const Corners& a, const Corners& b) {
+  const Lone la = from_lone_corner(a, sides(b, a)), lb = from_lone_corner(b, sides(a, b));
+  const Interval ia = interval_of_first(la), ib = interval_of_second(lb);
+  // The common segment runs from the later of the two low ends to the earlier of the high ends.
+  const Vec3 low = compare_along_line(la, ia.low, lb, ib.low) > 0 ? plane_crossing(a, lb.p, ib.low)
+                                                                  : plane_crossing(b, la.p, ia.low);
+  const Vec3 high = compare_along_line(la, ia.high, lb, ib.high) > 0
+                        ? plane_crossing(b, la.p, ia.high)
+                        : plane_crossing(a, lb.p, ib.high);
+  return low * 0.5 + high * 0.5;
+}
+
+Vec3 contact_point(const Corners& a, const Corners& b) {
+  for (const Vec3& p : a) {
+    if (segment_meets_triangle(p, p, b)) return p;
+  }
+  for (const Vec3& p : b) {
+    if (segment_meets_triangle(p, p, a)) return p;
+  }
+  // No corner lies in the other triangle: an edge goes through it, or two edges meet.
+  const Corners* sheets[2] = {&a, &b};
+  for (int s = 0; s < 2; ++s) {
+    const Corners &edges = *sheets[s], &sheet = *sheets[1 - s];
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 p = edges[i], q = edges[(i + 1) % 3];
+      if (!segment_meets_triangle(p, q, sheet)) continue;
+      const int side_p = orientation(sheet[0], sheet[1], sheet[2], p);
+      const int side_q = orientation(sheet[0], sheet[1], sheet[2], q);
+      if (side_p * side_q < 0) return plane_crossing(sheet, p, q);
+    }
+  }
+  return edge_meeting_point(a, b);
+}
+
+}  // namespace satcheck

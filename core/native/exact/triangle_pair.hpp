@@ -1,0 +1,41 @@
+// How two closed triangles lie to each other, decided by exact orientation signs.
+#pragma once
+
+#include <array>
+
+#include "exact/predicates.hpp"
+
+namespace satcheck {
+
+using Corners = std::array<Vec3, 3>;
+
+enum class TriangleContact {
+  disjoint,  // no common point
+  touching,  // a common point, but the open triangles do not cross
+  crossing,  // the open triangles cross along a segment: each has points strictly on both sides of
+              // the other one's plane there
+};
+
+// Any triangles, collinear and point-like ones included.
+TriangleContact classify(const Corners& a, const Corners& b);
+TriangleContact classify(const TrianglePlane& a, const Corners& b);
+
+enum class CoplanarOverlap {
+  none,      // not coplanar, or no common area
+  agreeing,  // common area, normals in the same direction
+  opposing,  // common area, normals in opposite directions
+};
+
+// Do two triangles lie in one plane and share a patch of positive area?
+CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b);
+
+// Closed segment p q against a closed triangle, either of which may be degenerate.
+bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t);
+
+// A point near the middle of the segment along which crossing triangles cross. Rounded.
+Vec3 crossing_point(const Corners& a, const Corners& b);
+
+// A common point of touching triangles. Rounded.
+Vec3 contact_point(const Corners& a, const Corners& b);
+
+}  // namespace satcheck

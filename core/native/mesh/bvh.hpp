@@ -1,0 +1,67 @@
+// A tree of axis-aligned boxes over the triangles of a mesh.
+#pragma once
+
+#include <vector>
+
+#include "base/mesh.hpp"
+
+namespace satcheck {
+
+struct BvhNode {
+  Aabb box;
+  std::uint32_t first = 0;  // leaf: place in `order`; inner: the left child, the right one follows
+  std::uint32_t count = 0;  // triangles of a leaf, 0 for an inner node
+
+  bool is_leaf() const { return count != 0; }
+};
+
+struct Bvh {
+  std::vector<BvhNode> nodes;        // nodes[0] is the root; empty for an empty mesh
+  std::vector<std::uint32_t> order;  // triangle numbers, leaves hold ranges of them
+  std::vector<Aabb> boxes;           // of these triangles
+};
+
+// The same tree whatever the number of threads; 0 takes one per core.
+Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
+
+// Over boxes of any sizes, in the place of those of triangles. Long and flat ones go into subtrees of
+// their own, one for each direction: beams along x and along y that cross would else share the leaves,
+// whose boxes would be as large as the scaffold.
+Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads = 0);
+
+// The numbers of the boxes along a curve on which neighbours are close to each other.
+std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes);
+
+// Fits the boxes to the triangles where they are now, in linear time. The tree keeps its form, which is as
+// good as a new one while neighbours stay neighbours, as under an affine map.
+void refit(Bvh& bvh, const Mesh& mesh);
+
+inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
+  Aabb box;
+  for (const std::uint32_t v : mesh.triangles[t]) box.include(mesh.vertices[v]);
+  return box;
+}
+
+// Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.
+// Returns whether all were visited.
+template <class Visit>
+bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
+  if (bvh.nodes.empty()) return true;
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty()) {
+    const BvhNode& node = bvh.nodes[stack.back()];
+    stack.pop_back();
+    if (!meet(node.box, query)) continue;
+    if (!node.is_leaf()) {
+      stack.push_back(node.first + 1);
+      stack.push_back(node.first);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (meet(bvh.boxes[i], query) && !visit(bvh.order[i])) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,219 @@
+// A triangle whose corners are at most h below one plane of the hull lies in the slab of height h
+// below it. Let the depth d be the greatest, over the triangles, of the least such h over the planes;
+// only planes near the triangle are tried, which can only make d larger.
+//
+// d = 0: a closed surface that lies in the boundary of a convex body wraps it a whole number of
+// times, so with a positive volume the solid is the hull.
+//
+// d > 0: no triangle reaches the core, the points deeper than d below all planes. The core is convex,
+// so it is material as a whole if one of its points is. For a point c of depth D > d, the depth along
+// the way from a corner v to c grows at least linearly, so the core begins within |c - v| d / D of v.
+// By convexity the greatest of these over the corners bounds the way from the hull to the core. Flat
+// bodies show why d alone does not do: every triangle of a thin plate is near the plane of its top.
+#include "mesh/convexity.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "base/edge_table.hpp"
+#include "convex/polytope.hpp"
+#include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
+#include "mesh/topology.hpp"
+#include "mesh/nearest_point.hpp"
+
+namespace satcheck {
+namespace {
+
+// Depth below a plane: 1e-14 from the direction of the rounded normal, twice for its length and the
+// dot product, in units of the hull's extent.
+constexpr double kDepthError = 4e-14;
+
+// Points tried on the way inward from a corner, each at half the distance of the one before, and the
+// ratio of distance to depth that is good enough: a corner of a cube has 1.7.
+constexpr int kInwardSteps = 24;
+constexpr double kGoodRatio = 4;
+
+class Defect {
+ public:
+  Defect(const Mesh& mesh, const Polytope& hull)
+      : mesh_(mesh),
+        hull_(hull),
+        boundary_(make_surface({hull.vertices, hull.triangles}, false)),
+        depth_error_(kDepthError * norm(extent())) {
+    // Fan triangulation: a face of n corners has n - 2 triangles, in order.
+    for (std::uint32_t f = 0; f < hull.face_count(); ++f) {
+      const std::uint32_t size = hull.face_offset[f + 1] - hull.face_offset[f];
+      face_of_triangle_.insert(face_of_triangle_.end(), size - 2, f);
+    }
+    list_faces_at_vertices();
+  }
+
+  // The depth d, infinite beyond the limit.
+  double depth(double limit) const {
+    double largest = 0;
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      largest = std::fmax(largest, triangle_depth(t, largest));
+      if (largest > limit) return INFINITY;
+    }
+    return largest;
+  }
+
+  // Depth of a point below the hull's planes, rounded down; 0 or less when it is not inside.
+  double point_depth(Vec3 p) const {
+    const NearestPoint nearest = nearest_point(boundary_, p);
+    const std::uint32_t face = face_of_triangle_[nearest.triangle];
+    const bool below = dot(hull_.face_normal[face], nearest.point - p) > depth_error_;
+    return below ? nearest.distance - depth_error_ : 0;
+  }
+
+  // A bound of the way from any point of the hull to the core of the given depth, infinite beyond
+  // the limit. `centre` is a point of the core.
+  double reach(double depth, Vec3 centre, double limit) const {
+    const double centre_depth = point_depth(centre);
+    double farthest = 0;
+    for (std::uint32_t v = 0; v < hull_.vertices.size(); ++v) {
+      const Vec3 corner = hull_.vertices[v];
+      double ratio = norm(centre - corner) / centre_depth;
+      // Slender bodies: a point near the corner may be nearly as deep and much less far.
+      const Vec3 inward = inward_direction(v);
+      double step = norm(centre - corner) / 2;
+      for (int k = 0; k < kInwardSteps && ratio > kGoodRatio && step > depth; ++k, step /= 2) {
+        const double there = point_depth(corner + inward * step);
+        if (there > depth) ratio = std::fmin(ratio, step / there);
+      }
+      farthest = std::fmax(farthest, ratio * depth);
+      if (farthest > limit) return INFINITY;
+    }
+    return farthest;
+  }
+
+ private:
+  Vec3 extent() const {
+    Aabb box;
+    for (const Vec3& p : hull_.vertices) box.include(p);
+    return box.max - box.min;
+  }
+
+  void list_faces_at_vertices() {
+    faces_at_.resize(hull_.vertices.size());
+    for (std::uint32_t f = 0; f < hull_.face_count(); ++f) {
+      for (std::uint32_t i = hull_.face_offset[f]; i < hull_.face_offset[f + 1]; ++i) {
+        faces_at_[hull_.face_vertex[i]].push_back(f);
+      }
+    }
+    hull_vertex_.assign(mesh_.vertices.size(), std::nullopt);
+    for (std::uint32_t v = 0; v < hull_.source.size(); ++v) hull_vertex_[hull_.source[v]] = v;
+  }
+
+  // Opposite to the mean of the normals at a corner of the hull.
+  Vec3 inward_direction(std::uint32_t vertex) const {
+    Vec3 sum;
+    for (const std::uint32_t f : faces_at_[vertex]) sum = sum - hull_.face_normal[f];
+    const double length = norm(sum);
+    return length > 0 ? sum * (1 / length) : sum;
+  }
+
+  // Exactly 0 when the triangle lies in the plane of the face.
+  double depth_below(const Corners& t, std::uint32_t face) const {
+    const std::uint32_t first = hull_.face_offset[face];
+    const auto at = [&](std::uint32_t i) { return hull_.vertices[hull_.face_vertex[first + i]]; };
+    const bool in_plane = std::all_of(t.begin(), t.end(), [&](Vec3 p) {
+      return orientation(at(0), at(1), at(2), p) == 0;
+    });
+    if (in_plane) return 0;
+    double depth = 0;
+    for (const Vec3& p : t) depth = std::fmax(depth, dot(hull_.face_normal[face], at(0) - p));
+    return depth + depth_error_;
+  }
+
+  // The least depth over the planes tried; stops at one that is no worse than `good_enough`.
+  double triangle_depth(std::uint32_t triangle, double good_enough) const {
+    const Corners t = corners(mesh_, triangle);
+    const Vec3 centre = (t[0] + t[1] + t[2]) * (1.0 / 3);
+    double depth = depth_below(t, nearest_face(centre));
+    for (int i = 0; i < 3 && depth > good_enough; ++i) {
+      const std::optional<std::uint32_t> v = hull_vertex_[mesh_.triangles[triangle][i]];
+      if (!v) {
+        depth = std::fmin(depth, depth_below(t, nearest_face(t[i])));
+        continue;
+      }
+      for (const std::uint32_t f : faces_at_[*v]) depth = std::fmin(depth, depth_below(t, f));
+    }
+    return depth;
+  }
+
+  std::uint32_t nearest_face(Vec3 p) const {
+    return face_of_triangle_[nearest_point(boundary_, p).triangle];
+  }
+
+  const Mesh& mesh_;
+  const Polytope& hull_;
+  Surface boundary_;
+  double depth_error_;
+  std::vector<std::uint32_t> face_of_triangle_;
+  std::vector<std::vector<std::uint32_t>> faces_at_;
+  std::vector<std::optional<std::uint32_t>> hull_vertex_;
+};
+
+Vec3 mean(const std::vector<Vec3>& points) {
+  Vec3 sum;
+  for (const Vec3& p : points) sum = sum + p * (1.0 / static_cast<double>(points.size()));
+  return sum;
+}
+
+// Are there corners on both sides of the plane of some triangle? Then the triangle is not in the boundary of
+// the hull. Only a few planes are tried: where it is so at all, a few of its triangles tell as a rule.
+bool is_dented(const Mesh& mesh) {
+  constexpr std::size_t kPlanes = 32;
+  const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / kPlanes);
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += step) {
+    const Corners t = corners(mesh, static_cast<std::uint32_t>(i));
+    const TrianglePlane plane(t[0], t[1], t[2]);
+    bool above = false, below = false;
+    for (const Triangle& other : mesh.triangles) {
+      const int side = plane.side(mesh.vertices[other[0]]);
+      above = above || side > 0;
+      below = below || side < 0;
+      if (above && below) return true;
+    }
+  }
+  return false;
+}
+
+// Does an edge of two triangles bend inwards? Then the surface is not its hull's.
+bool has_reflex_edge(const Mesh& welded) {
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.half_edges(e);
+    if (h.size() != 2) continue;
+    const Corners t = corners(welded, h[0] / 3);
+    const Vec3 apex = corners(welded, h[1] / 3)[(h[1] + 2) % 3];
+    if (orientation(t[0], t[1], t[2], apex) > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double convexity_defect(const Mesh& mesh, double limit) {
+  if (limit == 0 && is_dented(mesh)) return INFINITY;
+  const Mesh welded = weld(mesh);
+  if (limit == 0 && has_reflex_edge(welded)) return INFINITY;
+  const Topology topology = measure_topology(welded);
+  if (!topology.solid || topology.volume <= 0) return INFINITY;
+  const Polytope hull = convex_hull(welded.vertices);
+  const Defect defect(welded, hull);
+  const double depth = defect.depth(limit);
+  if (depth == 0 || std::isinf(depth)) return depth;
+
+  const Vec3 centre = mean(hull.vertices);
+  const bool in_core = defect.point_depth(centre) > depth;
+  const Surface surface = make_surface(welded, true);
+  if (!in_core || winding_number(surface, centre).value_or(0) == 0) return INFINITY;
+  return defect.reach(depth, centre, limit);
+}
+
+}  // namespace satcheck

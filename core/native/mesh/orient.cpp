@@ -1,0 +1,262 @@
+// Repairs of the winding. Method: two triangles at a shared edge must run it in opposite
+// directions; that relation is carried through every patch of edges with exactly two triangles.
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/patches.hpp"
+#include "exact/predicates.hpp"
+#include "mesh/topology.hpp"
+#include "mesh/winding.hpp"
+
+namespace satcheck {
+namespace {
+
+// A set of triangles connected through edges of exactly two triangles.
+struct Patch {
+  std::vector<std::uint32_t> triangles;
+  bool shell = false;  // closed and consistently wound by itself
+  double volume = 0;   // signed, of a shell
+  Aabb box;
+};
+
+void flip(Mesh& mesh, Patch& patch) {
+  for (const std::uint32_t t : patch.triangles) std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  patch.volume = -patch.volume;
+}
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+struct Neighbour {
+  std::uint32_t triangle = none;
+  bool same_direction = false;  // the shared edge is run the same way: one of the two must flip
+};
+
+using Neighbours = std::array<Neighbour, 3>;  // across edge 0, 1, 2
+
+bool is_run_twice_the_same_way(const EdgeTable& edges, std::size_t edge) {
+  const auto h = edges.half_edges(edge);
+  return h.size() == 2 && edges.ascends(h[0]) == edges.ascends(h[1]);
+}
+
+bool has_mixed_winding(const EdgeTable& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (is_run_twice_the_same_way(edges, e)) return true;
+  }
+  return false;
+}
+
+std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges) {
+  std::vector<Neighbours> neighbours(mesh.triangles.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.half_edges(e);
+    if (h.size() != 2) continue;
+    const bool same = is_run_twice_the_same_way(edges, e);
+    neighbours[h[0] / 3][h[0] % 3] = {h[1] / 3, same};
+    neighbours[h[1] / 3][h[1] % 3] = {h[0] / 3, same};
+  }
+  return neighbours;
+}
+
+// Makes the patches with mixed winding consistent, keeping the winding of the majority. A patch that
+// is not orientable stays as it is. Returns whether anything was turned: half-edges are others then.
+bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>& patches) {
+  if (!has_mixed_winding(edges)) return false;
+  bool repaired = false;
+  const auto neighbours = find_neighbours(mesh, edges);
+  enum : signed char { kUnseen, kKeep, kFlip };
+  std::vector<signed char> state(mesh.triangles.size(), kUnseen);
+  for (const Patch& patch : patches) {
+    bool orientable = true;
+    std::vector<std::uint32_t> queue{patch.triangles[0]};
+    state[queue[0]] = kKeep;
+    for (std::size_t i = 0; i < queue.size(); ++i) {
+      for (const Neighbour& n : neighbours[queue[i]]) {
+        if (n.triangle == none) continue;
+        const bool flips = (state[queue[i]] == kFlip) != n.same_direction;
+        const signed char wanted = flips ? kFlip : kKeep;
+        if (state[n.triangle] == kUnseen) {
+          state[n.triangle] = wanted;
+          queue.push_back(n.triangle);
+        }
+        orientable = orientable && state[n.triangle] == wanted;
+      }
+    }
+    std::vector<std::uint32_t> flipped, kept;
+    for (const std::uint32_t t : patch.triangles) (state[t] == kFlip ? flipped : kept).push_back(t);
+    if (!orientable || flipped.empty()) continue;
+    repaired = true;
+    for (const std::uint32_t t : flipped.size() <= kept.size() ? flipped : kept) {
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    }
+  }
+  return repaired;
+}
+
+// A patch is a shell when it runs each of its edges equally often in both directions.
+void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels,
+                 std::vector<Patch>& patches) {
+  for (Patch& patch : patches) patch.shell = true;
+  struct Balance {
+    std::uint32_t patch;
+    int sum;
+  };
+  std::vector<Balance> balances;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    balances.clear();
+    for (const std::uint32_t h : edges.half_edges(e)) {
+      const std::uint32_t patch = labels.of_triangle[h / 3];
+      const int direction = edges.ascends(h) ? 1 : -1;
+      const auto known = std::find_if(balances.begin(), balances.end(),
+                                      [&](const Balance& b) { return b.patch == patch; });
+      if (known == balances.end()) {
+        balances.push_back({patch, direction});
+      } else {
+        known->sum += direction;
+      }
+    }
+    for (const Balance& balance : balances) {
+      if (balance.sum != 0) patches[balance.patch].shell = false;
+    }
+  }
+  for (Patch& patch : patches) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(patch.triangles.size());
+    for (const std::uint32_t t : patch.triangles) {
+      triangles.push_back(mesh.triangles[t]);
+      patch.box.include(triangle_box(mesh, t));
+    }
+    if (patch.shell) patch.volume = signed_volume(mesh.vertices, triangles);
+  }
+}
+
+bool within(const Aabb& inner, const Aabb& outer) {
+  return outer.min.x <= inner.min.x && outer.min.y <= inner.min.y && outer.min.z <= inner.min.z &&
+         inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
+}
+
+// Is the patch inside, or on the surface of, the other shells? The box test spares the tree where
+// no other shell can hold it.
+class Nesting {
+ public:
+  Nesting(const Mesh& mesh, const Labels& labels, const std::vector<Patch>& patches)
+      : mesh_(mesh), labels_(labels), patches_(patches) {}
+
+  bool is_nested(std::uint32_t patch) {
+    const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
+      return &other != &patches_[patch] && other.shell && within(patches_[patch].box, other.box);
+    });
+    if (!possible) return false;
+    if (bvh_.nodes.empty()) bvh_ = build_bvh(mesh_);
+    const Vec3 point = mesh_.vertices[mesh_.triangles[patches_[patch].triangles[0]][0]];
+    const auto winding = winding_number(mesh_, bvh_, point, [&](std::uint32_t t) {
+      return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].shell;
+    });
+    return winding != 0;
+  }
+
+ private:
+  const Mesh& mesh_;
+  const Labels& labels_;
+  const std::vector<Patch>& patches_;
+  Bvh bvh_;
+};
+
+std::vector<Patch> make_patches(const Labels& labels) {
+  std::vector<Patch> patches(labels.count);
+  for (std::uint32_t t = 0; t < labels.of_triangle.size(); ++t) {
+    patches[labels.of_triangle[t]].triangles.push_back(t);
+  }
+  return patches;
+}
+
+bool is_closed(const EdgeTable& edges) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges.half_edges(e).size() % 2 != 0) return false;
+  }
+  return edges.size() > 0;
+}
+
+// Each set of three corners once, in the order of first appearance.
+std::vector<Triangle> without_copies(const std::vector<Triangle>& triangles) {
+  std::vector<std::pair<Triangle, std::uint32_t>> keyed;
+  keyed.reserve(triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    Triangle key = triangles[t];
+    std::sort(key.begin(), key.end());
+    keyed.emplace_back(key, t);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < keyed.size(); ++i) {
+    if (i == 0 || keyed[i].first != keyed[i - 1].first) kept.push_back(keyed[i].second);
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<Triangle> result;
+  for (const std::uint32_t t : kept) result.push_back(triangles[t]);
+  return result;
+}
+
+// Drops the repeated copies of triangles where the surface is closed without them only.
+void drop_surplus(Mesh& welded, std::optional<EdgeTable>& edges) {
+  if (is_closed(*edges)) return;
+  std::vector<Triangle> single = without_copies(welded.triangles);
+  if (single.size() == welded.triangles.size()) return;
+  if (!is_closed(EdgeTable(welded.vertices.size(), single))) return;
+  welded.triangles = std::move(single);
+  edges.emplace(welded.vertices.size(), welded.triangles);
+}
+
+}  // namespace
+
+Mesh orient(const Mesh& mesh) {
+  Mesh result = weld(mesh);
+  std::optional<EdgeTable> edges(std::in_place, result.vertices.size(), result.triangles);
+  drop_surplus(result, edges);
+  const Labels labels = label_manifold_patches(result, *edges);
+  std::vector<Patch> patches = make_patches(labels);
+  if (repair_patches(result, *edges, patches)) edges.emplace(result.vertices.size(), result.triangles);
+  find_shells(result, *edges, labels, patches);
+
+  double total = 0;
+  for (const Patch& patch : patches) total += patch.volume;
+  if (total < 0) {
+    for (Patch& patch : patches) flip(result, patch);
+  }
+  Nesting nesting(result, labels, patches);
+  std::vector<std::uint32_t> inside_out;
+  for (std::uint32_t p = 0; p < patches.size(); ++p) {
+    if (patches[p].shell && patches[p].volume < 0 && !nesting.is_nested(p)) inside_out.push_back(p);
+  }
+  for (const std::uint32_t p : inside_out) flip(result, patches[p]);
+  return result;
+}
+
+std::vector<Mesh> split_components(const Mesh& mesh) {
+  const Mesh welded = weld(mesh);
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  std::vector<Mesh> result;
+  std::vector<std::uint32_t> place(welded.vertices.size());
+  std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
+  for (const auto& members : label_components(welded, edges).members()) {
+    const auto part_number = static_cast<std::uint32_t>(result.size());
+    Mesh& part = result.emplace_back();
+    for (const std::uint32_t t : members) {
+      Triangle corners = welded.triangles[t];
+      for (std::uint32_t& v : corners) {
+        if (part_of[v] != part_number) {
+          part_of[v] = part_number;
+          place[v] = static_cast<std::uint32_t>(part.vertices.size());
+          part.vertices.push_back(welded.vertices[v]);
+        }
+        v = place[v];
+      }
+      part.triangles.push_back(corners);
+    }
+  }
+  return result;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,23 @@
+// Where a surface meets itself.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "mesh/flat_cells.hpp"
+#include "mesh/surface.hpp"
+
+namespace satcheck {
+
+// The other triangles of the surface that have more in common with t than shared corners and edges.
+// Collinear triangles bound nothing and are left out.
+std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint32_t t);
+
+// Calls visit(triangle, piece, others) -> bool until it returns false, for pieces of the triangles that
+// wanted(t) accepts: the winding numbers beside every point of them are those beside one of the
+// pieces visited. Pieces end where the surface meets itself; others: how many irregular partners the
+// triangle has.
+void visit_uniform_pieces(const Surface& surface, const std::function<bool(std::uint32_t)>& wanted,
+                          const std::function<bool(std::uint32_t, const Piece&, std::size_t)>& visit);
+
+}  // namespace satcheck

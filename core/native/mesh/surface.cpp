@@ -1,0 +1,99 @@
+#include "mesh/surface.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "base/edge_table.hpp"
+#include "base/parallel.hpp"
+#include "base/patches.hpp"
+#include "mesh/topology.hpp"
+#include "mesh/winding.hpp"
+
+namespace satcheck {
+namespace {
+
+constexpr std::size_t kFewTriangles = 8192;  // that are not worth a second thread
+
+// Does every edge run equally often in both directions?
+bool has_inside(const Mesh& welded) {
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    int balance = 0;
+    for (const std::uint32_t h : edges.half_edges(e)) balance += edges.ascends(h) ? 1 : -1;
+    if (balance != 0) return false;
+  }
+  return edges.size() > 0;
+}
+
+std::vector<SurfacePart> find_parts(const Mesh& welded) {
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  DisjointSets sets(welded.vertices.size());
+  for (const Triangle& t : welded.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[0], t[2]);
+  }
+  std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
+  std::vector<SurfacePart> parts;
+  for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
+    std::uint32_t& part = part_of[sets.find(welded.triangles[t][0])];
+    if (part == none) {
+      part = static_cast<std::uint32_t>(parts.size());
+      parts.push_back({t, {}});
+    }
+    parts[part].box.include(triangle_box(welded, t));
+  }
+  return parts;
+}
+
+// Whether both have the same triangles, or one the other's turned over as transform() does it.
+bool has_triangles_of(const Mesh& a, const Mesh& b) {
+  if (a.vertices.size() != b.vertices.size()) return false;
+  if (a.triangles == b.triangles) return true;
+  const auto mirrored = [](const Triangle& s, const Triangle& t) {
+    return s[0] == t[0] && s[1] == t[2] && s[2] == t[1];
+  };
+  return std::equal(a.triangles.begin(), a.triangles.end(), b.triangles.begin(), b.triangles.end(), mirrored);
+}
+
+}  // namespace
+
+Surface make_surface(const Mesh& mesh, bool solid) {
+  Surface surface;
+  surface.mesh = weld(mesh);
+  surface.solid = solid;
+  bool proven = true;
+  // The tree first, which takes longest.
+  const std::function<void()> tasks[] = {[&] { surface.bvh = build_bvh(surface.mesh); },
+                                         [&] { proven = !solid || has_inside(surface.mesh); },
+                                         [&] { surface.parts = find_parts(surface.mesh); }};
+  const unsigned threads = surface.mesh.triangles.size() < kFewTriangles ? 1 : 0;
+  parallel_for(std::size(tasks), threads, [&](std::size_t i) { tasks[i](); });
+  if (!proven) throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
+  return surface;
+}
+
+Surface refitted_surface(const Surface& like, const Mesh& mesh) {
+  if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) return make_surface(mesh, like.solid);
+  Surface surface = like;
+  surface.refitted = true;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    surface.mesh.vertices[i] = mesh.vertices[i] + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
+  }
+  surface.mesh.triangles = mesh.triangles;
+  refit(surface.bvh, surface.mesh);
+  if (surface.parts.size() == 1) {
+    surface.parts[0].box = surface.bvh.nodes[0].box;
+  } else {
+    surface.parts = find_parts(surface.mesh);
+  }
+  return surface;
+}
+
+std::optional<int> winding_number(const Surface& surface, Vec3 point) {
+  return winding_number(surface.mesh, surface.bvh, point);
+}
+
+}  // namespace satcheck

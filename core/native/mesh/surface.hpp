@@ -1,0 +1,45 @@
+// A mesh with what queries need of it, built once and shared between queries and threads.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/mesh.hpp"
+#include "mesh/bvh.hpp"
+
+namespace satcheck {
+
+// A part of a surface that is connected through common vertices.
+struct SurfacePart {
+  std::uint32_t triangle;  // one of it
+  Aabb box;
+};
+
+struct Surface {
+  Mesh mesh;  // welded
+  Bvh bvh;
+  std::vector<SurfacePart> parts;
+  // Closed and consistently wound: winding numbers say what is inside.
+  bool solid = false;
+  bool refitted = false;  // the tree has the form of another surface's
+};
+
+// Throws std::invalid_argument when `solid` is claimed of a surface that is not closed and
+// consistently wound, for then it has no inside.
+Surface make_surface(const Mesh& mesh, bool solid);
+
+// The surface of `mesh`, which is that of `like` with its vertices elsewhere, as an affine map puts them;
+// a mirror turns the winding. Nothing is sorted: the tree of `like` is fitted again. Where the triangles
+// are others, or rounding has put two vertices into one place, the surface is made anew.
+Surface refitted_surface(const Surface& like, const Mesh& mesh);
+
+// Winding number of a point with respect to a solid; nothing when the point is on the surface.
+std::optional<int> winding_number(const Surface& surface, Vec3 point);
+
+inline std::array<Vec3, 3> corners(const Mesh& mesh, std::uint32_t triangle) {
+  const Triangle& t = mesh.triangles[triangle];
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+}  // namespace satcheck

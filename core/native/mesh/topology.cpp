@@ -1,0 +1,215 @@
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <utility>
+
+#include "base/edge_table.hpp"
+#include "base/key_sort.hpp"
+#include "base/patches.hpp"
+#include "exact/predicates.hpp"
+
+namespace satcheck {
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+std::uint64_t hash_coordinates(Vec3 p) {
+  // Multiply and fold; the constant is 2^64 divided by the golden ratio.
+  constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15u;
+  std::uint64_t h = 0;
+  for (const double c : {p.x, p.y, p.z}) {
+    h = (h ^ std::bit_cast<std::uint64_t>(c)) * kFactor;
+    h ^= h >> 29;
+  }
+  return h;
+}
+
+// For each vertex the first one of equal coordinates. -0.0 must have been made +0.0.
+std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& points) {
+  std::vector<std::uint32_t> first(points.size());
+  const std::size_t capacity = std::bit_ceil(points.size() * 2 + 1);
+  std::vector<std::uint32_t> slot(capacity, none);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    std::size_t at = hash_coordinates(points[i]) & (capacity - 1);
+    while (slot[at] != none && !(points[slot[at]] == points[i])) at = (at + 1) & (capacity - 1);
+    if (slot[at] == none) slot[at] = i;
+    first[i] = slot[at];
+  }
+  return first;
+}
+
+// As -0.0 == 0.0, points of equal coordinates are then equal bit for bit.
+std::vector<Vec3> without_negative_zeros(std::vector<Vec3> points) {
+  for (Vec3& p : points) p = p + Vec3{};  // -0.0 + 0.0 == +0.0
+  return points;
+}
+
+struct Welding {
+  Mesh mesh;
+  std::size_t duplicate_vertices = 0, unreferenced_vertices = 0;
+};
+
+std::vector<bool> find_referenced(const Mesh& mesh) {
+  std::vector<bool> referenced(mesh.vertices.size(), false);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) referenced[v] = true;
+  }
+  return referenced;
+}
+
+Welding weld_and_count(const Mesh& mesh) {
+  Welding result;
+  const std::vector<bool> referenced = find_referenced(mesh);
+  std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
+  if (strictly_ascending(points) && std::find(referenced.begin(), referenced.end(), false) == referenced.end()) {
+    result.mesh = {std::move(points), mesh.triangles};
+    return result;
+  }
+  const std::vector<std::uint32_t> first = first_of_equal(points);
+  std::vector<bool> kept(points.size(), false);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (referenced[v]) kept[first[v]] = true;
+  }
+  std::vector<std::uint32_t> renumbered(points.size(), none);
+  for (std::uint32_t v = 0; v < points.size(); ++v) {
+    if (!referenced[v]) ++result.unreferenced_vertices;
+    if (first[v] != v) ++result.duplicate_vertices;
+    if (!kept[v]) continue;
+    renumbered[v] = static_cast<std::uint32_t>(result.mesh.vertices.size());
+    result.mesh.vertices.push_back(points[v]);
+  }
+  result.mesh.triangles.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    result.mesh.triangles.push_back(
+        {renumbered[first[t[0]]], renumbered[first[t[1]]], renumbered[first[t[2]]]});
+  }
+  return result;
+}
+
+void count_edges(Topology& topology, const EdgeTable& edges) {
+  bool all_even = true, all_two = true;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto half_edges = edges.half_edges(e);
+    const std::size_t count = half_edges.size();
+    std::size_t ascending = 0;
+    for (const std::uint32_t h : half_edges) ascending += edges.ascends(h) ? 1 : 0;
+    const std::size_t difference = ascending * 2 > count ? ascending * 2 - count : count - ascending * 2;
+    topology.boundary_edges += count == 1 ? 1 : 0;
+    topology.nonmanifold_edges += count > 2 ? 1 : 0;
+    topology.misoriented_edges += difference != count % 2 ? 1 : 0;
+    all_even = all_even && count % 2 == 0;
+    all_two = all_two && count == 2;
+  }
+  topology.closed = edges.size() > 0 && all_even;
+  topology.manifold = edges.size() > 0 && all_two;
+  topology.oriented = topology.misoriented_edges == 0;
+}
+
+// Copies of a triangle have their edges and the corner across from each in common.
+bool may_have_copies(const Mesh& welded, const EdgeTable& edges) {
+  const auto across = [&](std::uint32_t h) { return welded.triangles[h / 3][(h % 3 + 2) % 3]; };
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges.half_edges(e);
+    if (h.size() > 2 || (h.size() == 2 && across(h[0]) == across(h[1]))) return true;
+  }
+  return false;
+}
+
+void count_triangles(Topology& topology, const Mesh& welded, const EdgeTable& edges) {
+  std::size_t pointed = 0;  // that name a corner twice: they have no edges
+  for (const Triangle& t : welded.triangles) {
+    if (repeats_a_corner(t)) {
+      ++pointed;
+    } else if (collinear(welded.vertices[t[0]], welded.vertices[t[1]], welded.vertices[t[2]])) {
+      ++topology.degenerate_triangles;
+    }
+  }
+  topology.degenerate_triangles += pointed;
+  if (pointed < 2 && !may_have_copies(welded, edges)) return;
+  std::vector<Triangle> sorted = welded.triangles;
+  for (Triangle& t : sorted) std::sort(t.begin(), t.end());
+  sort_triangles(sorted, welded.vertices.size());
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    topology.duplicate_triangles += sorted[i] == sorted[i - 1] ? 1 : 0;
+  }
+}
+
+// With vertex v at place[v], each triangle from its lowest corner on, in ascending order.
+std::vector<Triangle> sorted_triangles(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& place,
+                                       std::size_t vertex_count) {
+  std::vector<Triangle> result;
+  result.reserve(triangles.size());
+  for (const Triangle& t : triangles) {
+    const std::uint32_t a = place[t[0]], b = place[t[1]], c = place[t[2]];
+    result.push_back(a <= b && a <= c ? Triangle{a, b, c} : b <= c ? Triangle{b, c, a} : Triangle{c, a, b});
+  }
+  sort_triangles(result, vertex_count);
+  return result;
+}
+
+}  // namespace
+
+bool is_welded(const Mesh& mesh) {
+  const std::vector<std::uint32_t> first = first_of_equal(without_negative_zeros(mesh.vertices));
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    if (first[i] != i) return false;
+  }
+  return true;
+}
+
+Mesh weld(const Mesh& mesh) { return weld_and_count(mesh).mesh; }
+
+Mesh sort(const Mesh& mesh) {
+  Mesh result;
+  result.vertices.reserve(mesh.vertices.size());
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  for (const std::uint32_t v : order_by_coordinates(mesh.vertices)) {
+    place[v] = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.push_back(mesh.vertices[v]);
+  }
+  result.triangles = sorted_triangles(mesh.triangles, place, result.vertices.size());
+  return result;
+}
+
+Mesh weld_and_sort(const Mesh& mesh) {
+  const std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
+  const std::vector<bool> referenced = find_referenced(mesh);
+  Mesh result;
+  result.vertices.reserve(points.size());
+  std::vector<std::uint32_t> place(points.size());
+  for (const std::uint32_t v : order_by_coordinates(points)) {
+    if (!referenced[v]) continue;
+    if (result.vertices.empty() || result.vertices.back() != points[v]) result.vertices.push_back(points[v]);
+    place[v] = static_cast<std::uint32_t>(result.vertices.size() - 1);
+  }
+  result.triangles = sorted_triangles(mesh.triangles, place, result.vertices.size());
+  return result;
+}
+
+Topology measure_topology(const Mesh& mesh) {
+  const Welding welding = weld_and_count(mesh);
+  const EdgeTable edges(welding.mesh.vertices.size(), welding.mesh.triangles);
+  Topology topology = measure_welded(welding.mesh, edges);
+  topology.vertices = mesh.vertices.size();
+  topology.duplicate_vertices = welding.duplicate_vertices;
+  topology.unreferenced_vertices = welding.unreferenced_vertices;
+  return topology;
+}
+
+Topology measure_welded(const Mesh& welded, const EdgeTable& edges) {
+  Topology topology;
+  topology.vertices = welded.vertices.size();
+  topology.triangles = welded.triangles.size();
+  topology.components = label_components(welded, edges).count;
+  count_edges(topology, edges);
+  count_triangles(topology, welded, edges);
+  if (topology.closed && topology.oriented) {
+    topology.volume = signed_volume(welded.vertices, welded.triangles);
+  }
+  topology.solid = topology.volume != 0;
+  return topology;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,66 @@
+// What a triangle soup is: closed, manifold, consistently wound, and the repairs that are safe.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/edge_table.hpp"
+#include "base/mesh.hpp"
+
+namespace satcheck {
+
+// Edges are counted on the welded mesh; triangles that name a corner twice have no say in them.
+struct Topology {
+  std::size_t vertices = 0;   // of the mesh as given
+  std::size_t triangles = 0;  // of the mesh as given
+  std::size_t components = 0;           // parts connected through shared edges
+  std::size_t boundary_edges = 0;       // one triangle
+  std::size_t nonmanifold_edges = 0;    // more than two triangles
+  std::size_t misoriented_edges = 0;    // not run equally often in both directions (open edges: once)
+  std::size_t degenerate_triangles = 0; // corners exactly collinear or repeated
+  std::size_t duplicate_triangles = 0;  // same corners as an earlier triangle, in either winding
+  std::size_t duplicate_vertices = 0;   // same position as an earlier vertex
+  std::size_t unreferenced_vertices = 0;
+  bool closed = false;    // every edge has an even number of triangles, and there is an edge
+  bool manifold = false;  // every edge has exactly two
+  bool oriented = false;  // no misoriented edge
+  double volume = 0;      // signed, positive when wound outwards; 0.0 unless closed and oriented
+  bool solid = false;     // closed, oriented, volume not exactly 0: winding numbers say what is inside
+};
+
+Topology measure_topology(const Mesh& mesh);
+
+// The same of a welded mesh whose edges are known.
+Topology measure_welded(const Mesh& welded, const EdgeTable& edges);
+
+// Vertices of equal coordinates become one (-0.0 == 0.0), unreferenced ones are dropped; the order
+// of vertices and triangles is kept.
+Mesh weld(const Mesh& mesh);
+
+// No two vertices have equal coordinates.
+bool is_welded(const Mesh& mesh);
+
+// The same triangles in an order that depends on nothing but their coordinates: vertices ascending,
+// each triangle from its lowest one on, triangles ascending. Copies of a vertex stay apart.
+Mesh sort(const Mesh& mesh);
+
+// sort(weld(mesh)), for less.
+Mesh weld_and_sort(const Mesh& mesh);
+
+// The parts connected through shared edges of the welded mesh, in order of their first triangle.
+std::vector<Mesh> split_components(const Mesh& mesh);
+
+// The welded mesh with one winding per component, outermost closed shells outward. Repeated copies
+// of a triangle are dropped when the surface is closed without them and not with them. Components with
+// mixed winding are repaired when they are orientable edge-manifolds. A component whose winding is
+// consistent keeps it, so cavities stay cavities, unless the whole mesh is inside out or the
+// component is inside out and within no other one.
+Mesh orient(const Mesh& mesh);
+
+// world = matrix * (x, y, z, 1), row-major; each coordinate is summed in twice the precision and
+// rounded once. A reflection flips the winding. Throws std::invalid_argument when the matrix is not
+// finite, not affine or singular, or a coordinate overflows.
+Mesh transform(const Mesh& mesh, const std::array<double, 16>& matrix);
+Mesh translate(const Mesh& mesh, Vec3 offset);
+
+}  // namespace satcheck

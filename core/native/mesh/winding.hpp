@@ -1,0 +1,162 @@
+// Exact winding numbers of points with respect to closed triangle meshes.
+//
+// Method: signed crossings of a segment from the point to a point outside the mesh. Every crossing
+// is decided by exact orientation signs; a segment that meets an edge or a vertex is dropped and
+// another one of a fixed sequence is tried, so the answer is exact and does not depend on chance.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "exact/point_in_triangle.hpp"
+#include "mesh/bvh.hpp"
+
+namespace satcheck {
+
+// Which way to look first: along `axis`, up or down.
+struct Heading {
+  int axis = 0;
+  bool upward = true;
+};
+
+// Towards the nearest wall of the box, where the fewest triangles are likely to be in the way.
+Heading nearest_wall(const Aabb& box, Vec3 from);
+
+// The far end of the attempt-th segment: outside `box`, in a direction of a fixed sequence that
+// starts with the heading.
+Vec3 outside_point(const Aabb& box, Vec3 from, Heading first, int attempt);
+
+// A fixed sequence that would be exhausted only by a mesh with triangles in hundreds of directions
+// through one point; then there is no answer.
+inline constexpr int kMaxSegments = 512;
+
+// +1 or -1 for a segment p -> far that leaves through the front or enters through the front of the
+// triangle, 0 when it misses, nothing when it meets an edge or a corner or runs in the plane.
+// p must not lie in the triangle, and `far` outside the mesh's box.
+template <class Point>
+std::optional<int> segment_crossing(const Point& p, Vec3 far, Vec3 a, Vec3 b, Vec3 c) {
+  // orientation(p, far, u, v) == -orientation(far, u, v, p): an odd permutation. These come first,
+  // for where p lies in the plane of many triangles only the side of that plane is costly.
+  const int ab = orientation(far, a, b, p);
+  const int bc = orientation(far, b, c, p);
+  if (ab * bc < 0) return 0;
+  const int ca = orientation(far, c, a, p);
+  if (ab * ca < 0 || bc * ca < 0) return 0;
+  const int to = orientation(a, b, c, far);
+  const int from = orientation(a, b, c, p);
+  if (from == 0 && to == 0) {
+    if (collinear(a, b, c)) return 0;
+    return std::nullopt;
+  }
+  if (from == to || from == 0 || to == 0) return 0;
+  if (ab == 0 || bc == 0 || ca == 0) return std::nullopt;
+  return to;
+}
+
+// Signed crossings of the segment p -> far with the triangles that `counts(t)` accepts; nothing when
+// one of them cannot be decided.
+template <class Point, class Counts>
+std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 far,
+                                 Counts counts) {
+  Aabb path = point_box(p);
+  path.include(far);
+  int winding = 0;
+  const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
+    if (!counts(t)) return true;
+    const Triangle& v = mesh.triangles[t];
+    const auto crossing =
+        segment_crossing(p, far, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]);
+    winding += crossing.value_or(0);
+    return crossing.has_value();
+  });
+  if (!generic) return std::nullopt;
+  return winding;
+}
+
+// The triangles that contain p.
+template <class Point>
+std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p) {
+  std::vector<std::uint32_t> found;
+  visit_box(bvh, point_box(p), [&](std::uint32_t t) {
+    const Triangle& v = mesh.triangles[t];
+    if (point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) found.push_back(t);
+    return true;
+  });
+  return found;
+}
+
+// Winding number of p with respect to the triangles that `counts(t)` accepts; nothing when p lies on
+// one of them.
+template <class Point, class Counts>
+std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p, Counts counts) {
+  if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return 0;
+  for (const std::uint32_t t : triangles_at(mesh, bvh, p)) {
+    if (counts(t)) return std::nullopt;
+  }
+  const Aabb& bounds = bvh.nodes[0].box;
+  const Heading first = nearest_wall(bounds, rounded_point(p));
+  for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
+    const Vec3 far = outside_point(bounds, rounded_point(p), first, attempt);
+    if (const auto winding = sum_crossings(mesh, bvh, p, far, counts)) return winding;
+  }
+  return std::nullopt;
+}
+
+template <class Point>
+std::optional<int> winding_number(const Mesh& mesh, const Bvh& bvh, const Point& p) {
+  return winding_number(mesh, bvh, p, [](std::uint32_t) { return true; });
+}
+
+// Winding numbers just beside a point, in front of and behind a triangle through it.
+struct Beside {
+  int front = 0, back = 0;
+  bool on_surface = false;  // the point lies on the mesh itself
+
+  // Does the solid, {winding number != 0}, end here?
+  bool is_boundary() const { return on_surface && (front == 0) != (back == 0); }
+};
+
+// Of a mesh, just beside the point p of the triangle a, b, c, which need not belong to it. Nothing when p
+// lies on a triangle of the mesh that is in another plane.
+template <class Point>
+std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
+                                     Vec3 c) {
+  if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return Beside{};
+  const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p);
+  const Vec3 normal = rounded_normal(a, b, c);
+  const int axis = projection_axis(normal);
+  const int turn = orientation_2d(a, b, c, axis);
+  int step = 0;               // on the way from the front to the back
+  bool on_an_edge = false;    // then several triangles make up one step
+  for (const std::uint32_t t : here) {
+    const Triangle& v = mesh.triangles[t];
+    const Vec3 u[3] = {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
+    for (int i = 0; i < 3; ++i) {
+      if (orientation(a, b, c, u[i]) != 0) return std::nullopt;
+      on_an_edge = on_an_edge || orientation_2d_at(u[i], u[(i + 1) % 3], p, axis) == 0;
+    }
+    step += turn * orientation_2d(u[0], u[1], u[2], axis);
+  }
+  const auto elsewhere = [&](std::uint32_t t) {
+    return std::find(here.begin(), here.end(), t) == here.end();
+  };
+  const Aabb& bounds = bvh.nodes[0].box;
+  const Vec3 from = rounded_point(p);
+  const bool upward = bounds.max[axis] - from[axis] <= from[axis] - bounds.min[axis];
+  const Heading first = here.empty() ? nearest_wall(bounds, from) : Heading{axis, upward};
+  std::optional<int> front, back;
+  for (int attempt = 0; attempt < kMaxSegments; ++attempt) {
+    const Vec3 far = outside_point(bounds, from, first, attempt);
+    const int side = here.empty() ? 1 : orientation(a, b, c, far);
+    if (side == 0 || (side > 0 ? front : back)) continue;
+    const auto winding = sum_crossings(mesh, bvh, p, far, elsewhere);
+    if (!winding) continue;
+    (side > 0 ? front : back) = winding;
+    if (!on_an_edge) (side > 0 ? back : front) = side > 0 ? *winding + step : *winding - step;
+    if (front && back) return Beside{*front, *back, !here.empty()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace satcheck

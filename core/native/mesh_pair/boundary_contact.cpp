@@ -1,0 +1,134 @@
+// A triangle that meets no other of its own mesh is boundary all over or nowhere, and one sample tells.
+//
+// Other triangles are boundary in some of the pieces into which both meshes cut them. The common part of
+// the boundaries in the triangles t of A and u of B is closed and, the pieces being cut by both meshes,
+// made of corners, stretches and pieces that both cut alike. So if it is not empty it contains a corner
+// of a boundary piece of t, and that corner is one of a boundary piece of a triangle of B as well.
+#include "mesh_pair/boundary_contact.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
+#include "mesh/cuts.hpp"
+#include "mesh/self_contact.hpp"
+
+namespace satcheck {
+namespace {
+
+bool is_collinear(const Corners& c) { return collinear(c[0], c[1], c[2]); }
+
+class Boundary {
+ public:
+  explicit Boundary(const Surface& surface) : surface_(surface) {}
+
+  // Is the whole triangle boundary?
+  bool is_plain(std::uint32_t t) {
+    const auto [entry, is_new] = plain_.try_emplace(t, false);
+    if (is_new) entry->second = is_plain_boundary(surface_, t);
+    return entry->second;
+  }
+
+  // Is a point of the mesh in the closure of a boundary piece?
+  bool contains(const ExactPoint& x) const {
+    const auto here = triangles_at(surface_.mesh, surface_.bvh, x);
+    return std::any_of(here.begin(), here.end(), [&](std::uint32_t t) { return reaches(t, x); });
+  }
+
+ private:
+  // Does a boundary piece of triangle t end at its point x?
+  bool reaches(std::uint32_t t, const ExactPoint& x) const {
+    if (!surface_.solid) return true;
+    const Corners c = corners(surface_.mesh, t);
+    const auto partners = irregular_partners(surface_, t);
+    auto cuts = find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::kept);
+    const ExactPoint corner = make_exact_point(c[0]);
+    cuts.push_back({corner == x ? make_exact_point(c[1]) : corner, x});
+    return !visit_pieces(c, cuts, Touching::kept, [&](const Piece& piece) {
+      const auto ends = piece.ends();
+      if (std::find(ends.begin(), ends.end(), x) == ends.end()) return true;
+      bool boundary = false;
+      sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
+        const auto sides = beside(surface_, p, c);
+        boundary = sides && sides->is_boundary();
+        return sides.has_value();
+      });
+      return !boundary;
+    });
+  }
+
+  const Surface& surface_;
+  std::map<std::uint32_t, bool> plain_;
+};
+
+}  // namespace
+
+bool is_plain_boundary(const Surface& surface, std::uint32_t t) {
+  const Corners c = corners(surface.mesh, t);
+  if (is_collinear(c)) return false;
+  if (!surface.solid) return true;
+  if (!irregular_partners(surface, t).empty()) return false;
+  const auto sides = beside(surface, weighted_point(c[0], c[1], c[2], 1, 1, 1), c);
+  return sides && sides->is_boundary();
+}
+
+bool has_void(const Surface& surface, std::uint32_t t) {
+  const Corners c = corners(surface.mesh, t);
+  if (!surface.solid || is_collinear(c)) return false;
+  const auto partners = irregular_partners(surface, t);
+  const auto cuts = find_cuts(surface.mesh, t, surface.mesh, partners, Touching::left_out);
+  return !visit_pieces(c, cuts, Touching::left_out, [&](const Piece& piece) {
+    bool material = false;
+    sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
+      const auto sides = beside(surface, p, c);
+      material = sides && (sides->front != 0 || sides->back != 0);
+      return sides.has_value();
+    });
+    return material;
+  });
+}
+
+void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
+                        Samples& samples) {
+  Boundary of_a(a), of_b(b);
+  for (const ContactPair& c : contacts) {
+    if (!of_a.is_plain(c.a) || !of_b.is_plain(c.b)) continue;
+    samples.note_contact({c.a, c.b, contact_point(corners(a.mesh, c.a), corners(b.mesh, c.b))});
+    return;
+  }
+}
+
+void find_any_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
+                      Samples& samples) {
+  const Boundary of_b(b);
+  std::map<std::uint32_t, std::vector<std::uint32_t>> partners_of;
+  for (const ContactPair& c : contacts) partners_of[c.a].push_back(c.b);
+  for (const auto& [t, partners] : partners_of) {
+    const Corners c = corners(a.mesh, t);
+    if (is_collinear(c)) continue;
+    const auto own = a.solid ? irregular_partners(a, t) : std::vector<std::uint32_t>{};
+    auto cuts = find_cuts(a.mesh, t, b.mesh, partners, Touching::kept);
+    const auto own_cuts = find_cuts(a.mesh, t, a.mesh, own, Touching::kept);
+    cuts.insert(cuts.end(), own_cuts.begin(), own_cuts.end());
+    const bool none = visit_pieces(c, cuts, Touching::kept, [&](const Piece& piece) {
+      bool boundary = !a.solid;
+      const bool known = boundary || sample_piece(piece, own.size() + partners.size(), [&](const ExactPoint& p) {
+        const auto sides = beside(a, p, c);
+        boundary = sides && sides->is_boundary();
+        return sides.has_value();
+      });
+      if (!known) samples.fail();
+      if (!boundary) return true;
+      for (const ExactPoint& end : piece.ends()) {
+        if (!of_b.contains(end)) continue;
+        samples.note_contact({t, partners[0], end.rounded});
+        return false;
+      }
+      return true;
+    });
+    if (!none) return;
+  }
+}
+
+}  // namespace satcheck

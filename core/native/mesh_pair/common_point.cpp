@@ -1,0 +1,101 @@
+#include "mesh_pair/common_point.hpp"
+
+#include <algorithm>
+
+#include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
+#include "mesh/winding.hpp"
+#include "mesh/nearest_point.hpp"
+#include "mesh_pair/mesh_distance.hpp"
+
+namespace satcheck {
+namespace {
+
+// From the surface inward, in halves of the longest edge at hand.
+constexpr int kHalvings = 40;
+// Steps of the climb, and the share of the free ball that the first try of each takes.
+constexpr int kClimbSteps = 24;
+constexpr double kStride = 0.9;
+constexpr int kStrideHalvings = 3;
+
+bool inside_both(const Surface& a, const Surface& b, Vec3 p) {
+  return winding_number(a, p).value_or(0) != 0 && winding_number(b, p).value_or(0) != 0;
+}
+
+Vec3 unit_or_zero(Vec3 v) {
+  const double length = norm(v);
+  return length > 0 ? v * (1 / length) : Vec3{};
+}
+
+Vec3 inward(const Surface& s, std::uint32_t triangle) {
+  if (triangle == kNoTriangle) return {};
+  const Corners c = corners(s.mesh, triangle);
+  return -unit_or_zero(rounded_normal(c[0], c[1], c[2]));
+}
+
+double longest_edge(const Surface& s, std::uint32_t triangle) {
+  if (triangle == kNoTriangle) return 0;
+  const Corners c = corners(s.mesh, triangle);
+  return std::fmax(norm(c[1] - c[0]), std::fmax(norm(c[2] - c[1]), norm(c[0] - c[2])));
+}
+
+// Where triangles meet, a point of both; else the middle of the triangle that lies inside the other body,
+// for from its corner the way inward may run along an edge.
+Vec3 starting_point(const Surface& a, const Surface& b, const MeshRelation& r) {
+  if (r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle) return *r.point;
+  const bool inner_is_a = r.triangle_a != kNoTriangle;
+  if (!inner_is_a && r.triangle_b == kNoTriangle) return *r.point;
+  const Corners c = inner_is_a ? corners(a.mesh, r.triangle_a) : corners(b.mesh, r.triangle_b);
+  return (c[0] + c[1] + c[2]) * (1.0 / 3);
+}
+
+std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshRelation& r, std::size_t& work) {
+  if (!r.point) return std::nullopt;
+  const Vec3 start = starting_point(a, b, r);
+  const Vec3 into_a = inward(a, r.triangle_a), into_b = inward(b, r.triangle_b);
+  const Vec3 ways[] = {unit_or_zero(into_a + into_b), into_a, into_b};
+  double step = std::fmax(longest_edge(a, r.triangle_a), longest_edge(b, r.triangle_b));
+  for (int k = 0; k < kHalvings; ++k, step *= 0.5) {
+    for (const Vec3 way : ways) {
+      if (way == Vec3{}) continue;
+      ++work;
+      if (inside_both(a, b, start + way * step)) return start + way * step;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
+                                        std::size_t& work) {
+  const std::optional<Vec3> start = first_inside(a, b, relation, work);
+  if (!start) return std::nullopt;
+  // Within the ball that reaches to the nearer surface no surface is crossed.
+  Vec3 p = *start;
+  NearestPoint on_a = nearest_point(a, p), on_b = nearest_point(b, p);
+  for (int step = 0; step < kClimbSteps; ++step) {
+    const double depth = std::fmin(on_a.distance, on_b.distance);
+    const Vec3 from_a = unit_or_zero(p - on_a.point), from_b = unit_or_zero(p - on_b.point);
+    const Vec3 away = on_a.distance < on_b.distance ? from_a : from_b;
+    bool climbed = false;
+    for (const Vec3 way : {away, unit_or_zero(from_a + from_b)}) {
+      double stride = kStride * depth;
+      for (int k = 0; k < kStrideHalvings && !climbed; ++k, stride *= 0.5) {
+        const Vec3 q = p + way * stride;
+        const NearestPoint at_a = nearest_point(a, q), at_b = nearest_point(b, q);
+        ++work;
+        if (std::fmin(at_a.distance, at_b.distance) <= depth * (1 + 1.0 / 64)) continue;
+        p = q;
+        on_a = at_a;
+        on_b = at_b;
+        climbed = true;
+      }
+      if (climbed) break;
+    }
+    if (!climbed) break;
+  }
+  return CommonPoint{p, std::fmin(on_a.distance, on_b.distance)};
+}
+
+}  // namespace satcheck

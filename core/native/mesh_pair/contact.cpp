@@ -1,0 +1,179 @@
+// The planes of all triangles cut space into cells; in each both winding numbers are constant, and the
+// relation of two solids depends on which combinations of (in A?, in B?) occur, and on whether the
+// boundaries meet. A cell is bounded by pieces of triangles, so the combinations beside one exact
+// generic point of every piece tell all of them. Not every piece needs a look:
+//
+// * Triangles without contact: each region of them lies on one side of the other surface, so one
+//   winding number of the other solid per region tells, with those of its own solid.
+// * Triangles in contact: what cuts one into pieces are edges of the other mesh that lie in its
+//   plane, triangles that cross it, and where its own mesh meets itself, those of its own. One sample a
+//   piece tells, with the winding numbers of both meshes on both sides.
+// * When the pieces of one surface, S, are known, triangles of the other that do not meet their own mesh
+//   need no cuts by S: from one cell of the other solid, or of its outside, to the next the way leads
+//   past no piece of S, or past one that has already shown both combinations.
+#include "mesh_pair/contact.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
+#include "mesh/cuts.hpp"
+#include "mesh/self_contact.hpp"
+#include "mesh_pair/boundary_contact.hpp"
+#include "mesh_pair/free_regions.hpp"
+
+namespace satcheck {
+namespace {
+
+// Other triangles may pass through points of a crossing segment; they pass through all of this many only
+// where they contain all of it.
+constexpr int kCrossingSamples = 4;
+
+struct ContactTriangle {
+  std::uint32_t triangle;
+  std::vector<std::uint32_t> partners;  // of the other mesh
+  std::vector<std::uint32_t> own;       // irregular ones of its own
+  std::vector<PlaneSegment> cuts;
+};
+
+class ContactSide {
+ public:
+  ContactSide(const Side& side, std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs) : side_(side) {
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [triangle, partner] : pairs) {
+      if (contacts_.empty() || contacts_.back().triangle != triangle) contacts_.push_back({triangle, {}, {}, {}});
+      contacts_.back().partners.push_back(partner);
+    }
+  }
+
+  FreeRegions free_regions() const {
+    if (contacts_.empty()) return {side_, {}};
+    std::vector<bool> in_contact(side_.self.mesh.triangles.size(), false);
+    for (const ContactTriangle& c : contacts_) in_contact[c.triangle] = true;
+    return {side_, std::move(in_contact)};
+  }
+
+  // Returns how many stretches the cut triangles are bordered by, about.
+  std::size_t prepare_cuts() {
+    const Mesh& mesh = side_.self.mesh;
+    std::size_t stretches = 0;
+    std::erase_if(contacts_, [&](const ContactTriangle& c) {
+      const Corners t = corners(mesh, c.triangle);
+      return collinear(t[0], t[1], t[2]);
+    });
+    for (ContactTriangle& c : contacts_) {
+      if (side_.self.solid) c.own = irregular_partners(side_.self, c.triangle);
+      c.cuts = find_cuts(mesh, c.triangle, side_.other.mesh, c.partners, Touching::left_out);
+      const auto own_cuts = find_cuts(mesh, c.triangle, mesh, c.own, Touching::left_out);
+      c.cuts.insert(c.cuts.end(), own_cuts.begin(), own_cuts.end());
+      stretches += c.cuts.empty() ? 1 : 3 + c.cuts.size();
+    }
+    return stretches;
+  }
+
+  enum class Cut { all, self_meeting };
+
+  void sample(Cut cut, Samples& samples) const {
+    for (const ContactTriangle& c : contacts_) {
+      const bool whole = cut == Cut::self_meeting && c.own.empty();
+      const bool goes_on = visit_pieces(
+          corners(side_.self.mesh, c.triangle), whole ? std::vector<PlaneSegment>{} : c.cuts,
+          Touching::left_out, [&](const Piece& piece) {
+            const bool known = sample_piece(piece, c.partners.size() + c.own.size(), [&](const ExactPoint& p) {
+              return samples.note_at(side_, c.triangle, c.partners[0], p);
+            });
+            if (!known) samples.fail();
+            return !samples.settled();
+          });
+      if (!goes_on) return;
+    }
+  }
+
+ private:
+  Side side_;
+  std::vector<ContactTriangle> contacts_;
+};
+
+// Where the edges of one triangle go through the other, in its border or inside.
+void append_passages(const Corners& through, const Corners& edges, std::vector<ExactPoint>& points) {
+  const auto side = [&](Vec3 p) { return orientation(through[0], through[1], through[2], p); };
+  const auto append = [&](ExactPoint p) {
+    if (!plane_point_in_triangle(p, through[0], through[1], through[2])) return;
+    if (std::find(points.begin(), points.end(), p) == points.end()) points.push_back(std::move(p));
+  };
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 p = edges[i], q = edges[(i + 1) % 3];
+    if (side(p) == 0) append(make_exact_point(p));
+    if (side(p) * side(q) < 0) append(plane_meeting_point(through[0], through[1], through[2], p, q));
+  }
+}
+
+// A generic point of a crossing: each body has one winding number on either side of its triangle.
+bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const ExactPoint& p, Samples& samples) {
+  const Beside sheet{1, 1, true};
+  const auto of_a = a.solid ? beside(a, p, corners(a.mesh, crossing.a)) : sheet;
+  const auto of_b = b.solid ? beside(b, p, corners(b.mesh, crossing.b)) : sheet;
+  if (!of_a || !of_b) return false;
+  const Evidence where{crossing.a, crossing.b, p.rounded};
+  const Side side{a, b, true};
+  for (const int in_a : {of_a->front, of_a->back}) {
+    for (const int in_b : {of_b->front, of_b->back}) samples.note(side, in_a, in_b, where);
+  }
+  const bool ends_a = !a.solid || of_a->is_boundary(), ends_b = !b.solid || of_b->is_boundary();
+  if (ends_a && ends_b) samples.note_contact(where);
+  return true;
+}
+
+void sample_pieces(ContactSide& a, ContactSide& b, Samples& samples) {
+  const bool a_first = a.prepare_cuts() <= b.prepare_cuts();
+  (a_first ? a : b).sample(ContactSide::Cut::all, samples);
+  if (!samples.settled()) (a_first ? b : a).sample(ContactSide::Cut::self_meeting, samples);
+}
+
+}  // namespace
+
+PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing) {
+  const Corners ca = corners(a.mesh, crossing.a), cb = corners(b.mesh, crossing.b);
+  std::vector<ExactPoint> ends;
+  append_passages(cb, ca, ends);
+  append_passages(ca, cb, ends);
+  Samples samples(a, b);
+  if (ends.size() < 2) return samples.facts();
+  for (int k = 1; k <= kCrossingSamples; ++k) {
+    const ExactPoint p = between(ends[0], ends[1], 1.0, 1.0 * k);
+    if (note_crossing(a, b, crossing, p, samples)) break;
+  }
+  return samples.facts();
+}
+
+PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> from_a, from_b;
+  for (const ContactPair& c : contacts) {
+    from_a.emplace_back(c.a, c.b);
+    from_b.emplace_back(c.b, c.a);
+  }
+  ContactSide side_a({a, b, true}, std::move(from_a)), side_b({b, a, false}, std::move(from_b));
+  Samples samples(a, b);
+  std::vector<FreeRegions> free;
+  if (b.solid) free.push_back(side_a.free_regions());
+  if (a.solid) free.push_back(side_b.free_regions());
+  const bool apart = contacts.empty() && std::none_of(free.begin(), free.end(), [](const FreeRegions& f) { return f.any_inside(); });
+  if (apart) return samples.facts();
+  find_plain_contact(a, b, contacts, samples);
+  for (const FreeRegions& f : free) {
+    if (!samples.settled()) f.sample(samples);
+  }
+  if (samples.settled()) return samples.facts();
+  if (a.solid && b.solid) {
+    sample_pieces(side_a, side_b, samples);
+  } else {
+    ContactSide& sheet = a.solid ? side_b : side_a;
+    sheet.prepare_cuts();
+    sheet.sample(ContactSide::Cut::all, samples);
+  }
+  if (samples.contact_matters()) find_any_contact(a, b, contacts, samples);
+  return samples.facts();
+}
+
+}  // namespace satcheck

@@ -1,0 +1,94 @@
+#include "mesh_pair/free_regions.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/patches.hpp"
+#include "exact/predicates.hpp"
+#include "mesh/self_contact.hpp"
+
+namespace satcheck {
+namespace {
+
+template <class IsFree>
+DisjointSets connect_corners(const Mesh& mesh, IsFree is_free) {
+  DisjointSets sets(mesh.vertices.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!is_free(t)) continue;
+    sets.unite(mesh.triangles[t][0], mesh.triangles[t][1]);
+    sets.unite(mesh.triangles[t][0], mesh.triangles[t][2]);
+  }
+  return sets;
+}
+
+}  // namespace
+
+FreeRegions::FreeRegions(const Side& side, std::vector<bool> in_contact)
+    : side_(side), in_contact_(std::move(in_contact)) {
+  const Mesh& mesh = side_.self.mesh;
+  if (in_contact_.empty()) {
+    for (const SurfacePart& part : side_.self.parts) add(part.triangle);
+    return;
+  }
+  DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); });
+  std::vector<bool> known(mesh.vertices.size(), false);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!is_free(t)) continue;
+    const std::uint32_t set = sets.find(mesh.triangles[t][0]);
+    if (!known[set]) add(t);
+    known[set] = true;
+  }
+}
+
+void FreeRegions::add(std::uint32_t triangle) {
+  const Mesh& mesh = side_.self.mesh;
+  const auto theirs = winding_number(side_.other, mesh.vertices[mesh.triangles[triangle][0]]);
+  known_ = known_ && theirs.has_value();
+  regions_.push_back({triangle, theirs.value_or(0)});
+}
+
+bool FreeRegions::any_inside() const {
+  return std::any_of(regions_.begin(), regions_.end(), [](const Region& r) { return r.theirs != 0; });
+}
+
+void FreeRegions::sample(Samples& samples) const {
+  if (!known_) samples.fail();
+  bool open = false;
+  for (const Region& region : regions_) {
+    if (samples.may_learn(side_, region.theirs)) sample_first(samples, region);
+    open = open || samples.may_learn(side_, region.theirs);
+  }
+  if (open && side_.self.solid) sample_every_piece(samples);
+}
+
+void FreeRegions::sample_first(Samples& samples, const Region& region) const {
+  const Corners c = corners(side_.self.mesh, region.triangle);
+  if (!side_.self.solid) {
+    samples.note_free(side_, region.triangle, make_exact_point(c[0]), region.theirs);
+  } else if (!collinear(c[0], c[1], c[2])) {
+    visit_pieces(c, {}, Touching::left_out, [&](const Piece& piece) {
+      return samples.note_free(side_, region.triangle, piece.sample(0), region.theirs);
+    });
+  }
+}
+
+// Where one sample a region did not show what that of a clean surface does.
+void FreeRegions::sample_every_piece(Samples& samples) const {
+  const Mesh& mesh = side_.self.mesh;
+  DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); });
+  std::vector<int> theirs_of_set(mesh.vertices.size(), 0);
+  for (const Region& region : regions_) {
+    theirs_of_set[sets.find(mesh.triangles[region.triangle][0])] = region.theirs;
+  }
+  const auto theirs = [&](std::uint32_t t) { return theirs_of_set[sets.find(mesh.triangles[t][0])]; };
+  const auto wanted = [&](std::uint32_t t) { return is_free(t) && samples.may_learn(side_, theirs(t)); };
+  visit_uniform_pieces(side_.self, wanted, [&](std::uint32_t t, const Piece& piece, std::size_t others) {
+    const bool known = sample_piece(piece, others, [&](const ExactPoint& p) {
+      return samples.note_free(side_, t, p, theirs(t));
+    });
+    if (!known) samples.fail();
+    return !samples.settled();
+  });
+}
+
+}  // namespace satcheck

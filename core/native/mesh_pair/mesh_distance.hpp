@@ -1,0 +1,20 @@
+// Distances of surfaces, by branch and bound over box trees, in float64.
+#pragma once
+
+#include <optional>
+
+#include "mesh/surface.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+
+namespace satcheck {
+
+struct MeshDistance {
+  double distance = INFINITY;  // |witness_b - witness_a|; infinite when beyond the limit
+  Vec3 witness_a, witness_b;
+  std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;
+};
+
+// Distance of the two surfaces, 0 when they meet; what is inside a solid makes no difference.
+MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit);
+
+}  // namespace satcheck

@@ -1,0 +1,104 @@
+#include "mesh_pair/mesh_pair.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "exact/triangle_pair.hpp"
+#include "mesh_pair/contact.hpp"
+#include "mesh_pair/sheet_contact.hpp"
+#include "mesh_pair/traversal.hpp"
+
+namespace satcheck {
+namespace {
+
+// The triangles by coordinates, each rotated to start at its least corner.
+std::vector<Corners> canonical_triangles(const Mesh& mesh, bool keep_winding) {
+  const auto less = [](Vec3 p, Vec3 q) {
+    return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+  };
+  std::vector<Corners> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Corners& c = triangles.emplace_back(corners(mesh, t));
+    if (!keep_winding) {
+      std::sort(c.begin(), c.end(), less);
+    } else {
+      std::rotate(c.begin(), std::min_element(c.begin(), c.end(), less), c.end());
+    }
+  }
+  std::sort(triangles.begin(), triangles.end(), [&](const Corners& s, const Corners& t) {
+    return std::lexicographical_compare(s.begin(), s.end(), t.begin(), t.end(), less);
+  });
+  return triangles;
+}
+
+bool same_geometry(const Surface& a, const Surface& b) {
+  if (a.mesh.triangles.size() != b.mesh.triangles.size() || a.mesh.triangles.empty()) return false;
+  if (a.mesh.vertices.size() != b.mesh.vertices.size() || a.solid != b.solid) return false;
+  const Aabb &box_a = a.bvh.nodes[0].box, &box_b = b.bvh.nodes[0].box;
+  if (!(box_a.min == box_b.min) || !(box_a.max == box_b.max)) return false;
+  return canonical_triangles(a.mesh, a.solid) == canonical_triangles(b.mesh, b.solid);
+}
+
+MeshRelation make_relation(Relation relation, const std::optional<Evidence>& where) {
+  MeshRelation result;
+  result.relation = relation;
+  if (where) {
+    result.triangle_a = where->triangle_a;
+    result.triangle_b = where->triangle_b;
+    result.point = where->point;
+  }
+  return result;
+}
+
+MeshRelation make_relation(const PairFacts& facts) {
+  MeshRelation result = make_relation(facts.relation(), facts.common ? facts.overlap : facts.touch);
+  result.proven = facts.proven || facts.settled();
+  return result;
+}
+
+MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair crossing) {
+  const Vec3 point = crossing_point(corners(a.mesh, crossing.a), corners(b.mesh, crossing.b));
+  return make_relation(Relation::penetrating, Evidence{crossing.a, crossing.b, point});
+}
+
+MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts) {
+  MeshRelation result = make_relation(judge_contact(a, b, contacts));
+  result.judged = contacts.size();
+  return result;
+}
+
+MeshRelation relation_of_solids(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+  if (!found.crossing) return judged_relation(a, b, found.contacts);
+  const PairFacts facts = facts_at_crossing(a, b, *found.crossing);
+  if (facts.settled()) return crossing_relation(a, b, *found.crossing);
+  return judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts);
+}
+
+MeshRelation relation_of_sheets(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+  if (found.crossing) return crossing_relation(a, b, *found.crossing);
+  if (found.contacts.empty()) return {};
+  const ContactPair& first = found.contacts[0];
+  const ContactVerdict verdict = judge_sheet_contact(a, b, found.contacts);
+  const Vec3 point = contact_point(corners(a.mesh, first.a), corners(b.mesh, first.b));
+  MeshRelation result = verdict.crossing ? make_relation(Relation::penetrating, verdict.crossing)
+                                         : make_relation(Relation::touching, Evidence{first.a, first.b, point});
+  result.proven = verdict.proven;
+  return result;
+}
+
+}  // namespace
+
+MeshRelation mesh_relation(const Surface& a, const Surface& b) {
+  if (same_geometry(a, b)) {
+    const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
+    return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
+  }
+  const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
+  MeshRelation result = a.solid || b.solid ? relation_of_solids(a, b, found) : relation_of_sheets(a, b, found);
+  result.box_tests = found.box_tests;
+  result.triangle_tests = found.triangle_tests;
+  return result;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,32 @@
+// The relation of two meshes, decided by exact predicates.
+//
+// separated    no common point, and neither contains the other
+// penetrating  interiors overlap (solids), or surfaces cross (a side that is not solid)
+// touching     common surface points, no overlap
+// contains     b is inside the material of a without touching its surface; inside: the reverse
+// coincident   the same triangles at the same place
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "mesh/surface.hpp"
+
+namespace satcheck {
+
+enum class Relation { separated, touching, penetrating, contains, inside, coincident };
+
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFF;
+
+struct MeshRelation {
+  Relation relation = Relation::separated;
+  bool proven = true;  // false: a degenerate contact was decided by samples
+  std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;  // evidence
+  std::optional<Vec3> point;  // a common point, rounded
+  std::size_t box_tests = 0, triangle_tests = 0;
+  std::size_t judged = 0;  // pairs of triangles in contact that samples had to be taken beside
+};
+
+MeshRelation mesh_relation(const Surface& a, const Surface& b);
+
+}  // namespace satcheck

@@ -1,0 +1,37 @@
+// A surface that is moved again and again by a translation, without building its tree anew.
+#pragma once
+
+#include "mesh/surface.hpp"
+
+namespace satcheck {
+
+class MovedSurface {
+ public:
+  // `still` must outlive this.
+  explicit MovedSurface(const Surface& still) : still_(still), moved_(still) {}
+
+  // The surface with t added to every coordinate and rounded once. Rounding keeps the order of
+  // coordinates, so the moved boxes hold the moved triangles exactly. Valid until the next call.
+  const Surface& at(Vec3 t) {
+    const auto move_box = [&](const Aabb& box) { return Aabb{box.min + t, box.max + t}; };
+    for (std::size_t i = 0; i < still_.mesh.vertices.size(); ++i) {
+      moved_.mesh.vertices[i] = still_.mesh.vertices[i] + t;
+    }
+    for (std::size_t i = 0; i < still_.bvh.nodes.size(); ++i) {
+      moved_.bvh.nodes[i].box = move_box(still_.bvh.nodes[i].box);
+    }
+    for (std::size_t i = 0; i < still_.bvh.boxes.size(); ++i) {
+      moved_.bvh.boxes[i] = move_box(still_.bvh.boxes[i]);
+    }
+    for (std::size_t i = 0; i < still_.parts.size(); ++i) {
+      moved_.parts[i].box = move_box(still_.parts[i].box);
+    }
+    return moved_;
+  }
+
+ private:
+  const Surface& still_;
+  Surface moved_;
+};
+
+}  // namespace satcheck

@@ -1,0 +1,41 @@
+// What is known of two bodies, and which relation that amounts to.
+//
+// A solid is the set of points of winding number != 0, up to points of its surface; its boundary is where
+// that set ends. A wall of no thickness (0 on both sides) or a face inside the material (not 0 on either
+// side) is part of the mesh and not of the boundary. A mesh that is no solid is all boundary and has no
+// inside.
+#pragma once
+
+#include <optional>
+
+#include "mesh_pair/mesh_pair.hpp"
+
+namespace satcheck {
+
+struct Evidence {
+  std::uint32_t triangle_a, triangle_b;  // kNoTriangle where there is none
+  Vec3 point;                            // rounded
+};
+
+struct PairFacts {
+  bool common = false;   // there is a common inner point; of a sheet all points count
+  bool a_alone = false;  // there is an inner point of A outside of B
+  bool b_alone = false;
+  bool contact = false;  // the boundaries have a common point
+  std::optional<Evidence> overlap;  // where interiors meet: known with `common`
+  std::optional<Evidence> touch;    // where boundaries meet: known with `contact`
+  bool proven = true;  // false: a sample that might have shown another fact gave no answer
+
+  // Further facts would not change the relation.
+  bool settled() const { return common && (a_alone || b_alone) && (contact || (a_alone && b_alone)); }
+
+  // For facts that are settled, or complete.
+  Relation relation() const {
+    if (!common) return contact ? Relation::touching : Relation::separated;
+    if (!a_alone && !b_alone) return Relation::coincident;
+    if (contact || (a_alone && b_alone)) return Relation::penetrating;
+    return a_alone ? Relation::contains : Relation::inside;
+  }
+};
+
+}  // namespace satcheck

@@ -1,0 +1,77 @@
+#include "mesh_pair/traversal.hpp"
+
+#include <utility>
+
+#include "exact/triangle_pair.hpp"
+
+namespace satcheck {
+namespace {
+
+double half_area(const Aabb& box) {
+  const Vec3 e = box.max - box.min;
+  return e.x * e.y + e.y * e.z + e.z * e.x;
+}
+
+class Traversal {
+ public:
+  Traversal(const Surface& a, const Surface& b, AtCrossing at_crossing)
+      : a_(a), b_(b), at_crossing_(at_crossing) {}
+
+  SurfaceContacts run() {
+    if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return {};
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
+    while (!stack.empty() && !ended()) {
+      const auto [i, j] = stack.back();
+      stack.pop_back();
+      const BvhNode &m = a_.bvh.nodes[i], &n = b_.bvh.nodes[j];
+      ++found_.box_tests;
+      if (!meet(m.box, n.box)) continue;
+      if (m.is_leaf() && n.is_leaf()) {
+        test_leaves(m, n);
+      } else if (n.is_leaf() || (!m.is_leaf() && half_area(m.box) >= half_area(n.box))) {
+        stack.emplace_back(m.first + 1, j);
+        stack.emplace_back(m.first, j);
+      } else {
+        stack.emplace_back(i, n.first + 1);
+        stack.emplace_back(i, n.first);
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  bool ended() const { return found_.crossing && at_crossing_ == AtCrossing::stop; }
+
+  void test_leaves(const BvhNode& m, const BvhNode& n) {
+    for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
+      const Aabb& box = a_.bvh.boxes[k];
+      if (!meet(box, n.box)) continue;
+      const std::uint32_t ta = a_.bvh.order[k];
+      const Corners ca = corners(a_.mesh, ta);
+      const TrianglePlane plane(ca[0], ca[1], ca[2]);
+      for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
+        if (!meet(box, b_.bvh.boxes[l])) continue;
+        const std::uint32_t tb = b_.bvh.order[l];
+        ++found_.triangle_tests;
+        const TriangleContact contact = classify(plane, corners(b_.mesh, tb));
+        if (contact == TriangleContact::disjoint) continue;
+        if (contact == TriangleContact::crossing && !found_.crossing) found_.crossing = ContactPair{ta, tb};
+        if (ended()) return;
+        found_.contacts.push_back({ta, tb});
+      }
+    }
+  }
+
+  const Surface& a_;
+  const Surface& b_;
+  AtCrossing at_crossing_;
+  SurfaceContacts found_;
+};
+
+}  // namespace
+
+SurfaceContacts find_contacts(const Surface& a, const Surface& b, AtCrossing at_crossing) {
+  return Traversal(a, b, at_crossing).run();
+}
+
+}  // namespace satcheck

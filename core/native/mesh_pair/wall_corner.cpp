@@ -1,0 +1,52 @@
+#include "mesh_pair/wall_corner.hpp"
+
+#include <algorithm>
+
+namespace satcheck {
+namespace {
+
+// Rounding of a point that a solved system puts on a wall, as a share of the largest offset.
+constexpr double kOnWall = 1e-12;
+// Walls whose normals span less than this volume (squared) have no useful corner.
+constexpr double kFlattest = 1e-12;
+
+Vec3 on_one(const Wall& p) { return p.normal * p.offset; }
+
+// The point of least norm on two planes: in the plane of their normals.
+std::optional<Vec3> on_two(const Wall& p, const Wall& q) {
+  const double c = dot(p.normal, q.normal), det = 1 - c * c;
+  if (det < kFlattest) return std::nullopt;
+  return p.normal * ((p.offset - c * q.offset) / det) + q.normal * ((q.offset - c * p.offset) / det);
+}
+
+std::optional<Vec3> on_three(const Wall& p, const Wall& q, const Wall& r) {
+  const Vec3 qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal), pq = cross(p.normal, q.normal);
+  const double det = dot(p.normal, qr);
+  if (det * det < kFlattest) return std::nullopt;
+  return (qr * p.offset + rp * q.offset + pq * r.offset) * (1 / det);
+}
+
+}  // namespace
+
+std::optional<Vec3> nearest_beyond(const std::vector<Wall>& walls) {
+  if (walls.empty()) return Vec3{};
+  double scale = 0;
+  for (const Wall& w : walls) scale = std::fmax(scale, std::fabs(w.offset));
+  std::optional<Vec3> best;
+  const auto consider = [&](std::optional<Vec3> t) {
+    if (!t || (best && norm_squared(*t) >= norm_squared(*best))) return;
+    const bool beyond = std::all_of(walls.begin(), walls.end(), [&](const Wall& w) {
+      return dot(w.normal, *t) >= w.offset - kOnWall * scale;
+    });
+    if (beyond) best = t;
+  };
+  const Wall& last = walls.back();
+  consider(on_one(last));
+  for (std::size_t i = 0; i + 1 < walls.size(); ++i) {
+    consider(on_two(walls[i], last));
+    for (std::size_t k = 0; k < i; ++k) consider(on_three(walls[k], walls[i], last));
+  }
+  return best;
+}
+
+}  // namespace satcheck

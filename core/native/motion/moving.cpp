@@ -1,0 +1,37 @@
+#include "motion/moving.hpp"
+
+namespace satcheck {
+namespace {
+
+// The largest s with room >= rate s + bend s^2 / 2, for room > 0 and bend >= 0.
+double time_by_bend(double room, double rate, double bend) {
+  if (bend == 0) return rate > 0 ? room / rate : INFINITY;
+  const double root = std::sqrt(rate * rate + 2 * bend * room);
+  return rate > 0 ? 2 * room / (rate + root) : (root - rate) / bend;
+}
+
+double time_until(const Closing& closing, double level) {
+  const double room = closing.gap - level;
+  if (!(room > 0)) return 0;
+  const double steadily = closing.ahead.steady > 0 ? room / closing.ahead.steady : INFINITY;
+  return std::fmax(steadily, time_by_bend(room, closing.ahead.rate, closing.bend));
+}
+
+// The least of the bound over 0 <= s <= window: where the rate is negative the gap opens first, and the
+// bound is concave, so that its least value is at an end.
+double least(double gap, const Closing::Speed& speed, double bend, double window) {
+  const double steadily = gap - speed.steady * window;
+  const double bent = gap - speed.rate * window - bend * window * window / 2;
+  return std::fmin(gap, std::fmax(steadily, bent));
+}
+
+}  // namespace
+
+double MotionQuestion::answer(const Closing& closing) const {
+  if (std::isnan(closing.gap)) return trivial();
+  if (time_) return std::fmin(time_until(closing, level_), extent_);
+  return std::fmin(least(closing.gap, closing.ahead, closing.bend, extent_),
+                   least(closing.gap, closing.back, closing.bend, extent_));
+}
+
+}  // namespace satcheck

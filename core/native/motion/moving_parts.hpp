@@ -1,0 +1,95 @@
+// What the bounds of motion are asked about: boxes, triangles and shapes, placed.
+#pragma once
+
+#include "convex/minkowski.hpp"
+#include "mesh/surface.hpp"
+#include "motion/moving.hpp"
+
+namespace satcheck {
+
+// A box of the tree, placed.
+struct PlacedBox {
+  const Mat3& rotation;
+  Vec3 centre, half;  // world; along the axes of the body
+  double radius;
+
+  PlacedBox(const Aabb& box, const Pose& pose)
+      : rotation(pose.rotation),
+        centre(pose * (box.min * 0.5 + box.max * 0.5)),
+        half(box.max * 0.5 - box.min * 0.5),
+        radius(norm(half)) {}
+
+  Interval along(Vec3 n) const {
+    const Vec3 m = transpose_times(rotation, n);
+    const double middle = dot(n, centre);
+    const double reach = std::fabs(m.x) * half.x + std::fabs(m.y) * half.y + std::fabs(m.z) * half.z;
+    return {middle - reach, middle + reach};
+  }
+  double turning(const Moving& moving) const {
+    return norm(cross(moving.spin, centre - moving.centre)) + norm(moving.spin) * radius;
+  }
+  Vec3 axis(int k) const { return {rotation.row[0][k], rotation.row[1][k], rotation.row[2][k]}; }
+};
+
+struct PlacedTriangle {
+  std::array<Vec3, 3> corners;
+
+  PlacedTriangle(const Surface& surface, std::uint32_t triangle, const Pose& pose)
+      : corners(satcheck::corners(surface.mesh, triangle)) {
+    for (Vec3& p : corners) p = pose * p;
+  }
+
+  Interval along(Vec3 n) const {
+    const double x = dot(n, corners[0]), y = dot(n, corners[1]), z = dot(n, corners[2]);
+    return {std::fmin(x, std::fmin(y, z)), std::fmax(x, std::fmax(y, z))};
+  }
+  double turning(const Moving& moving) const {
+    double largest = 0;
+    for (const Vec3& p : corners) largest = std::fmax(largest, norm(cross(moving.spin, p - moving.centre)));
+    return largest;
+  }
+  Vec3 centre() const { return (corners[0] + corners[1] + corners[2]) * (1.0 / 3); }
+  Vec3 normal() const { return cross(corners[1] - corners[0], corners[2] - corners[0]); }
+};
+
+// A shape, placed, with the box about it in its own frame.
+class PlacedShape {
+ public:
+  PlacedShape(const Shape& shape, const Pose& pose) : shape_(shape), core_(core_placement(shape, pose)) {
+    Vec3 high{support({1, 0, 0}), support({0, 1, 0}), support({0, 0, 1})};
+    Vec3 low{-support({-1, 0, 0}), -support({0, -1, 0}), -support({0, 0, -1})};
+    centre_ = core_ * ((low + high) * 0.5);
+    radius_ = norm(high - low) * 0.5;
+  }
+
+  Interval along(Vec3 n) const {
+    const Vec3 m = transpose_times(core_.rotation, n);
+    const double middle = dot(n, core_.translation), margin = shape_.margin * norm(n);
+    return {middle + dot(m, core_support(shape_, -m).point) - margin,
+            middle + dot(m, core_support(shape_, m).point) + margin};
+  }
+  double turning(const Moving& moving) const {
+    return norm(cross(moving.spin, centre_ - moving.centre)) + norm(moving.spin) * radius_;
+  }
+  Vec3 centre() const { return centre_; }
+
+ private:
+  double support(Vec3 m) const { return dot(m, core_support(shape_, m).point) + shape_.margin; }
+
+  const Shape& shape_;
+  Pose core_;
+  Vec3 centre_;
+  double radius_;
+};
+
+// The axis, turned round where it points against the direction.
+inline Vec3 towards(Vec3 axis, Vec3 direction) { return dot(axis, direction) < 0 ? -axis : axis; }
+
+// What is left of a direction across the relative motion of two points, world.
+inline Vec3 across_motion(Vec3 direction, const Views& views, Vec3 on_a, Vec3 on_b) {
+  const Vec3 v = views.world().a.velocity_at(on_a) - views.world().b.velocity_at(on_b);
+  const double squared = norm_squared(v);
+  return squared > 0 ? direction - v * (dot(direction, v) / squared) : Vec3{};
+}
+
+}  // namespace satcheck

@@ -1,0 +1,30 @@
+// Which of many boxes are close to each other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.hpp"
+
+namespace satcheck {
+
+using IndexPair = std::array<std::uint32_t, 2>;
+
+// A proven lower bound of the distance of two closed boxes: 0 exactly when they meet.
+double box_gap(const Aabb& a, const Aabb& b);
+
+// What close_pairs() is asked. reach: how far a box reaches out, so that two are close where box_gap is at
+// most the sum of theirs. kind: pairs of boxes whose kinds are in `exempt_kinds` are left out, and so are
+// the pairs in `exempt`; in both the lower number comes first, and a kind may be paired with itself.
+struct CloseQuery {
+  std::vector<Aabb> boxes;
+  std::vector<double> reach;
+  std::vector<std::uint32_t> kind;
+  std::vector<IndexPair> exempt_kinds, exempt;
+};
+
+// The close pairs i < j, sorted.
+std::vector<IndexPair> close_pairs(CloseQuery query);
+
+}  // namespace satcheck

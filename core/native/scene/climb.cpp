@@ -1,0 +1,182 @@
+#include "scene/climb.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <thread>
+
+#include "base/parallel.hpp"
+#include "mesh_pair/boundary_contact.hpp"
+#include "scene/broad_phase.hpp"
+#include "scene/touch_proof.hpp"
+
+namespace satcheck {
+namespace {
+
+// Pairs that one thread takes at a time, at most: neighbours along the curve share their bodies. Of few, which
+// may be large, each thread gets several turns.
+constexpr std::size_t kTogether = 8;
+constexpr std::size_t kTurns = 4;
+
+// Vertices of a body that are worth a thread of their own.
+constexpr std::size_t kManyVertices = 8192;
+
+enum Clock : std::size_t { kBoxes, kOriented, kHulls, kNesting, kTriangles, kBand };
+
+bool holds(const Aabb& outer, const Aabb& inner) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(outer.min[axis] <= inner.min[axis] && inner.max[axis] <= outer.max[axis])) return false;
+  }
+  return true;
+}
+
+class Climber {
+ public:
+  Climber(const ClimbRequest& asked, Rung first, Rung last) : q_(asked), first_(first), last_(last) {}
+
+  Climb take() {
+    if (takes(Rung::aabb) && timed(kBoxes, [&] { return boxes_settle(); })) return found_;
+    if (takes(Rung::obb) && timed(kOriented, [&] { return oriented_boxes_settle(); })) return found_;
+    if (takes(Rung::hull) && hulls_settle()) {
+      if (hulls_leave_gap_open()) timed(kBand, [&] { return measure_gap(); });
+      return found_;
+    }
+    if (takes(Rung::triangles)) triangles();
+    return found_;
+  }
+
+ private:
+  bool takes(Rung rung) const { return first_ <= rung && rung <= last_; }
+
+  template <class Step>
+  bool timed(Clock clock, Step step) {
+    const auto start = std::chrono::steady_clock::now();
+    const bool result = step();
+    found_.nanoseconds[clock] =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  }
+
+  bool boxes_settle() {
+    found_.box_gap = box_gap(q_.a->bounds(), q_.b->bounds());
+    return found_.box_gap > q_.asked_gap;
+  }
+
+  bool oriented_boxes_settle() {
+    double pad_a = q_.a->resolution(), pad_b = q_.b->resolution();
+    if (pad_a + pad_b < q_.asked_gap) pad_a = pad_b = 0.5 * q_.asked_gap;
+    const OrientedBox a = q_.a->oriented_box(pad_a), b = q_.b->oriented_box(pad_b);
+    if (!a.turned && !b.turned) {
+      found_.boxes = BoxOutcome::unturned;
+    } else if (!a.is_box || !b.is_box) {
+      found_.boxes = BoxOutcome::sheared;
+    } else {
+      found_.box_feature = separating_feature(a, b);
+      found_.boxes = found_.box_feature == Feature::none ? BoxOutcome::meet : BoxOutcome::apart;
+    }
+    return found_.boxes == BoxOutcome::apart;
+  }
+
+  // Calls make(body) of both, of large ones at the same time.
+  template <class Make>
+  void make_both(Make make) {
+    const auto is_large = [](PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; };
+    const unsigned threads = is_large(*q_.a) && is_large(*q_.b) ? 0 : 1;
+    parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? *q_.a : *q_.b); });
+  }
+
+  PairResult ask_hulls(Query query) {
+    return check_pair(*q_.a->hull_shape(), {}, *q_.b->hull_shape(), {}, query);
+  }
+
+  bool hulls_settle() {
+    const bool settled = timed(kHulls, [&] {
+      found_.both_convex = q_.a->shared().convex() && q_.b->shared().convex();
+      make_both([](PlacedGeometry& body) { body.hull_shape(); });
+      return found_.both_convex ? convex_bodies_settle() : hulls_apart();
+    });
+    if (found_.both_convex && found_.hulls->outcome == Outcome::penetrating && boxes_nest()) {
+      timed(kNesting, [&] {
+        found_.nesting = mesh_relation(*q_.a->surface(), *q_.b->surface()).relation;
+        return true;
+      });
+    }
+    return settled;
+  }
+
+  bool convex_bodies_settle() {
+    found_.hulls = ask_hulls(Query::depth);
+    return found_.hulls->outcome != Outcome::undecided;
+  }
+
+  bool hulls_apart() {
+    found_.hulls = ask_hulls(Query::overlap);
+    if (found_.hulls->outcome != Outcome::separated) return false;
+    found_.hulls = ask_hulls(Query::distance);
+    // The overlap was disproved, whatever is made of the distance.
+    found_.hulls->outcome = Outcome::separated;
+    return true;
+  }
+
+  // Hulls can be closer than a gap that is asked about.
+  bool hulls_leave_gap_open() const {
+    if (found_.both_convex || last_ != Rung::triangles) return false;
+    const double proven = found_.hulls->has_distance ? std::fmax(found_.hulls->lower, 0.0) : 0.0;
+    return !(std::fmax(proven, found_.box_gap) > q_.asked_gap);
+  }
+
+  bool boxes_nest() const {
+    return holds(q_.a->bounds(), q_.b->bounds()) || holds(q_.b->bounds(), q_.a->bounds());
+  }
+
+  void triangles() {
+    timed(kTriangles, [&] {
+      make_both([](PlacedGeometry& body) { body.surface(); });
+      found_.triangles = mesh_relation(*q_.a->surface(), *q_.b->surface());
+      return true;
+    });
+    const Relation relation = found_.triangles->relation;
+    if (relation == Relation::separated) {
+      timed(kBand, [&] { return measure_gap(); });
+    } else if (relation != Relation::touching && q_.tolerance > 0) {
+      timed(kBand, [&] {
+        found_.least_depth = least_depth(*q_.a, *q_.b, *found_.triangles);
+        return true;
+      });
+    }
+  }
+
+  bool measure_gap() {
+    if (q_.asked_gap == 0) return false;
+    const std::shared_ptr<Surface> a = q_.a->surface(), b = q_.b->surface();
+    found_.gap = mesh_distance(*a, *b, q_.wants_distance ? INFINITY : q_.tolerance);
+    if (std::isfinite(found_.gap->distance)) {
+      found_.gap_is_void = has_void(*a, found_.gap->triangle_a) || has_void(*b, found_.gap->triangle_b);
+    }
+    return true;
+  }
+
+  const ClimbRequest& q_;
+  Rung first_, last_;
+  Climb found_;
+};
+
+}  // namespace
+
+Climb climb(const ClimbRequest& request, Rung first, Rung last) { return Climber(request, first, last).take(); }
+
+std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads) {
+  std::vector<std::optional<Climb>> found(requests.size());
+  const std::size_t workers = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t together = std::clamp<std::size_t>(requests.size() / (kTurns * workers), 1, kTogether);
+  parallel_for(requests.size(), threads, [&](std::size_t i) {
+    try {
+      found[i] = climb(requests[i], Rung::aabb, last);
+    } catch (const std::exception&) {  // said when the pair is asked alone
+      found[i].reset();
+    }
+  }, together);
+  return found;
+}
+
+}  // namespace satcheck

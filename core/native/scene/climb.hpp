@@ -1,0 +1,54 @@
+// The ladder: each rung settles what it can prove about a pair and leaves the rest to the next.
+//
+// aabb -> obb -> hull -> triangles. A rung that proves the bodies apart by more than was asked about ends the climb.
+// After the triangles come the proofs of the touch band that need no search.
+#pragma once
+
+#include <vector>
+
+#include "convex/narrow_phase.hpp"
+#include "mesh_pair/mesh_distance.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+#include "scene/geometry.hpp"
+
+namespace satcheck {
+
+enum class Rung : std::uint8_t { aabb, obb, hull, triangles };
+
+// One pair. asked_gap: a gap beyond this is not asked about. tolerance: half width of the touch band.
+// wants_distance: of bodies apart, however far; else a gap is measured as far as the band reaches.
+struct ClimbRequest {
+  PlacedGeometry* a;
+  PlacedGeometry* b;
+  double asked_gap, tolerance;
+  bool wants_distance;
+};
+
+// sheared, unturned: why oriented boxes say no more than the world boxes.
+enum class BoxOutcome : std::uint8_t { not_asked, sheared, unturned, apart, meet };
+
+// What each rung found, and what it cost; nothing where the climb did not get so far.
+struct Climb {
+  double box_gap = 0;  // a proven lower bound of the gap of the world boxes
+  BoxOutcome boxes = BoxOutcome::not_asked;
+  Feature box_feature = Feature::none;
+  bool both_convex = false;
+  std::optional<PairResult> hulls;  // of two convex bodies the depth; else the distance, or the overlap alone
+  std::optional<Relation> nesting;  // of two convex bodies that overlap and whose boxes nest
+  std::optional<MeshRelation> triangles;
+  std::optional<double> least_depth;  // of an overlap that triangles decided, and a band that is not 0
+  std::optional<MeshDistance> gap;    // of surfaces apart
+  bool gap_is_void = false;           // it may be that of a wall that bounds no material
+  // Of the rungs, in the order above, those of nesting and of the last two (one of which runs) included.
+  std::array<std::int64_t, 6> nanoseconds{};
+};
+
+// From `first` up to `last`, which is taken even where what it finds cannot settle the pair. Throws what the
+// making of a body throws.
+Climb climb(const ClimbRequest& request, Rung first, Rung last);
+
+// All of them, on `threads` threads (0: one a core). Nothing for a pair of which the climb threw: asked alone it
+// throws again.
+std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads);
+
+}  // namespace satcheck

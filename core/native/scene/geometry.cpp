@@ -1,0 +1,102 @@
+#include "scene/geometry.hpp"
+
+#include "mesh/convexity.hpp"
+#include "mesh/topology.hpp"
+
+namespace satcheck {
+namespace {
+
+using Lock = std::lock_guard<std::recursive_mutex>;
+
+template <class T, class Make>
+std::shared_ptr<T> once(std::recursive_mutex& mutex, std::shared_ptr<T>& kept, Make make) {
+  const Lock lock(mutex);
+  if (!kept) kept = std::make_shared<T>(make());
+  return kept;
+}
+
+}  // namespace
+
+const Aabb& Geometry::bounds() {
+  const Lock lock(mutex_);
+  if (!bounds_) {
+    bounds_.emplace();
+    for (const Vec3& p : mesh_->vertices) bounds_->include(p);
+  }
+  return *bounds_;
+}
+
+bool Geometry::convex() {
+  const Lock lock(mutex_);
+  if (!convex_) convex_ = solid_ && convexity_defect(*mesh_, 0.0) == 0.0;
+  return *convex_;
+}
+
+std::optional<bool> Geometry::known_convex() const {
+  const Lock lock(mutex_);
+  return convex_;
+}
+
+std::shared_ptr<Surface> Geometry::surface() {
+  return once(mutex_, surface_, [&] {
+    ++hierarchies_;
+    return make_surface(*mesh_, solid_);
+  });
+}
+
+std::shared_ptr<Polytope> Geometry::hull() {
+  return once(mutex_, hull_, [&] { return convex_hull(mesh_->vertices); });
+}
+
+std::shared_ptr<Shape> Geometry::hull_shape() {
+  return once(mutex_, hull_shape_, [&] { return make_hull(*hull()); });
+}
+
+std::shared_ptr<HullPoints> Geometry::hull_points() {
+  return once(mutex_, hull_points_, [&] { return find_hull_points(*mesh_); });
+}
+
+std::shared_ptr<Surface> Geometry::surface_of(const Mesh& placed) {
+  auto fitted = std::make_shared<Surface>(refitted_surface(*surface(), placed));
+  ++(fitted->refitted ? refits_ : hierarchies_);
+  return fitted;
+}
+
+std::shared_ptr<Mesh> PlacedGeometry::mesh() {
+  if (!transform_) return shared_->mesh();
+  return once(mutex_, mesh_, [&] { return transform(*shared_->mesh(), *transform_); });
+}
+
+std::shared_ptr<Surface> PlacedGeometry::surface() {
+  if (!transform_) return shared_->surface();
+  const Lock lock(mutex_);
+  if (!surface_) surface_ = shared_->surface_of(*mesh());
+  return surface_;
+}
+
+std::shared_ptr<Polytope> PlacedGeometry::hull() {
+  if (!transform_) return shared_->hull();
+  return once(mutex_, hull_, [&] { return convex_hull(mesh()->vertices); });
+}
+
+std::shared_ptr<Shape> PlacedGeometry::hull_shape() {
+  if (!transform_) return shared_->hull_shape();
+  return once(mutex_, hull_shape_, [&] {
+    auto placed = placed_hull(*shared_->hull_points(), *transform_);
+    return placed ? std::move(*placed) : make_hull(*hull());
+  });
+}
+
+OrientedBox PlacedGeometry::oriented_box(double pad) {
+  return carried_box(shared_->bounds(), transform_ ? &*transform_ : nullptr, pad);
+}
+
+void PlacedGeometry::let_go() {
+  const Lock lock(mutex_);
+  mesh_.reset();
+  surface_.reset();
+  hull_.reset();
+  hull_shape_.reset();
+}
+
+}  // namespace satcheck

@@ -1,0 +1,92 @@
+// What is made of the mesh of a body, in its file and in the world: each thing by the first thread that asks
+// for it, once.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "mesh/hull_points.hpp"
+#include "mesh/surface.hpp"
+#include "scene/oriented_box.hpp"
+
+namespace satcheck {
+
+using Matrix = std::array<double, 16>;  // 4x4 by rows, for column vectors
+
+// What all bodies of one mesh share, in file coordinates.
+class Geometry {
+ public:
+  // solid: the mesh is closed and consistently wound. Surfaces throw std::invalid_argument where it is not.
+  Geometry(std::shared_ptr<Mesh> mesh, bool solid) : mesh_(std::move(mesh)), solid_(solid) {}
+
+  const std::shared_ptr<Mesh>& mesh() const { return mesh_; }
+  bool solid() const { return solid_; }
+  const Aabb& bounds();
+
+  // Closed, consistently outward, and exactly convex. An affine map keeps that, up to the one rounding of each
+  // world coordinate: the body is then taken as the hull of its world vertices.
+  bool convex();
+  std::optional<bool> known_convex() const;
+
+  std::shared_ptr<Surface> surface();
+  std::shared_ptr<Polytope> hull();
+  std::shared_ptr<Shape> hull_shape();
+  std::shared_ptr<HullPoints> hull_points();
+
+  // The surface of the placed mesh.
+  std::shared_ptr<Surface> surface_of(const Mesh& placed);
+
+  // How many trees were built, and how many were fitted again to placed vertices.
+  std::size_t hierarchies() const { return hierarchies_; }
+  std::size_t refits() const { return refits_; }
+
+ private:
+  std::shared_ptr<Mesh> mesh_;
+  bool solid_;
+  mutable std::recursive_mutex mutex_;  // of all below
+  std::optional<Aabb> bounds_;
+  std::optional<bool> convex_;
+  std::shared_ptr<Surface> surface_;
+  std::shared_ptr<Polytope> hull_;
+  std::shared_ptr<Shape> hull_shape_;
+  std::shared_ptr<HullPoints> hull_points_;
+  std::atomic<std::size_t> hierarchies_{0}, refits_{0};
+};
+
+// One of these bodies, in the world. What is made of it can be let go; it is made again should somebody ask.
+class PlacedGeometry {
+ public:
+  // transform: affine and not singular; nothing: as in the file. bounds: of the body. resolution: how finely its
+  // coordinates are known, world units.
+  PlacedGeometry(std::shared_ptr<Geometry> shared, std::optional<Matrix> transform, Aabb bounds, double resolution)
+      : shared_(std::move(shared)), transform_(transform), bounds_(bounds), resolution_(resolution) {}
+
+  Geometry& shared() const { return *shared_; }
+  const Aabb& bounds() const { return bounds_; }
+  double resolution() const { return resolution_; }
+
+  std::shared_ptr<Mesh> mesh();  // each coordinate rounded once
+  std::shared_ptr<Surface> surface();
+  std::shared_ptr<Polytope> hull();      // of all vertices, with its faces
+  std::shared_ptr<Shape> hull_shape();   // the same as a shape, as a rule without faces
+  // The box of the file's mesh, carried by the transform; it holds every point within `pad` of the body.
+  OrientedBox oriented_box(double pad);
+
+  void let_go();
+
+ private:
+  std::shared_ptr<Geometry> shared_;
+  std::optional<Matrix> transform_;
+  Aabb bounds_;
+  double resolution_;
+  std::recursive_mutex mutex_;  // of all below
+  std::shared_ptr<Mesh> mesh_;
+  std::shared_ptr<Surface> surface_;
+  std::shared_ptr<Polytope> hull_;
+  std::shared_ptr<Shape> hull_shape_;
+};
+
+}  // namespace satcheck

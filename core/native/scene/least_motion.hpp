@@ -1,0 +1,30 @@
+// The shortest translations of bodies that keep a set of walls: a convex quadratic program.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.hpp"
+
+namespace satcheck {
+
+// normal . (t[a] - t[b]) >= least, for translations t of the bodies a and b. normal: unit.
+struct Wall {
+  std::uint32_t a, b;
+  Vec3 normal;
+  double least;
+};
+
+// translations: 0 for bodies that are not movable, and for those without a wall. multipliers: how far each
+// wall pushes its bodies, >= 0; a translation is the sum of the pushes of its walls.
+struct LeastMotion {
+  std::vector<Vec3> translations;
+  std::vector<double> multipliers;
+};
+
+// Minimises the sum of the squared translations. multipliers: those of an earlier solution of similar walls,
+// or zeros. A wall has a movable body at least. Walls that exclude each other are not all kept.
+LeastMotion least_motion(const std::vector<bool>& movable, const std::vector<Wall>& walls,
+                         std::vector<double> multipliers);
+
+}  // namespace satcheck

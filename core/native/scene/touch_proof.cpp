@@ -1,0 +1,42 @@
+#include "scene/touch_proof.hpp"
+
+#include <algorithm>
+
+#include "base/tolerances.hpp"
+#include "convex/narrow_phase.hpp"
+#include "mesh_pair/boundary_contact.hpp"
+#include "mesh_pair/mesh_distance.hpp"
+
+namespace satcheck {
+namespace {
+
+Shape triangle_hull(const Surface& surface, std::uint32_t triangle) {
+  const auto c = corners(surface.mesh, triangle);
+  return make_hull(std::vector<Vec3>(c.begin(), c.end()));
+}
+
+}  // namespace
+
+double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b) {
+  if (!is_plain_boundary(a, triangle_a) || !is_plain_boundary(b, triangle_b)) return 0;
+  const PairResult found =
+      check_pair(triangle_hull(a, triangle_a), {}, triangle_hull(b, triangle_b), {}, Query::depth);
+  if (found.outcome != Outcome::penetrating || !found.has_distance) return 0;
+  return std::max(-found.upper * (1 - 2 * kUnitRoundoff), 0.0);
+}
+
+double nested_depth(PlacedGeometry& a, PlacedGeometry& b) {
+  const double gap = mesh_distance(*a.surface(), *b.surface(), INFINITY).distance;
+  double largest = 0;
+  for (const Aabb& box : {a.bounds(), b.bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
+  return std::max(gap - chain_rounding(largest), 0.0);
+}
+
+double least_depth(PlacedGeometry& a, PlacedGeometry& b, const MeshRelation& found) {
+  const bool crosses = found.triangle_a != kNoTriangle && found.triangle_b != kNoTriangle;
+  const bool nested = found.relation == Relation::contains || found.relation == Relation::inside;
+  const double crossing = crosses ? crossing_depth(*a.surface(), *b.surface(), found.triangle_a, found.triangle_b) : 0;
+  return nested ? std::max(crossing, nested_depth(a, b)) : crossing;
+}
+
+}  // namespace satcheck

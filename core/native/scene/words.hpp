@@ -1,0 +1,29 @@
+// The words by which Python knows outcomes.
+#pragma once
+
+#include "convex/narrow_phase.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+
+namespace satcheck {
+
+inline const char* name_of(Outcome outcome) {
+  constexpr const char* names[] = {"separated", "touching", "penetrating", "undecided"};
+  return names[static_cast<int>(outcome)];
+}
+
+inline const char* name_of(Method method) {
+  constexpr const char* names[] = {"none", "sat", "gjk", "epa", "exact"};
+  return names[static_cast<int>(method)];
+}
+
+inline const char* name_of(Feature feature) {
+  constexpr const char* names[] = {"none", "face-a", "face-b", "edge-edge", "vertices", "curved"};
+  return names[static_cast<int>(feature)];
+}
+
+inline const char* name_of(Relation relation) {
+  constexpr const char* names[] = {"separated", "touching", "penetrating", "contains", "inside", "coincident"};
+  return names[static_cast<int>(relation)];
+}
+
+}  // namespace satcheck

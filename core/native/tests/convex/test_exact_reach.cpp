@@ -1,0 +1,63 @@
+// Distances that are exact squares, and all that is one ulp beside them.
+#include "convex/exact_reach.hpp"
+
+#include <cmath>
+
+#include "tests/check.hpp"
+
+using namespace satcheck;
+
+namespace {
+
+const Polytope cube = convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}});
+
+Polytope point(double x, double y, double z) { return convex_hull({{x, y, z}}); }
+
+// Both orders, at the distance and one ulp to either side; reach is split unevenly over the two.
+void expect(const Polytope& a, const Polytope& b, double distance) {
+  for (const double share : {0.0, 0.25}) {
+    const double rest = distance - share;
+    for (const auto& [one, other] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+      CHECK(compare_distance(*one, *other, {share, rest}) == 0);
+      CHECK(compare_distance(*one, *other, {share, std::nextafter(rest, 0.0)}) == 1);
+      CHECK(compare_distance(*one, *other, {share, std::nextafter(rest, INFINITY)}) == -1);
+    }
+  }
+}
+
+void vertices_edges_and_faces() {
+  expect(cube, point(0.5, 0.25, 3), 2);                                   // over a face
+  expect(cube, point(0.5, 4, 5), 5);                                      // over an edge
+  expect(cube, point(2, 3, 3), 3);                                        // off a corner
+  expect(point(0, 0, 0), point(2, 3, 6), 7);                              // two points
+  expect(convex_hull({{-1, 0, 0}, {1, 0, 0}}), point(0.3, 3, 4), 5);      // a segment
+  expect(convex_hull({{9, 0, 0}, {1, 4, 0}, {-3, 1, 5}}), point(0, 0, 0), 3);  // a slanted triangle
+}
+
+void edges() {
+  expect(convex_hull({{-1, 0, 0}, {1, 0, 0}}), convex_hull({{0, -1, 2}, {0.5, 1, 2}}), 2);  // crossed
+  expect(convex_hull({{-1, 0, 0}, {1, 0, 0}}), convex_hull({{-3, 3, 4}, {9, 3, 4}}), 5);    // parallel
+  expect(convex_hull({{-1, 0, 0}, {1, 0, 0}}), convex_hull({{3, 0, 0}, {9, 0, 0}}), 2);     // in one line
+  // An edge of the cube, x + z = 2, and a slanted one in the plane x + z = 5: the distance is no float64, so
+  // only the side of the reach is asked.
+  const Polytope slanted = convex_hull({{4, -1, 1}, {1, 2, 4}});
+  const double distance = std::sqrt(4.5);
+  CHECK(compare_distance(cube, slanted, {distance * (1 + 1e-15), 0}) == -1);
+  CHECK(compare_distance(cube, slanted, {distance * (1 - 1e-15), 0}) == 1);
+}
+
+void far_and_small() {
+  const double tiny = 0x1p-140;
+  expect(point(0x1p60, 0, 0), point(0x1p60 + 0x1p10, 0, 0), 0x1p10);
+  CHECK(compare_distance(point(0, 0, 0), point(3 * tiny, 4 * tiny, 0), {5 * tiny, 0}) == 0);
+  CHECK(compare_distance(point(0, 0, 0), point(1, 0, 0), {1, tiny}) == -1);
+}
+
+}  // namespace
+
+int main() {
+  vertices_edges_and_faces();
+  edges();
+  far_and_small();
+  return satcheck::testing::exit_status();
+}

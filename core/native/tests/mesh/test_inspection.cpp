@@ -1,0 +1,70 @@
+// inspect() against the steps that it stands for, on boxes that are put together and broken.
+#include "mesh/inspection.hpp"
+
+#include <random>
+#include <utility>
+
+#include "tests/check.hpp"
+#include "tests/shapes.hpp"
+
+using namespace satcheck;
+using namespace satcheck::testing;
+
+namespace {
+
+bool same(const Topology& a, const Topology& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles && a.components == b.components &&
+         a.boundary_edges == b.boundary_edges && a.nonmanifold_edges == b.nonmanifold_edges &&
+         a.misoriented_edges == b.misoriented_edges && a.degenerate_triangles == b.degenerate_triangles &&
+         a.duplicate_triangles == b.duplicate_triangles && a.closed == b.closed && a.manifold == b.manifold &&
+         a.oriented == b.oriented && a.volume == b.volume && a.solid == b.solid;
+}
+
+bool same(const Mesh& a, const Mesh& b) { return a.vertices == b.vertices && a.triangles == b.triangles; }
+
+void check_steps(const Mesh& mesh, bool turned) {
+  const Mesh welded = sort(weld(mesh));
+  const Topology topology = measure_topology(welded);
+  const Inspection plain = inspect(mesh, false);
+  CHECK(same(plain.mesh, welded) && same(plain.topology, topology) && !plain.turned);
+  const Inspection found = inspect(mesh, true);
+  const Mesh expected = topology.closed ? orient(welded) : welded;
+  CHECK(same(found.mesh, expected) && same(found.topology, topology));
+  CHECK(found.turned == turned && turned == !same(expected, welded));
+  CHECK(same(found.repaired, measure_topology(expected)));
+}
+
+Mesh shuffled_soup(const Mesh& mesh, unsigned seed) {
+  std::mt19937 random(seed);
+  Mesh soup{{{9, 9, 9}}, {}};  // and a vertex that no triangle names
+  std::vector<Triangle> left = mesh.triangles;
+  while (!left.empty()) {
+    std::swap(left[random() % left.size()], left.back());
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t v : left.back()) soup.vertices.push_back(mesh.vertices[v]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+    left.pop_back();
+  }
+  return soup;
+}
+
+}  // namespace
+
+int main() {
+  const Mesh unit = box({-0.0, 0, 0}, {1, 1, 1});
+  check_steps(unit, false);
+  check_steps(shuffled_soup(unit, 1), false);
+  check_steps(reversed(unit), true);
+  Mesh two = unit;
+  append(two, reversed(box({0.25, 0.25, 0.25}, {0.5, 0.5, 0.5})));  // a cavity
+  check_steps(shuffled_soup(two, 2), false);
+  append(two, reversed(box({3, 3, 3}, {4, 4, 4})));
+  check_steps(shuffled_soup(two, 3), true);
+  Mesh open = unit;
+  open.triangles.pop_back();
+  check_steps(open, false);
+  Mesh mixed = unit;
+  std::swap(mixed.triangles[3][0], mixed.triangles[3][1]);
+  check_steps(shuffled_soup(mixed, 4), true);
+  return exit_status();
+}

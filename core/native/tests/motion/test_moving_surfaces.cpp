@@ -1,0 +1,212 @@
+// What is promised about moving surfaces and shapes, against sampled poses.
+#include "motion/moving_surfaces.hpp"
+
+#include <random>
+
+#include "convex/narrow_phase.hpp"
+#include "mesh_pair/mesh_distance.hpp"
+#include "motion/moving_mixed.hpp"
+#include "motion/moving_shapes.hpp"
+#include "tests/check.hpp"
+#include "tests/shapes.hpp"
+
+using namespace satcheck;
+using namespace satcheck::testing;
+
+namespace {
+
+std::mt19937 generator(7);
+
+double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator); }
+Vec3 random_vector(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+
+// The rotation about an axis by its length in radians, after Rodrigues.
+Mat3 rotation_by(Vec3 turn) {
+  const double angle = norm(turn);
+  if (angle == 0) return {};
+  const Vec3 k = turn * (1 / angle);
+  const double c = std::cos(angle), s = std::sin(angle), v = 1 - c;
+  return {{{c + v * k.x * k.x, v * k.x * k.y - s * k.z, v * k.x * k.z + s * k.y},
+           {v * k.x * k.y + s * k.z, c + v * k.y * k.y, v * k.y * k.z - s * k.x},
+           {v * k.x * k.z - s * k.y, v * k.y * k.z + s * k.x, c + v * k.z * k.z}}};
+}
+
+Moving random_moving(double spread) {
+  return {{rotation_by(random_vector(3)), random_vector(spread)}, random_vector(2), random_vector(3), random_vector(4)};
+}
+
+// Two bodies: both on the move, or one that stands while the other only turns.
+struct Two {
+  Moving a, b;
+};
+
+Two random_two(double spread, int i) {
+  Two two{random_moving(spread), random_moving(spread)};
+  if (i % 3 == 0) return two;
+  Moving &still = i % 3 == 1 ? two.a : two.b, &turning = i % 3 == 1 ? two.b : two.a;
+  still.velocity = still.spin = turning.velocity = {};
+  return two;
+}
+
+// The vertices of a body as it is at a time from now.
+std::vector<Vec3> moved(const std::vector<Vec3>& points, const Moving& moving, double time) {
+  const Mat3 turn = rotation_by(moving.spin * time);
+  std::vector<Vec3> result;
+  for (const Vec3& p : points) {
+    result.push_back(turn * (moving.pose * p - moving.centre) + moving.centre + moving.velocity * time);
+  }
+  return result;
+}
+
+Surface at(const Surface& surface, const Moving& moving, double time) {
+  return make_surface({moved(surface.mesh.vertices, moving, time), surface.mesh.triangles}, false);
+}
+
+double distance(const Surface& a, const Moving& ma, const Surface& b, const Moving& mb, double time) {
+  return mesh_distance(at(a, ma, time), at(b, mb, time), INFINITY).distance;
+}
+
+constexpr double kRounding = 1e-12;  // of sampled distances: a thousand roundoffs of coordinates up to 10
+constexpr std::uint64_t kNoLimit = 1u << 30;
+
+void promises_hold() {
+  const Surface a = make_surface(uv_sphere(3), true), b = make_surface(box({-1, -0.5, -0.2}, {1, 0.5, 0.2}), true);
+  int useful = 0, moments = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Two two = random_two(4, i);
+    const Moving &ma = two.a, &mb = two.b;
+    const double now = distance(a, ma, b, mb, 0);
+    if (now == 0) continue;
+    const double level = uniform(0, 0.5) * now;
+    const MotionAnswer time = ask_motion(a, ma, b, mb, MotionQuestion::time(level, 1), {}, kNoLimit);
+    CHECK(time.value >= 0 && time.value <= 1);
+    for (int k = 0; k <= 20; ++k) CHECK(distance(a, ma, b, mb, time.value * k / 20) >= level - kRounding);
+    // No worse than what the speeds alone say, without any direction.
+    const auto speed = [&](const Moving& m, const Surface& s) {
+      double reach = 0;
+      for (const Vec3& p : s.mesh.vertices) reach = std::fmax(reach, norm(m.pose * p - m.centre));
+      return norm(m.velocity) + norm(m.spin) * reach;
+    };
+    const double undirected = std::fmin((now - level) / (speed(ma, a) + speed(mb, b)), 1);
+    CHECK(time.value >= undirected * (1 - 1e-9));
+    ++moments;
+    useful += time.value > 1.5 * undirected;
+
+    const double window = uniform(0, 0.1);
+    const MotionAnswer gap = ask_motion(a, ma, b, mb, MotionQuestion::gap(window), {}, kNoLimit);
+    CHECK(gap.upper >= now - kRounding);
+    for (int k = -10; k <= 10; ++k) CHECK(distance(a, ma, b, mb, window * k / 10) >= gap.value - kRounding);
+    const MotionAnswer instant = ask_motion(a, ma, b, mb, MotionQuestion::gap(0), {}, kNoLimit);
+    CHECK(std::fabs(instant.value - now) <= kRounding);
+    CHECK(std::fabs(instant.upper - now) <= kRounding);
+  }
+  CHECK(moments > 100);
+  CHECK(useful > moments / 4);
+}
+
+void cut_short_is_less() {
+  const Surface a = make_surface(uv_sphere(12), true);
+  const Moving here{}, there{{{}, {5, 0.1, 0.2}}, {}, {-1, 0, 0}, {}};
+  const double full = ask_motion(a, here, a, there, MotionQuestion::time(0, 9), {}, kNoLimit).value;
+  CHECK(full > 2.9 && full < 3.2);
+  for (const std::uint64_t work : {0u, 10u, 100u, 1000u}) {
+    const MotionAnswer cut = ask_motion(a, here, a, there, MotionQuestion::time(0, 9), {}, work);
+    CHECK(cut.value <= full);
+    CHECK(cut.visits <= work + 40);  // the pair of nodes that was being looked at
+  }
+}
+
+void sliding_is_not_slowed_down() {
+  const Surface table = make_surface(box({-9, -9, -1}, {9, 9, 0}), true);
+  const Surface brick = make_surface(box({0, 0, 0.001}, {1, 1, 1}), true);
+  const Moving slides{{}, {}, {3, 2, 0}, {}}, spins{{}, {}, {}, {0, 0, 5}}, sinks{{}, {}, {3, 2, -0.01}, {}};
+  const auto time = [&](const Moving& m) { return ask_motion(brick, m, table, {}, MotionQuestion::time(0, 1), {}, kNoLimit).value; };
+  CHECK(time(slides) == 1);
+  CHECK(time(spins) == 1);
+  CHECK(std::fabs(time(sinks) - 0.1) < 1e-12);
+}
+
+// A door of which the far side sinks below the sill that it lies on: seen from the world its face gets in the
+// way of itself, seen from the door the sill goes away.
+void an_opening_door_is_not_held() {
+  const Surface sill = make_surface(box({1, -1, 0}, {2, -0.001, 1}), true);
+  const Surface door = make_surface(box({-3, 0, 0}, {3, 1, 1}), true);
+  const Moving opens{{}, {}, {}, {0, 0, 1}}, shuts{{}, {}, {}, {0, 0, -1}};
+  const auto time = [&](const Moving& a, const Surface& s, const Moving& b, const Surface& t) {
+    return ask_motion(s, a, t, b, MotionQuestion::time(0, 1), {}, kNoLimit).value;
+  };
+  CHECK(time(opens, door, {}, sill) > 0.1);
+  CHECK(time({}, sill, opens, door) > 0.1);
+  CHECK(time(shuts, door, {}, sill) < 0.001);
+}
+
+void shapes_keep_their_promises() {
+  const Shape ball = make_sphere(0.5), cone = make_cone(0.7, 1.0);
+  const Shape hull = make_hull(std::vector<Vec3>{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+  int overlapping = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Shape& a = i % 2 ? hull : ball;
+    const Shape& b = i % 3 ? hull : cone;
+    const Two two = random_two(1.5, i / 6);
+    const Moving &ma = two.a, &mb = two.b;
+    const auto signed_distance = [&](double time) {
+      const auto pose = [&](const Moving& m) {
+        const Mat3 turn = rotation_by(m.spin * time);
+        Pose p;
+        for (int r = 0; r < 3; ++r) p.rotation.row[r] = transpose_times(m.pose.rotation, turn.row[r]);
+        p.translation = turn * (m.pose.translation - m.centre) + m.centre + m.velocity * time;
+        return p;
+      };
+      return check_pair(a, pose(ma), b, pose(mb), Query::depth).upper;
+    };
+    const double window = uniform(0, 0.2);
+    const MotionAnswer gap = ask_motion(a, ma, b, mb, MotionQuestion::gap(window), {});
+    CHECK(std::isfinite(gap.value) && gap.value <= gap.upper);
+    overlapping += gap.upper < 0;
+    for (int k = -10; k <= 10; ++k) CHECK(signed_distance(window * k / 10) >= gap.value - kRounding);
+    const double level = gap.value - uniform(0, 1);
+    const MotionAnswer time = ask_motion(a, ma, b, mb, MotionQuestion::time(level, 1), {});
+    CHECK(time.value >= window * (1 - 1e-9));
+    for (int k = 0; k <= 20; ++k) CHECK(signed_distance(time.value * k / 20) >= level - kRounding);
+  }
+  CHECK(overlapping > 20);
+}
+
+// A ball, and the hull of a box, against a surface: as the distance of the surfaces.
+void a_shape_and_a_surface_keep_theirs() {
+  const Mesh ball_mesh = box({-0.3, -0.4, -0.5}, {0.3, 0.4, 0.5});
+  const Shape shape = make_hull(ball_mesh.vertices);
+  const Surface a = make_surface(ball_mesh, true), b = make_surface(uv_sphere(4), true);
+  int moments = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Two two = random_two(3, i);
+    const double now = distance(a, two.a, b, two.b, 0);
+    if (now == 0 || check_pair(shape, two.a.pose, make_hull(b.mesh.vertices), two.b.pose, Query::overlap).outcome !=
+                        Outcome::separated) {
+      continue;
+    }
+    ++moments;
+    const double level = uniform(0, 0.5) * now, window = uniform(0, 0.1);
+    const MotionAnswer time = ask_motion(shape, two.a, b, two.b, MotionQuestion::time(level, 1), {}, kNoLimit);
+    const MotionAnswer gap = ask_motion(shape, two.a, b, two.b, MotionQuestion::gap(window), {}, kNoLimit);
+    CHECK(time.value > 0);
+    for (int k = 0; k <= 20; ++k) CHECK(distance(a, two.a, b, two.b, time.value * k / 20) >= level - kRounding);
+    for (int k = -10; k <= 10; ++k) CHECK(distance(a, two.a, b, two.b, window * k / 10) >= gap.value - kRounding);
+    const MotionAnswer instant = ask_motion(shape, two.a, b, two.b, MotionQuestion::gap(0), {}, kNoLimit);
+    CHECK(std::fabs(instant.value - now) <= kRounding);
+    CHECK(std::fabs(instant.upper - now) <= kRounding);
+  }
+  CHECK(moments > 50);
+}
+
+}  // namespace
+
+int main() {
+  promises_hold();
+  cut_short_is_less();
+  sliding_is_not_slowed_down();
+  an_opening_door_is_not_held();
+  shapes_keep_their_promises();
+  a_shape_and_a_surface_keep_theirs();
+  return exit_status();
+}

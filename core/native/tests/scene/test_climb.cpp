@@ -1,0 +1,118 @@
+// Which rungs run for a pair and what they hand over; many at once answer as one by one, and a body that cannot be
+// made takes its own pairs with it, and no others.
+#include "scene/climb.hpp"
+
+#include <cmath>
+
+#include "mesh/topology.hpp"
+#include "tests/check.hpp"
+#include "tests/shapes.hpp"
+
+using namespace satcheck;
+using namespace satcheck::testing;
+
+namespace {
+
+Matrix shifted(double x, double y = 0, double z = 0, double angle = 0) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c, -s, 0, x, s, c, 0, y, 0, 0, 1, z, 0, 0, 0, 1};
+}
+
+// A box with a cavity.
+Mesh hollow() {
+  Mesh mesh = box({0, 0, 0}, {6, 6, 6});
+  append(mesh, reversed(box({1, 1, 1}, {5, 5, 5})));
+  return mesh;
+}
+
+Aabb bounds_of(const Mesh& mesh) {
+  Aabb bounds;
+  for (const Vec3& p : mesh.vertices) bounds.include(p);
+  return bounds;
+}
+
+std::shared_ptr<Geometry> geometry(Mesh mesh, bool solid = true) {
+  return std::make_shared<Geometry>(std::make_shared<Mesh>(std::move(mesh)), solid);
+}
+
+std::unique_ptr<PlacedGeometry> placed(const std::shared_ptr<Geometry>& shared, const Matrix& matrix) {
+  return std::make_unique<PlacedGeometry>(shared, matrix, bounds_of(transform(*shared->mesh(), matrix)), 1e-9);
+}
+
+ClimbRequest asked(PlacedGeometry& a, PlacedGeometry& b, double gap = 1e-9) { return {&a, &b, gap, 1e-9, false}; }
+
+void the_lowest_rung_that_settles_ends_it() {
+  const auto bar = geometry(box({-5, -0.5, -0.5}, {5, 0.5, 0.5}));
+  const auto a = placed(bar, shifted(0, 0, 0, 0.8)), far = placed(bar, shifted(30)), near = placed(bar, shifted(2, 0, 0, 0.8));
+  const Climb by_boxes = climb(asked(*a, *far), Rung::aabb, Rung::triangles);
+  CHECK(by_boxes.box_gap > 10 && by_boxes.boxes == BoxOutcome::not_asked && !by_boxes.hulls);
+  const Climb by_oriented = climb(asked(*a, *near), Rung::aabb, Rung::triangles);
+  CHECK(by_oriented.box_gap == 0 && by_oriented.boxes == BoxOutcome::apart && !by_oriented.hulls);
+  CHECK(bar->known_convex() == std::nullopt && bar->hierarchies() == 0);
+  const auto across = placed(bar, shifted(0.1, 0, 0, -0.8));
+  const Climb by_hulls = climb(asked(*a, *across), Rung::aabb, Rung::triangles);
+  CHECK(by_hulls.both_convex && by_hulls.hulls->outcome == Outcome::penetrating && by_hulls.hulls->has_distance);
+  CHECK(!by_hulls.nesting && !by_hulls.triangles && bar->hierarchies() == 0);
+}
+
+void what_triangles_find() {
+  const auto shell = geometry(hollow()), cube = geometry(box({0, 0, 0}, {1, 1, 1}));
+  const auto outer = placed(shell, shifted(0)), loose = placed(cube, shifted(2, 2, 2)),
+             stuck = placed(cube, shifted(5.5, 2, 2));
+  const Climb free = climb(asked(*outer, *loose), Rung::aabb, Rung::triangles);
+  CHECK(!free.both_convex && free.hulls->outcome != Outcome::separated);
+  CHECK(free.triangles->relation == Relation::separated && std::isinf(free.gap->distance) && !free.least_depth);
+  ClimbRequest measured = asked(*outer, *loose);
+  measured.wants_distance = true;
+  CHECK(climb(measured, Rung::aabb, Rung::triangles).gap->distance == 1);
+  const Climb deep = climb(asked(*outer, *stuck), Rung::aabb, Rung::triangles);
+  CHECK(deep.triangles->relation == Relation::penetrating && *deep.least_depth > 0 && !deep.gap);
+  const Climb capped = climb(asked(*outer, *stuck), Rung::aabb, Rung::hull);
+  CHECK(capped.hulls && !capped.triangles && !capped.least_depth);
+  CHECK(shell->hierarchies() == 1 && cube->hierarchies() == 1);
+}
+
+void many_answer_as_one_by_one() {
+  const auto shell = geometry(hollow()), open = geometry(Mesh{{{0, 0, 0}, {9, 0, 0}, {0, 9, 1}}, {{0, 1, 2}}}, true);
+  std::vector<std::unique_ptr<PlacedGeometry>> bodies;
+  for (int k = 0; k < 40; ++k) bodies.push_back(placed(k == 20 ? open : shell, shifted(5.2 * k, 0.1 * k, 0, 0.3 * k)));
+  std::vector<ClimbRequest> requests;
+  for (std::size_t k = 0; k + 1 < bodies.size(); ++k) requests.push_back(asked(*bodies[k], *bodies[k + 1]));
+  const auto one = climb_all(requests, Rung::triangles, 1), many = climb_all(requests, Rung::triangles, 4);
+  for (std::size_t k = 0; k < requests.size(); ++k) {
+    CHECK(one[k].has_value() == many[k].has_value());
+    if (!one[k] || !many[k]) continue;
+    CHECK(one[k]->box_gap == many[k]->box_gap && one[k]->least_depth == many[k]->least_depth);
+    CHECK(one[k]->triangles.has_value() == many[k]->triangles.has_value());
+    if (one[k]->triangles) CHECK(one[k]->triangles->triangle_a == many[k]->triangles->triangle_a);
+  }
+  CHECK(!one[19] && !one[20]);  // no solid, though it was said to be one
+  CHECK(one[18] && one[21]);
+  bool thrown = false;
+  try {
+    climb(requests[19], Rung::aabb, Rung::triangles);
+  } catch (const std::invalid_argument&) {
+    thrown = true;
+  }
+  CHECK(thrown);
+}
+
+void what_was_let_go_is_made_again() {
+  const auto shell = geometry(hollow());
+  const auto body = placed(shell, shifted(1, 2, 3, 0.5));
+  const std::shared_ptr<Surface> before = body->surface();
+  CHECK(body->surface() == before);
+  body->let_go();
+  CHECK(body->surface() != before && body->surface()->mesh.vertices == before->mesh.vertices);
+  CHECK(shell->hierarchies() == 1 && shell->refits() == 2);
+}
+
+}  // namespace
+
+int main() {
+  the_lowest_rung_that_settles_ends_it();
+  what_triangles_find();
+  many_answer_as_one_by_one();
+  what_was_let_go_is_made_again();
+  return testing::exit_status();
+}
