@@ -7,9 +7,9 @@ FOLDER holds pair files (convex_pairs.py says which form they have). Their pairs
 again and again, until there are enough: boxes, small hulls and large ones side by side. Compared is
 from arrays of indices and poses to contiguous arrays of outcomes, distances, normals and witness
 points (overlap: outcomes alone) with `core.check_pairs`, and from prepared requests to the same
-arrays with check_pairs() of core/native/convex/batch.hpp. Everybody is asked once a round, one after the
-other; the best round of each counts, as others may use the machine. Ratios of one thread are of CPU
-time, those of threads are of wall time. `work`: CPU time on two threads by that on one; 1 means
+arrays with check_pairs() of core/native/convex/batch.hpp. Everybody is asked once a round, one
+after the other; the best round of each counts, as others may use the machine. Ratios of one thread
+are of CPU time, those of threads are of wall time. `work`: CPU time on two threads by that on one; 1 means
 that the second thread costs nothing.
 """
 
