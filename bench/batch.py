@@ -9,8 +9,8 @@ from arrays of indices and poses to contiguous arrays of outcomes, distances, no
 points (overlap: outcomes alone) with `core.check_pairs`, and from prepared requests to the same
 arrays with check_pairs() of core/native/convex/batch.hpp. Everybody is asked once a round, one
 after the other; the best round of each counts, as others may use the machine. Ratios of one thread
-are of CPU time, those of threads are of wall time. `work`: CPU time on two threads by that on one; 1 means
-that the second thread costs nothing.
+are of CPU time, those of threads are of wall time. `work`: CPU time on two threads by that on one;
+1 means that the second thread costs nothing.
 """
 
 from __future__ import annotations

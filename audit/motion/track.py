@@ -46,10 +46,10 @@ PLACING_ROUNDOFFS = 16
 # each, and what bends, relative to the rate, as much again.
 # Where the body that stands is seen to turn instead (core/native/motion/moving.hpp, Views), its
 # rate is off by 8 roundoffs of spin times reach, and its own speed, 0, has no share in the slack.
-# The pads cover it. A gap is at least gap - rate s - bend s^2 / 2, and gap - steady s; bend = spin * steady.
-# The first is the greater only where bend s / 2 < steady - rate <= 2 steady, within 4 radians:
-# below 32 roundoffs of the reach, of which a body that needs no pose has 128 to spare. The second
-# takes no difference of large terms: it is off by some roundoffs of what the gap loses.
+# The pads cover it. A gap is at least gap - rate s - bend s^2 / 2, and gap - steady s; bend = spin
+# * steady. The first is the greater only where bend s / 2 < steady - rate <= 2 steady, within 4
+# radians: below 32 roundoffs of the reach, of which a body that needs no pose has 128 to spare. The
+# second takes no difference of large terms: it is off by some roundoffs of what the gap loses.
 RATE_ROUNDOFFS = 128
 # The turn between two orientations is known to so many roundoffs, however small it is.
 LEG_ROUNDOFFS = 16
