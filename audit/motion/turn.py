@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import math
 
-Vector = tuple[float, float, float]
+from satcheck.core import transform
+from satcheck.core.transform import Vector, about, cos_sin
+
 Quaternion = tuple[float, float, float, float]
 Matrix = tuple[Vector, Vector, Vector]
 
@@ -17,24 +19,8 @@ _X: Vector = (1.0, 0.0, 0.0)
 
 
 def rotation(axis: Vector, degrees: float) -> Matrix:
-    """About a unit axis. Formula: Olinde Rodrigues (1840)."""
-    cosine, sine = cos_sin(degrees)
-    x, y, z = axis
-    versine = 1.0 - cosine
-    return (
-        (cosine + versine * x * x, versine * x * y - sine * z, versine * x * z + sine * y),
-        (versine * x * y + sine * z, cosine + versine * y * y, versine * y * z - sine * x),
-        (versine * x * z - sine * y, versine * y * z + sine * x, cosine + versine * z * z),
-    )
-
-
-def cos_sin(degrees: float) -> tuple[float, float]:
-    """Exact at multiples of 90: whole turns and quarters are taken off without rounding."""
-    turned = math.fmod(degrees, 360.0)
-    rest = math.remainder(turned, 90.0)
-    quarter = round((turned - rest) / 90.0) % 4
-    cosine, sine = math.cos(math.radians(rest)), math.sin(math.radians(rest))
-    return ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))[quarter]
+    """About a unit axis."""
+    return _rows(about(axis, cos_sin(degrees)))
 
 
 def unit(v: Vector) -> Vector:
@@ -63,7 +49,7 @@ def product(m: Matrix, n: Matrix) -> Matrix:
 
 
 def of_quaternion(q: Quaternion) -> Matrix:
-    return rotation(*axis_angle(_unit_quaternion(q)))
+    return _rows(transform.of_quaternion(*q))
 
 
 def between(start: Quaternion, end: Quaternion) -> tuple[Vector, float]:
@@ -88,6 +74,10 @@ def _unit_quaternion(q: Quaternion) -> Quaternion:
     small = [c / largest for c in q]
     length = math.hypot(*small)
     return small[0] / length, small[1] / length, small[2] / length, small[3] / length
+
+
+def _rows(m: transform.Rotation) -> Matrix:
+    return (m[0], m[1], m[2]), (m[3], m[4], m[5]), (m[6], m[7], m[8])
 
 
 def _times(p: Quaternion, q: Quaternion) -> Quaternion:

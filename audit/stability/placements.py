@@ -12,6 +12,7 @@ from numpy.random import Generator
 from satcheck.audit.report import Vector
 from satcheck.audit.stability.bounds import rounded_once, stretch
 from satcheck.audit.stability.variant import Points, Question, Rows, Variant, body
+from satcheck.core.transform import of_quaternion
 
 # Powers of two up to this, either way, as far as the coordinates stay within the numeric range.
 MOST_EXPONENT = 40
@@ -137,11 +138,5 @@ def in_motion(question: Question, samples: int, rng: Generator) -> Iterator[Vari
 
 def _rotation(rng: Generator) -> Rows:
     """Uniform: K. Shoemake, "Uniform Random Rotations" (1992), by a normal 4-vector."""
-    x, y, z, w = rng.normal(size=4)
-    k = 2.0 / (x * x + y * y + z * z + w * w)
-    rows = (
-        (1 - k * (y * y + z * z), k * (x * y - z * w), k * (x * z + y * w)),
-        (k * (x * y + z * w), 1 - k * (x * x + z * z), k * (y * z - x * w)),
-        (k * (x * z - y * w), k * (y * z + x * w), 1 - k * (x * x + y * y)),
-    )
-    return tuple((float(p), float(q), float(r)) for p, q, r in rows)
+    m = of_quaternion(*rng.normal(size=4).tolist())
+    return (m[0], m[1], m[2]), (m[3], m[4], m[5]), (m[6], m[7], m[8])

@@ -7,6 +7,7 @@ import re
 from functools import reduce
 
 from satcheck.core.frozen import frozen
+from satcheck.core.transform import cos_sin
 from satcheck.scene.drawing.contour import Affine
 from satcheck.scene.errors import MeshFileError
 
@@ -29,7 +30,6 @@ _USER_UNITS = {
 _FUNCTION = re.compile(r"[\s,]*([A-Za-z]+)\s*\(([^()]*)\)")
 _ALIGNED = re.compile(r"\s*x(Min|Mid|Max)Y(Min|Mid|Max)(?:\s+(meet|slice))?\s*")
 _SHARE = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
-_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 
 def bad(message: str) -> MeshFileError:
@@ -144,7 +144,7 @@ def _function(name: str, given: list[float]) -> Affine:
         case "scale", [x, y]:
             return (x, 0.0, 0.0, 0.0, y, 0.0)
         case "rotate", [angle]:
-            c, s = _direction(angle)
+            c, s = cos_sin(angle)
             return (c, -s, 0.0, s, c, 0.0)
         case "rotate", [angle, x, y]:
             turn = _function("rotate", [angle])
@@ -155,14 +155,6 @@ def _function(name: str, given: list[float]) -> Affine:
             return (1.0, 0.0, 0.0, math.tan(math.radians(angle)), 1.0, 0.0)
         case _:
             raise bad(f"transform: {name} of {len(given)} numbers is none")
-
-
-def _direction(degrees: float) -> tuple[float, float]:
-    """Cosine and sine; exact for quarter turns."""
-    quarters, rest = divmod(degrees % 360, 90)
-    if rest == 0:
-        return _QUARTERS[int(quarters) % 4]
-    return math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
 
 
 def view_box(text: str) -> tuple[float, float, float, float] | None:

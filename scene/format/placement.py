@@ -6,9 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from satcheck.core.transform import Rotation, of_quaternion
 from satcheck.scene.bodies import Transform
 from satcheck.scene.format.problems import Wrong
-from satcheck.scene.format.rotation import Quaternion, Rotation, of_euler, of_quaternion
+from satcheck.scene.format.rotation import Quaternion, of_euler
 from satcheck.scene.format.table import Table
 from satcheck.scene.format.values import (
     Triple,
@@ -117,7 +118,8 @@ def quaternion(value: Any) -> Quaternion:
 
 
 def _quaternion(value: Any) -> Rotation:
-    return of_quaternion(*quaternion(value))
+    w, x, y, z = quaternion(value)
+    return of_quaternion(x, y, z, w)
 
 
 def _euler(value: Any) -> Rotation:

@@ -9,12 +9,12 @@ cameras, animations are never touched. Sources: the Khronos glTF 2.0 specificati
 from __future__ import annotations
 
 import json
-import math
 import sys
 from array import array
 from typing import Any, NoReturn
 
 from satcheck.core.frozen import replace
+from satcheck.core.transform import of_quaternion, placed
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_buffers import Accessors, integer, items, member, split_glb
@@ -262,13 +262,7 @@ def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[fl
 
 
 def _rotation(quaternion: list[float]) -> Matrix:
-    norm = math.hypot(*quaternion)
-    if norm == 0.0:
+    if not any(quaternion):
         raise MeshFileError("bad-record", "a rotation quaternion is zero")
-    x, y, z, w = (value / norm for value in quaternion)
-    return (
-        *(1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0.0),
-        *(2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0.0),
-        *(2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0.0),
-        *(0.0, 0.0, 0.0, 1.0),
-    )
+    x, y, z, w = quaternion
+    return placed(of_quaternion(x, y, z, w), (0.0, 0.0, 0.0))

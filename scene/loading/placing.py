@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import Generic, TypeVar
 
 from satcheck.core.frozen import frozen
+from satcheck.core.transform import compose
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.raw_mesh import Matrix
@@ -100,15 +101,7 @@ def _total(
 
 
 def multiply(outer: Matrix | None, inner: Matrix | None) -> Matrix | None:
-    """The placement of a part at `inner` inside a part at `outer`; both affine.
-
-    Each entry is summed from left to right in float64, so that it is the same everywhere.
-    """
+    """The placement of a part at `inner` inside a part at `outer`; both affine."""
     if outer is None or inner is None:
         return inner if outer is None else outer
-    columns = [inner[column:12:4] for column in range(4)]
-    rows = []
-    for row in (outer[0:4], outer[4:8], outer[8:12]):
-        entries = [row[0] * x + row[1] * y + row[2] * z for x, y, z in columns]
-        rows += [*entries[:3], entries[3] + row[3]]
-    return (*rows, 0.0, 0.0, 0.0, 1.0)
+    return compose(outer, inner)

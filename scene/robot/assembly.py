@@ -8,11 +8,12 @@ from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen, replace
+from satcheck.core.transform import compose
 from satcheck.scene.bodies import Scene, Transform
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.primitives import Primitive
-from satcheck.scene.robot.kinematics import compose, link_poses, scaled
+from satcheck.scene.robot.kinematics import link_poses, scaled
 from satcheck.scene.robot.model import Collision, Link, MeshReference, Robot, UnknownShape
 from satcheck.scene.robot.packages import MeshPlaces
 from satcheck.scene.robot.poses import Pose, settle

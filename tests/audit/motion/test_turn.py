@@ -10,7 +10,6 @@ from satcheck.audit.motion.turn import (
     STILL,
     applied,
     between,
-    cos_sin,
     of_quaternion,
     product,
     rotation,
@@ -25,21 +24,6 @@ ERROR = 32 * 2.0**-53
 @pytest.mark.parametrize("turns", [-1000, -2, -1, 0, 1, 3, 10**12])
 def test_whole_turns_return_exactly(turns: int) -> None:
     assert rotation(unit((1.0, 2.0, 3.0)), 360.0 * turns) == STILL
-
-
-@pytest.mark.parametrize(
-    ("degrees", "expected"),
-    [(90, (0, 1)), (180, (-1, 0)), (270, (0, -1)), (-90, (0, -1)), (450, (0, 1)), (-180, (-1, 0))],
-)
-def test_quarters_are_exact(degrees: float, expected: tuple[float, float]) -> None:
-    assert cos_sin(degrees) == expected
-
-
-@pytest.mark.parametrize("degrees", [1.0, 44.9, 45.0, 45.1, 134.0, 226.0, 359.0, -1.0, -200.0])
-def test_against_the_library(degrees: float) -> None:
-    cosine, sine = cos_sin(degrees)
-    assert abs(cosine - math.cos(math.radians(degrees))) <= ERROR
-    assert abs(sine - math.sin(math.radians(degrees))) <= ERROR
 
 
 def test_right_handed() -> None:

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import pytest
 
+from satcheck.core import transform
+from satcheck.core.transform import Vector, compose
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot import read_urdf, settle
 from satcheck.scene.robot.kinematics import (
-    about,
-    compose,
     from_quaternion,
     from_rpy,
     link_poses,
@@ -27,6 +27,10 @@ from tests.scene.robot.robots import SAMPLES, joint, link, read, robot_of
 
 CLOSE = 1e-14
 Matrix = tuple[float, ...]
+
+
+def about(axis: Vector, angle: float) -> Matrix:
+    return transform.about(axis, (math.cos(angle), math.sin(angle)))
 
 
 def close(a: Matrix, b: Matrix) -> bool:
