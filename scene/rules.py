@@ -49,6 +49,10 @@ class Selector:
         text = re.sub(_SPECIAL, r"[\g<0>]", body)
         return cls(f"[g]{text[1:]}" if text.startswith(GROUP) else text)
 
+    @classmethod
+    def of_nobody(cls) -> Selector:
+        return cls("[!\0-\U0010ffff]")  # a character that there is not
+
     @property
     def of_groups(self) -> bool:
         return self.text.startswith(GROUP)

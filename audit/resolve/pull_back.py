@@ -3,7 +3,8 @@
 Walls are laid between the bodies where they are, the shortest translations that keep those are
 taken, and the bodies go there: all the way, or half of it, a quarter ... of it where bodies that
 are not convex meet. So the sum of squares falls with every step. It ends at a least motion among
-those nearby, which need not be the least there is.
+those nearby, which need not be the least there is. No body goes farther from home than allowed:
+on a line between two allowed places there are none but allowed ones.
 """
 
 from __future__ import annotations
@@ -32,17 +33,21 @@ LEAST_GAIN = 1e-3
 # other, at this share of their way back.
 CAREFUL_STEPS, CAREFUL_HALVINGS, CAREFUL_GAIN = 24, 6, 1e-5
 STEP_BACK = 1e-2
+BISECTIONS = 30
 
 Offsets = dict[int, Vector]
 
 
-def pull_back(crowd: Crowd, left: Collection[BodyPair]) -> None:
-    """Move the bodies closer to home. left: pairs that may overlap; no others do."""
+def pull_back(crowd: Crowd, left: Collection[BodyPair], longest: float) -> None:
+    """Move the bodies closer to home, on the whole; none farther than `longest`, as they are.
+
+    left: pairs that may overlap; no others do.
+    """
     for _ in range(CAREFUL_STEPS if crowd.careful else STEPS):
         start, before = dict(enumerate(crowd.offsets)), _squares(crowd)
         if before == 0:
             return
-        _step(crowd, left)
+        _step(crowd, left, longest)
         if before - _squares(crowd) < _least_gain(crowd) * before:
             crowd.move(start)
             return
@@ -94,9 +99,9 @@ def _squares(crowd: Crowd) -> float:
     return math.fsum(dot(t, t) for t in crowd.offsets)
 
 
-def _step(crowd: Crowd, left: Collection[BodyPair]) -> None:
+def _step(crowd: Crowd, left: Collection[BodyPair], longest: float) -> None:
     start = dict(enumerate(crowd.offsets))
-    groups = _groups(crowd, left)
+    groups = _groups(crowd, left, longest)
     member = {body: number for number, group in enumerate(groups) for body in group}
     share = [1.0] * len(groups)
     halvings = CAREFUL_HALVINGS if crowd.careful else HALVINGS
@@ -127,7 +132,7 @@ def _between(start: Vector, end: Vector, share: float) -> Vector:
     return added(scaled(start, 1 - share), scaled(end, share))
 
 
-def _groups(crowd: Crowd, left: Collection[BodyPair]) -> list[Offsets]:
+def _groups(crowd: Crowd, left: Collection[BodyPair], longest: float) -> list[Offsets]:
     """Where the bodies would go, those together that share walls, and that it is worth it for."""
     walls, held = _walls(crowd, left)
     free = crowd.movable - held.keys()
@@ -138,7 +143,32 @@ def _groups(crowd: Crowd, left: Collection[BodyPair]) -> list[Offsets]:
             found.append(moved.offsets)
     walled_in = {body for wall in walls for body in (wall.a, wall.b)}
     found += [{body: ORIGIN} for body in sorted(free - walled_in)]
+    found = [_within(longest, crowd, group) for group in found]
     return [group for group in found if _is_worth_it(crowd, group)]
+
+
+def _within(longest: float, crowd: Crowd, group: Offsets) -> Offsets:
+    """The group as far on its way as none of it gets farther from home than that."""
+    share = min(_share_within(longest, crowd.offsets[body], end) for body, end in group.items())
+    if share == 1.0:
+        return group
+    return {body: _between(crowd.offsets[body], end, share) for body, end in group.items()}
+
+
+def _share_within(longest: float, start: Vector, end: Vector) -> float:
+    """Of the way from start, which is within `longest` of the origin, to the end: by bisection, so
+    that what is returned was seen to be within."""
+    share, beyond = 1.0, 1.0
+    if math.hypot(*end) <= longest:
+        return share
+    share = 0.0
+    for _ in range(BISECTIONS):
+        middle = (share + beyond) / 2
+        if math.hypot(*_between(start, end, middle)) <= longest:
+            share = middle
+        else:
+            beyond = middle
+    return share
 
 
 def _is_worth_it(crowd: Crowd, group: Offsets) -> bool:

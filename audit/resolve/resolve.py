@@ -101,7 +101,7 @@ def _shortest(
         crowd.restart()
         rounds = Rounds(crowd, longest, deepest_first=deepest_first)
         rounds.run(iterations, progress)
-        pull_back(crowd, rounds.left)
+        pull_back(crowd, rounds.left, longest)
         squares = math.fsum(dot(t, t) for t in crowd.offsets)
         key = (len(rounds.left), squares * (1 + TIE) if deepest_first else squares)
         if best is None or key < best[0]:

@@ -41,7 +41,7 @@ def retry(crowd: Crowd, overlaps: Collection[BodyPair], longest: float, iteratio
     for _ in range(PASSES):
         if not _each_alone(crowd):
             return
-        pull_back(crowd, ())
+        pull_back(crowd, (), longest)
 
 
 def _groups(crowd: Crowd, overlaps: Iterable[BodyPair]) -> list[frozenset[int]]:
@@ -78,7 +78,7 @@ def _start_with(
         rounds = Rounds(crowd, longest)
         rounds.put(i, way)
         rounds.run(iterations)
-        pull_back(crowd, rounds.left)
+        pull_back(crowd, rounds.left, longest)
     crowd.movable = movable
     worse = _squares(crowd, range(len(before))) > squares * (1 - LEAST_GAIN)
     if way is None or rounds.left or worse:

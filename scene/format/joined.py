@@ -83,9 +83,10 @@ def _own_rules(
 
     for rule in scene.rules:
         (a_stays, a), (b_stays, b) = chosen(rule.a), chosen(rule.b)
-        matches_none = (a_stays and not a) or (b_stays and not b)  # its check says so
-        if matches_none or (a_stays and b_stays):
+        if a_stays and b_stays:
             yield rule
+        elif not a or not b:
+            yield replace(rule, a=Selector.of_nobody())  # the check says that it is about no pair
         elif len(a) * len(b) > MOST_PAIRS:
             message = (
                 f"{rule.name}: beside the other inputs this rule has to be written out for "

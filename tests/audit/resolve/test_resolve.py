@@ -180,6 +180,20 @@ def test_a_longest_motion_is_kept_or_the_pair_is_left(tmp_path) -> None:
     assert "longest motion" in found.left[0].reason
 
 
+def test_a_longest_motion_is_kept_where_one_body_could_make_way_for_many(tmp_path) -> None:
+    """Least squares alone would move the one by (-0.8, -0.8, 0)."""
+    boxes = {"tall": ((-5.0, -5.0, -20.0), (5.0, 5.0, 20.0))}
+    for k in range(8):
+        low, high = -19.5 + 5 * k, -15.5 + 5 * k
+        boxes[f"x{k}"] = ((4.1, -4.0, low), (14.1, 4.0, high))
+        boxes[f"y{k}"] = ((-4.0, 4.1, low), (4.0, 14.1, high))
+    scene = boxes_scene(tmp_path, boxes)
+    assert resolve(scene).largest_motion > 1.1
+    found = resolve(scene, max_motion=1.0)
+    assert found.verdict == "resolved"
+    assert found.largest_motion <= 1.0
+
+
 def test_the_clearance_is_what_is_left_between(tmp_path) -> None:
     boxes = {"a": unit_at(0), "b": unit_at(0.75, 0.25), "c": unit_at(5), "d": unit_at(6.125)}
     scene = boxes_scene(tmp_path, boxes)

@@ -66,6 +66,16 @@ def test_a_rule_about_nobody_stays_to_be_told(tmp_path):
     assert [issue.code for issue in issues if issue.severity == "warning"] == ["unused-rule"]
 
 
+def test_a_rule_that_another_file_alone_has_bodies_for_is_told(tmp_path):
+    """Rules are about the bodies of their own file: b is no body of it, and not without rules."""
+    rule = {"a": "a", "b": "b", "allowed": True, "reason": "glued"}
+    first = write(tmp_path, scene_of({"id": "a", "shape": BOX}, rules=[rule]))
+    second = write(tmp_path, scene_of({"id": "b", "shape": BOX}), name="second")
+    report = check(load_scene([first, second]))
+    assert [issue.code for issue in report.issues if issue.severity == "warning"] == ["unused-rule"]
+    assert [finding.relation for finding in report.findings] == ["coincident"]
+
+
 def test_a_rule_that_means_the_same_beside_other_inputs_stays_as_it_is(tmp_path):
     bodies = [{"id": f"arm/{k}", "shape": BOX} for k in range(3)]
     rule = {"a": "arm/*", "b": "arm/*", "clearance": 1}
