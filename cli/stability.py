@@ -39,6 +39,8 @@ class Choices:
 
 def run(choices: Choices) -> int:
     """Ask, write the document; returns the exit code."""
+    if len(choices.paths) != 2:
+        raise click.UsageError(f"give two mesh files, not {len(choices.paths)}")
     refuse_early(choices.paths, choices.output)
     document = Document()
     found = _probe(choices)

@@ -82,7 +82,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 
 
 @click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True)
-@paths_argument("A B [C ...]", -1)
+@paths_argument("A B [C ...]")
 @form_option
 @output_option
 @click.option(

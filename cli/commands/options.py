@@ -40,8 +40,8 @@ def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[
     return files + [CompletionItem(name) for name in names]
 
 
-def paths_argument(metavar: str, nargs: int) -> Callable[[_Command], _Command]:
-    return click.argument("paths", nargs=nargs, metavar=metavar, shell_complete=_complete_paths)
+def paths_argument(metavar: str) -> Callable[[_Command], _Command]:
+    return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
 
 
 form_option = click.option(

@@ -22,7 +22,7 @@ from satcheck.cli.lengths import length
 
 
 @click.command("resolve", context_settings=HELP_NAMES)
-@paths_argument("SCENE", -1)
+@paths_argument("SCENE")
 @click.option(
     "-o",
     "--output",

@@ -18,7 +18,7 @@ from satcheck.cli.commands.options import (
 
 
 @click.command("stability", context_settings=HELP_NAMES)
-@paths_argument("A B", 2)
+@paths_argument("A B")
 @click.option(
     "--samples",
     type=click.IntRange(min=1),

@@ -13,7 +13,7 @@ FORMATS = ("toml", "json", "srdf")
 
 
 @click.command("suggest", context_settings=HELP_NAMES)
-@paths_argument("SCENE", -1)
+@paths_argument("SCENE")
 @click.option(
     "--sample",
     type=click.IntRange(min=1),

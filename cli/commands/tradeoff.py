@@ -20,7 +20,7 @@ from satcheck.cli.commands.options import (
 
 
 @click.command("tradeoff", context_settings=HELP_NAMES)
-@paths_argument("A B", -1)
+@paths_argument("A B")
 @click.option(
     "--repeat",
     type=click.IntRange(min=1),

@@ -85,6 +85,8 @@ def in_motion(finding: Finding) -> str:
 
 
 def place(one: Place) -> str:
-    """`60 deg`, `2.5 moved`, `t = 0.3`."""
+    """`60 deg`, `2.5 of travel`, `t = 0.3`."""
     value = number(one.value)
-    return {"degrees": f"{value} deg", "length": f"{value} moved", "t": f"t = {value}"}[one.term]
+    return {"degrees": f"{value} deg", "length": f"{value} of travel", "t": f"t = {value}"}[
+        one.term
+    ]

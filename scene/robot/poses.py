@@ -122,7 +122,8 @@ def _text(path: str) -> str:
         reason = f"cannot be read: {error.strerror}"
         raise SatcheckError("unreadable-file", reason, file=path) from None
     except SatcheckError as error:
-        raise SatcheckError(error.code, error.message, file=path) from None
+        hint = '; values themselves are written {"joint": value}' if "=" in path else ""
+        raise SatcheckError(error.code, error.message + hint, file=path) from None
 
 
 def _once(members: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -42,7 +42,7 @@ def test_explain_lists_every_variant() -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("box.obj",), "takes 2 values"),
+        (("box.obj",), "give two mesh files, not 1"),
         (("box.obj", "missing.obj"), "no such file"),
         (("box.obj", "workcell.json"), "two mesh files"),
         (("box.obj", "cube.off", "--samples", "0"), "--samples"),
