@@ -141,6 +141,7 @@ def _examine_all(
                 meter,
                 peers,
                 None if movers is None else movers.paths(roster.ids[i], roster.ids[j]),
+                alone=len(close) == 1 and not turn.keep,
             )
             for (i, j), one in zip(close, asked, strict=True)
         ]

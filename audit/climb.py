@@ -49,7 +49,8 @@ def climb_all(pairs: Sequence[Pair], threads: int) -> list[core.Climb | None]:
     if not plain:
         return found
     last = LAST[pairs[0].settings.accuracy]
-    climbs = core.climb_all([_question(pairs[k]) for k in plain], last, threads)
+    alone = len(pairs) == 1 and pairs[0].alone
+    climbs = core.climb_all([_question(pairs[k]) for k in plain], last, threads, alone)
     if len(plain) == len(pairs):
         return climbs
     for k, one in zip(plain, climbs, strict=True):

@@ -28,7 +28,8 @@ class Pair:
     By default either surface may be off by its own input precision, so the sum of both; but
     coordinates without decimals, far from the origin, must not swallow a whole body. Never less
     than what polygons may be off the curves that they stand for.
-    paths: how the bodies move against each other; None: they do not.
+    paths: how the bodies move against each other; None: they do not. alone: no other pair, of this
+    check or another, asks for anything of these bodies.
     """
 
     a: PlacedBody
@@ -38,6 +39,7 @@ class Pair:
     meter: VolumeMeter | None = None
     peers: Peers | None = None
     paths: Paths | None = None
+    alone: bool = False
     tolerance: float = derived()
 
     def __post_init__(self) -> None:

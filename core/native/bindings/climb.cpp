@@ -40,10 +40,10 @@ Rung rung_from(const std::string& name) {
   throw std::invalid_argument("a rung is \"aabb\", \"obb\", \"hull\" or \"triangles\", not \"" + name + "\"");
 }
 
-ClimbRequest request_from(const PairTuple& pair) {
+ClimbRequest request_from(const PairTuple& pair, bool alone = false) {
   const auto& [a, b, asked_gap, tolerance, wants_distance] = pair;
   if (!a || !b) throw std::invalid_argument("a pair lacks a body");
-  return {a, b, asked_gap, tolerance, wants_distance};
+  return {a, b, asked_gap, tolerance, wants_distance, alone};
 }
 
 void bind_geometry(nb::module_& m) {
@@ -116,10 +116,10 @@ nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of least_
       .def_prop_ro("nanoseconds", [](const Climb& c) { return nb::tuple(nb::cast(c.nanoseconds)); });
 }
 
-nb::list climb_many(const std::vector<PairTuple>& pairs, const std::string& last, unsigned threads) {
+nb::list climb_many(const std::vector<PairTuple>& pairs, const std::string& last, unsigned threads, bool alone) {
   std::vector<ClimbRequest> requests;
   requests.reserve(pairs.size());
-  for (const PairTuple& pair : pairs) requests.push_back(request_from(pair));
+  for (const PairTuple& pair : pairs) requests.push_back(request_from(pair, alone));
   const Rung rung = rung_from(last);
   std::vector<std::optional<Climb>> found;
   {
@@ -136,12 +136,13 @@ nb::list climb_many(const std::vector<PairTuple>& pairs, const std::string& last
 void bind_climb(nb::module_& m) {
   bind_geometry(m);
   bind_found(m);
-  m.def("climb_all", &climb_many, "pairs"_a, "last"_a = "triangles", "threads"_a = 0,
+  m.def("climb_all", &climb_many, "pairs"_a, "last"_a = "triangles", "threads"_a = 0, "alone"_a = false,
         R"(Each pair (a, b, asked_gap, tolerance, wants_distance) up the ladder, on `threads` threads (0: one a core).
 
 A rung that proves the bodies apart by more than asked_gap ends the climb, and so does the rung `last`: "aabb", "obb",
 "hull" or "triangles". A Climb a pair; None where its climb failed: asked alone it raises. The same at any thread
-count. tolerance: half width of the touch band. wants_distance: of bodies apart, however far.)");
+count. tolerance: half width of the touch band. wants_distance: of bodies apart, however far. alone: of one pair, that
+no other will ask for anything of its bodies.)");
   m.def("climb",
         [](const PairTuple& pair, const std::string& first, const std::string& last) {
           const ClimbRequest request = request_from(pair);

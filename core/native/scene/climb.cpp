@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/parallel.hpp"
+#include "convex/hulls_apart.hpp"
 #include "mesh_pair/boundary_contact.hpp"
 #include "scene/broad_phase.hpp"
 #include "scene/touch_proof.hpp"
@@ -77,10 +78,11 @@ class Climber {
     return found_.boxes == BoxOutcome::apart;
   }
 
+  static bool is_large(PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; }
+
   // Calls make(body) of both, of large ones at the same time.
   template <class Make>
   void make_both(Make make) {
-    const auto is_large = [](PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; };
     const unsigned threads = is_large(*q_.a) && is_large(*q_.b) ? 0 : 1;
     parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? *q_.a : *q_.b); });
   }
@@ -92,8 +94,9 @@ class Climber {
   bool hulls_settle() {
     const bool settled = timed(kHulls, [&] {
       found_.both_convex = q_.a->shared().convex() && q_.b->shared().convex();
+      if (!found_.both_convex && serves_one_large_pair()) return points_are_apart();
       make_both([](PlacedGeometry& body) { body.hull_shape(); });
-      return found_.both_convex ? convex_bodies_settle() : hulls_apart();
+      return found_.both_convex ? convex_bodies_settle() : hulls_are_apart();
     });
     if (found_.both_convex && found_.hulls->outcome == Outcome::penetrating && boxes_nest()) {
       timed(kNesting, [&] {
@@ -109,7 +112,19 @@ class Climber {
     return found_.hulls->outcome != Outcome::undecided;
   }
 
-  bool hulls_apart() {
+  // Then hulls cost more than asking the vertices.
+  bool serves_one_large_pair() { return q_.alone && (is_large(*q_.a) || is_large(*q_.b)); }
+
+  bool points_are_apart() {
+    double largest = 0;
+    for (const Aabb& box : {q_.a->bounds(), q_.b->bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
+    found_.hulls = hulls_apart(q_.a->mesh()->vertices, q_.b->mesh()->vertices, largest);
+    if (found_.hulls) return found_.hulls->outcome == Outcome::separated;
+    make_both([](PlacedGeometry& body) { body.hull_shape(); });
+    return hulls_are_apart();
+  }
+
+  bool hulls_are_apart() {
     found_.hulls = ask_hulls(Query::overlap);
     if (found_.hulls->outcome != Outcome::separated) return false;
     found_.hulls = ask_hulls(Query::distance);

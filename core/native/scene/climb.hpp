@@ -22,6 +22,8 @@ struct ClimbRequest {
   PlacedGeometry* b;
   double asked_gap, tolerance;
   bool wants_distance;
+  // No other pair asks for anything of these bodies: what is made for this one serves no other.
+  bool alone = false;
 };
 
 // sheared, unturned: why oriented boxes say no more than the world boxes.

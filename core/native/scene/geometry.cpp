@@ -88,7 +88,8 @@ std::shared_ptr<Shape> PlacedGeometry::hull_shape() {
 }
 
 OrientedBox PlacedGeometry::oriented_box(double pad) {
-  return carried_box(shared_->bounds(), transform_ ? &*transform_ : nullptr, pad);
+  if (!transform_) return carried_box(bounds_, nullptr, pad);
+  return carried_box(shared_->bounds(), &*transform_, pad);
 }
 
 void PlacedGeometry::let_go() {

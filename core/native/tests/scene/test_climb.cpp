@@ -97,6 +97,29 @@ void many_answer_as_one_by_one() {
   CHECK(thrown);
 }
 
+// Two balls beside each other.
+Mesh large_pair() {
+  Mesh mesh = uv_sphere(60);
+  append(mesh, translate(mesh, {3, 0, 0}));
+  return mesh;
+}
+
+void a_large_pair_alone_answers_as_any() {
+  const auto balls = geometry(large_pair()), across = geometry(transform(large_pair(), shifted(1.5, 0, 0, 1.6)));
+  for (const double x : {0.0, 0.7, 2.0, 3.3, 5.2, 5.5, 9.0}) {
+    const auto a = placed(balls, shifted(0)), b = placed(across, shifted(x, 0.1));
+    ClimbRequest request = asked(*a, *b);
+    const Climb among_many = climb(request, Rung::aabb, Rung::triangles);
+    request.alone = true;
+    const Climb alone = climb(request, Rung::aabb, Rung::triangles);
+    CHECK(alone.box_gap == among_many.box_gap && alone.hulls.has_value() == among_many.hulls.has_value());
+    CHECK(alone.triangles.has_value() == among_many.triangles.has_value());
+    if (alone.triangles) CHECK(alone.triangles->relation == among_many.triangles->relation);
+    if (!alone.hulls || alone.triangles) continue;
+    CHECK(alone.hulls->lower <= among_many.hulls->upper && alone.hulls->lower >= 0.99 * among_many.hulls->lower);
+  }
+}
+
 void what_was_let_go_is_made_again() {
   const auto shell = geometry(hollow());
   const auto body = placed(shell, shifted(1, 2, 3, 0.5));
@@ -113,6 +136,7 @@ int main() {
   the_lowest_rung_that_settles_ends_it();
   what_triangles_find();
   many_answer_as_one_by_one();
+  a_large_pair_alone_answers_as_any();
   what_was_let_go_is_made_again();
   return testing::exit_status();
 }

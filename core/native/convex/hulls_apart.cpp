@@ -1,0 +1,64 @@
+// Method: a few points of each set stand for all. Where the hulls of these meet, so do the hulls of all. Where they
+// are apart, every point is asked how far it lies along the axis between them, and those that lie farthest join the
+// few: Philip Wolfe, "Finding the Nearest Point in a Polytope" (1976), without his step that drops points, as each
+// round costs a walk over all points and hardly depends on how many were kept.
+#include "convex/hulls_apart.hpp"
+
+#include <algorithm>
+
+#include "base/tolerances.hpp"
+
+namespace satcheck {
+namespace {
+
+constexpr std::size_t kFirstPoints = 64;  // of each set, evenly along its order
+constexpr int kRounds = 32;
+// Of the distance: the hulls proper would give all of it, which nobody is in need of.
+constexpr double kGoodShare = 0.99;
+
+std::vector<Vec3> some_of(const std::vector<Vec3>& points) {
+  const std::size_t count = std::min(points.size(), kFirstPoints);
+  std::vector<Vec3> some;
+  const std::size_t steps = std::max<std::size_t>(count, 2) - 1;
+  for (std::size_t i = 0; i < count; ++i) some.push_back(points[i * (points.size() - 1) / steps]);
+  return some;
+}
+
+// The point farthest along an axis; the first of them in a tie.
+Vec3 farthest(const std::vector<Vec3>& points, Vec3 axis) {
+  std::size_t at = 0;
+  double most = dot(points[0], axis);
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double height = dot(points[i], axis);
+    if (height > most) {
+      most = height;
+      at = i;
+    }
+  }
+  return points[at];
+}
+
+}  // namespace
+
+std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double largest) {
+  std::vector<Vec3> some_a = some_of(a), some_b = some_of(b);
+  for (int round = 0; round < kRounds; ++round) {
+    const Shape hull_a = make_hull(some_a), hull_b = make_hull(some_b);
+    const PairResult overlap = check_pair(hull_a, {}, hull_b, {}, Query::overlap);
+    if (overlap.outcome == Outcome::undecided) return std::nullopt;
+    if (overlap.outcome != Outcome::separated) return overlap;
+    PairResult found = check_pair(hull_a, {}, hull_b, {}, Query::distance);
+    if (found.outcome != Outcome::separated || !found.has_distance) return std::nullopt;
+    const Vec3 end_a = farthest(a, found.normal), end_b = farthest(b, -found.normal);
+    const double gap = dot(end_b, found.normal) - dot(end_a, found.normal) - kSupportError * largest;
+    if (gap > 0 && gap >= kGoodShare * found.upper) {
+      found.lower = std::min(found.lower, gap);
+      return found;
+    }
+    some_a.push_back(end_a);
+    some_b.push_back(end_b);
+  }
+  return std::nullopt;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,63 @@
+// Against the hulls themselves: the same answer, and a lower bound that holds and is not far off.
+#include "convex/hulls_apart.hpp"
+
+#include <vector>
+
+#include "tests/check.hpp"
+#include "tests/pairs.hpp"
+
+using namespace satcheck;
+
+namespace {
+
+std::vector<Vec3> moved(std::vector<Vec3> points, Vec3 by) {
+  for (Vec3& p : points) p = p + by;
+  return points;
+}
+
+double largest_of(const std::vector<Vec3>& points) {
+  double largest = 0;
+  for (const Vec3& p : points) largest = std::fmax(largest, max_abs(p));
+  return largest;
+}
+
+void compare(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  const auto found = hulls_apart(a, b, std::fmax(largest_of(a), largest_of(b)));
+  const PairResult truth = check_pair(make_hull(a), {}, make_hull(b), {}, Query::distance);
+  CHECK(found);
+  if (!found) return;
+  CHECK((found->outcome == Outcome::separated) == (truth.outcome == Outcome::separated));
+  if (truth.outcome != Outcome::separated) return;
+  CHECK(found->has_distance && found->lower <= truth.upper && found->upper >= truth.lower);
+  CHECK(found->lower >= 0.99 * truth.lower);
+}
+
+void random_balls() {
+  testing::Source source(5);
+  const std::vector<Vec3> a = source.sphere_points(3000), b = source.sphere_points(2000);
+  for (const double apart : {0.0, 1.5, 1.97, 2.03, 2.5, 9.0}) {
+    for (int k = 0; k < 10; ++k) compare(a, moved(b, source.on_sphere() * apart));
+  }
+}
+
+void flat_and_few_points() {
+  const std::vector<Vec3> point{{0, 0, 0}}, square{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
+  compare(point, square);
+  compare(square, moved(square, {0, 0, 1e-9}));
+  compare(square, moved(square, {0.5, 0.5, 0}));
+  compare(square, moved(square, {1, 1, 0}));
+}
+
+void a_gap_below_rounding_is_left_open() {
+  const std::vector<Vec3> square{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
+  CHECK(!hulls_apart(square, moved(square, {0, 0, 1e-20}), 2));
+}
+
+}  // namespace
+
+int main() {
+  random_balls();
+  flat_and_few_points();
+  a_gap_below_rounding_is_left_open();
+  return testing::exit_status();
+}
