@@ -62,15 +62,19 @@ def leaves_work(pair: Pair, found: core.Climb | None) -> bool:
     """Whether more than words is left to do after the climb."""
     if found is None or pair.settings.accuracy == "parts" or pair.paths is not None:
         return True
-    return _is_asked_more(pair.asked, found) or (
-        found.least_depth is not None and found.least_depth <= pair.tolerance
-    )
+    return _is_asked_more(pair.asked, found) or _band_is_open(pair, found)
 
 
 def _is_asked_more(asked: Asked, found: core.Climb) -> bool:
     if any(effect in asked.by for effect in _EXTRAS):
         return True
     return "depth" in asked.by and _overlaps(found)
+
+
+def _band_is_open(pair: Pair, found: core.Climb) -> bool:
+    """Whether a search may follow."""
+    way = found.way_within
+    return way is not None and way.move is None and way.deepest <= pair.tolerance
 
 
 def _overlaps(found: core.Climb) -> bool:

@@ -91,6 +91,15 @@ std::optional<const char*> word(const std::optional<T>& value) {
 }
 
 void bind_found(nb::module_& m) {
+  nb::class_<WayWithin>(m, "WayWithin", R"(A way out of an overlap that is no longer than the touch band.
+
+move: a translation of A, seen to free it; None: none was found. deepest: a proven lower bound of the depth, by the
+triangles that were in the way.)")
+      .def_prop_ro("move",
+                   [](const WayWithin& w) {
+                     return w.move ? std::optional(Corner{w.move->x, w.move->y, w.move->z}) : std::nullopt;
+                   })
+      .def_ro("deepest", &WayWithin::deepest);
   nb::class_<Climb>(m, "Climb", R"(What each rung of the ladder found about a pair; None where the climb did not get so far.
 
 box_gap       a proven lower bound of the gap of the world boxes, 0.0 where they meet.
@@ -100,8 +109,9 @@ both_convex   and then hulls is the depth of the pair; else the distance where h
 nesting       the relation of two convex bodies that overlap and whose world boxes nest.
 triangles     the relation of the meshes.
 least_depth   of an overlap that triangles decided, where the touch band is not 0: a proven lower bound of its depth.
+way_within    out of the touch band, of such an overlap that least_depth leaves open.
 gap           of surfaces apart; gap_is_void: it may be that of a wall that bounds no material.
-nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of least_depth or gap.)")
+nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of the touch band or gap.)")
       .def_ro("box_gap", &Climb::box_gap)
       .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); })
       .def_prop_ro("box_feature", [](const Climb& c) { return name_of(c.box_feature); })
@@ -111,6 +121,7 @@ nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of least_
       .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); },
                    nb::rv_policy::reference_internal)
       .def_ro("least_depth", &Climb::least_depth)
+      .def_prop_ro("way_within", [](const Climb& c) { return if_known(c.way_within); }, nb::rv_policy::reference_internal)
       .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal)
       .def_ro("gap_is_void", &Climb::gap_is_void)
       .def_prop_ro("nanoseconds", [](const Climb& c) { return nb::tuple(nb::cast(c.nanoseconds)); });
@@ -161,6 +172,22 @@ no other will ask for anything of its bodies.)");
         "a"_a, "b"_a, "triangle_a"_a, "triangle_b"_a, ReleaseGil(),
         R"(A proven lower bound of the depth of two surfaces from one pair of triangles that cross; 0.0 where the bodies do
 not end on all of both.)");
+  m.def("find_way_within",
+        [](PlacedGeometry& a, PlacedGeometry& b, double tolerance,
+           const std::optional<std::pair<std::size_t, std::size_t>>& crossing) {
+          std::optional<ContactPair> start;
+          if (crossing) {
+            const auto& [of_a, of_b] = *crossing;
+            if (of_a >= a.shared().mesh()->triangles.size() || of_b >= b.shared().mesh()->triangles.size()) {
+              throw std::out_of_range("no such triangle");
+            }
+            start = {static_cast<std::uint32_t>(of_a), static_cast<std::uint32_t>(of_b)};
+          }
+          return find_way_within(a, b, tolerance, start);
+        },
+        "a"_a, "b"_a, "tolerance"_a, "crossing"_a.none(), ReleaseGil(),
+        R"(A way out of an overlap that is no longer than the tolerance: that of the hulls, or one off the triangles of
+`crossing`, a pair that meets, and off those that are then in the way, by a third of the tolerance at a time.)");
   m.def("nested_depth", &nested_depth, "a"_a, "b"_a, ReleaseGil(),
         "A proven lower bound of the depth of nested bodies: the inner one stays inside until the surfaces meet.");
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <stdexcept>
 
 #include "base/edge_table.hpp"
@@ -28,22 +27,18 @@ bool has_inside(const Mesh& welded) {
   return edges.size() > 0;
 }
 
-std::vector<SurfacePart> find_parts(const Mesh& welded) {
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+std::vector<std::uint32_t> find_parts(const Mesh& welded) {
   DisjointSets sets(welded.vertices.size());
   for (const Triangle& t : welded.triangles) {
     sets.unite(t[0], t[1]);
     sets.unite(t[0], t[2]);
   }
-  std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
-  std::vector<SurfacePart> parts;
+  std::vector<bool> known(welded.vertices.size(), false);
+  std::vector<std::uint32_t> parts;
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
-    std::uint32_t& part = part_of[sets.find(welded.triangles[t][0])];
-    if (part == none) {
-      part = static_cast<std::uint32_t>(parts.size());
-      parts.push_back({t, {}});
-    }
-    parts[part].box.include(triangle_box(welded, t));
+    const std::uint32_t part = sets.find(welded.triangles[t][0]);
+    if (!known[part]) parts.push_back(t);
+    known[part] = true;
   }
   return parts;
 }
@@ -84,11 +79,6 @@ Surface refitted_surface(const Surface& like, const Mesh& mesh) {
   }
   surface.mesh.triangles = mesh.triangles;
   refit(surface.bvh, surface.mesh);
-  if (surface.parts.size() == 1) {
-    surface.parts[0].box = surface.bvh.nodes[0].box;
-  } else {
-    surface.parts = find_parts(surface.mesh);
-  }
   return surface;
 }
 

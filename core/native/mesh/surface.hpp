@@ -10,16 +10,10 @@
 
 namespace satcheck {
 
-// A part of a surface that is connected through common vertices.
-struct SurfacePart {
-  std::uint32_t triangle;  // one of it
-  Aabb box;
-};
-
 struct Surface {
   Mesh mesh;  // welded
   Bvh bvh;
-  std::vector<SurfacePart> parts;
+  std::vector<std::uint32_t> parts;  // a triangle of each part that is connected through common vertices
   // Closed and consistently wound: winding numbers say what is inside.
   bool solid = false;
   bool refitted = false;  // the tree has the form of another surface's

@@ -27,7 +27,7 @@ FreeRegions::FreeRegions(const Side& side, std::vector<bool> in_contact)
     : side_(side), in_contact_(std::move(in_contact)) {
   const Mesh& mesh = side_.self.mesh;
   if (in_contact_.empty()) {
-    for (const SurfacePart& part : side_.self.parts) add(part.triangle);
+    for (const std::uint32_t triangle : side_.self.parts) add(triangle);
     return;
   }
   DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); });

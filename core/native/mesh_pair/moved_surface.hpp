@@ -23,9 +23,6 @@ class MovedSurface {
     for (std::size_t i = 0; i < still_.bvh.boxes.size(); ++i) {
       moved_.bvh.boxes[i] = move_box(still_.bvh.boxes[i]);
     }
-    for (std::size_t i = 0; i < still_.parts.size(); ++i) {
-      moved_.parts[i].box = move_box(still_.parts[i].box);
-    }
     return moved_;
   }
 

@@ -31,6 +31,11 @@ bool holds(const Aabb& outer, const Aabb& inner) {
   return true;
 }
 
+std::optional<ContactPair> crossing_of(const MeshRelation& found) {
+  if (found.triangle_a == kNoTriangle || found.triangle_b == kNoTriangle) return {};
+  return ContactPair{found.triangle_a, found.triangle_b};
+}
+
 class Climber {
  public:
   Climber(const ClimbRequest& asked, Rung first, Rung last) : q_(asked), first_(first), last_(last) {}
@@ -156,6 +161,8 @@ class Climber {
     } else if (relation != Relation::touching && q_.tolerance > 0) {
       timed(kBand, [&] {
         found_.least_depth = least_depth(*q_.a, *q_.b, *found_.triangles);
+        if (*found_.least_depth > q_.tolerance) return true;
+        found_.way_within = find_way_within(*q_.a, *q_.b, q_.tolerance, crossing_of(*found_.triangles));
         return true;
       });
     }

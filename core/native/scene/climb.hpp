@@ -1,7 +1,7 @@
 // The ladder: each rung settles what it can prove about a pair and leaves the rest to the next.
 //
 // aabb -> obb -> hull -> triangles. A rung that proves the bodies apart by more than was asked about ends the climb.
-// After the triangles come the proofs of the touch band that need no search.
+// After the triangles comes the touch band, all of it that needs no search.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,7 @@
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "scene/geometry.hpp"
+#include "scene/way_within.hpp"
 
 namespace satcheck {
 
@@ -39,7 +40,8 @@ struct Climb {
   std::optional<Relation> nesting;  // of two convex bodies that overlap and whose boxes nest
   std::optional<MeshRelation> triangles;
   std::optional<double> least_depth;  // of an overlap that triangles decided, and a band that is not 0
-  std::optional<MeshDistance> gap;    // of surfaces apart
+  std::optional<WayWithin> way_within;  // of one that least_depth does not prove deeper than the band
+  std::optional<MeshDistance> gap;      // of surfaces apart
   bool gap_is_void = false;           // it may be that of a wall that bounds no material
   // Of the rungs, in the order above, those of nesting and of the last two (one of which runs) included.
   std::array<std::int64_t, 6> nanoseconds{};
