@@ -85,7 +85,7 @@ class SharedMesh:
         self.file = file
         self.triangles = file.mesh.triangle_count
         self.largest = largest_coordinate(file.mesh.bounds)
-        self.geometry = core.Geometry(file.mesh, file.health.solid)
+        self.geometry = core.Geometry(file.mesh, file.health.solid, file.topology.plain_solid)
         self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))
         self.shape = Once(self._shape)

@@ -48,8 +48,9 @@ ClimbRequest request_from(const PairTuple& pair, bool alone = false) {
 
 void bind_geometry(nb::module_& m) {
   nb::class_<Geometry>(m, "Geometry", R"(What all bodies of one mesh share, in file coordinates, made when asked for. solid: the mesh is closed and
-consistently wound.)")
-      .def(nb::init<std::shared_ptr<Mesh>, bool>(), "mesh"_a, "solid"_a)
+consistently wound; surfaces raise ValueError where it is not. plain: the mesh is that of an Inspection whose topology
+is a plain solid; that is not proven again.)")
+      .def(nb::init<std::shared_ptr<Mesh>, bool, bool>(), "mesh"_a, "solid"_a, "plain"_a = false)
       .def_prop_ro("convex", &Geometry::convex, ReleaseGil(), R"(Closed, consistently outward, and exactly convex. An affine map keeps that, up to the one rounding of each
 world coordinate: the body is then taken as the hull of its world vertices.)")
       .def_prop_ro("known_convex", &Geometry::known_convex, "None where nobody has asked yet.")

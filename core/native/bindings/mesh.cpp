@@ -183,7 +183,8 @@ void bind_topology(nb::module_& m) {
   nb::class_<Topology>(m, "Topology",
                        R"(Counts and facts of a mesh. closed: no boundary edge, every edge an even number of triangles. manifold: two
 triangles at every edge. oriented: neighbours agree on the winding. volume: signed, 0.0 when not closed.
-solid: closed, oriented and of non-zero volume, so that it has an inside.)")
+solid: closed, oriented and of non-zero volume, so that it has an inside. plain_solid: one shell, closed, manifold,
+oriented and wound outward, so that inspect() leaves its winding alone.)")
       .def_ro("vertices", &Topology::vertices)
       .def_ro("triangles", &Topology::triangles)
       .def_ro("components", &Topology::components)
@@ -198,6 +199,7 @@ solid: closed, oriented and of non-zero volume, so that it has an inside.)")
       .def_ro("manifold", &Topology::manifold)
       .def_ro("oriented", &Topology::oriented)
       .def_ro("volume", &Topology::volume)
+      .def_prop_ro("plain_solid", &Topology::is_plain_solid)
       .def_ro("solid", &Topology::solid);
   nb::class_<Inspection>(m, "Inspection", R"(What inspect() found. mesh: welded, vertices and triangles in an order that depends on their coordinates alone;
 turned: whether orienting it then changed anything; topology: before that, repaired: of `mesh`.)")

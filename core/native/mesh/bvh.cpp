@@ -6,6 +6,7 @@
 #include "mesh/bvh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -122,11 +123,15 @@ std::vector<BvhNode> graft(const Subtree& trunk, std::vector<Subtree>& branches)
   return nodes;
 }
 
-// The tree over the boxes of the items, which are not yet sorted.
-Bvh build(const std::vector<Aabb>& boxes, std::vector<Keyed> items, unsigned threads) {
+// The tree over the items, which are not yet sorted and whose boxes are box_of(number). Its arrays have room for
+// `total` items.
+template <class BoxOf>
+Bvh build(std::vector<Keyed> items, BoxOf box_of, unsigned threads, std::size_t total = 0) {
   const auto count = static_cast<std::uint32_t>(items.size());
   sort_by_key(items);
   Bvh bvh;
+  bvh.order.reserve(total);
+  bvh.boxes.reserve(total);
   bvh.order.resize(count);
   bvh.boxes.resize(count);
   const Subtree trunk = grow(items, {0, count}, kTaskSize);
@@ -135,7 +140,7 @@ Bvh build(const std::vector<Aabb>& boxes, std::vector<Keyed> items, unsigned thr
     const BvhNode& leaf = trunk.nodes[trunk.leaves[i]];
     for (std::uint32_t k = leaf.first; k < leaf.first + leaf.count; ++k) {
       bvh.order[k] = items[k].number;
-      bvh.boxes[k] = boxes[items[k].number];
+      bvh.boxes[k] = box_of(items[k].number);
     }
     branches[i] = grow(items, {leaf.first, leaf.count}, kLeafSize);
     fit_boxes(branches[i].nodes, branches[i].nodes.size(), bvh.boxes);
@@ -146,6 +151,46 @@ Bvh build(const std::vector<Aabb>& boxes, std::vector<Keyed> items, unsigned thr
 }
 
 Vec3 centre(const Aabb& box) { return box.min * 0.5 + box.max * 0.5; }
+
+// A box beyond the lower (0, 1, 2) or the upper (3, 4, 5) side of a region along an axis; kSides: beyond none.
+constexpr std::uint8_t kSides = 6;
+
+std::uint8_t side_beyond(const Aabb& region, const Aabb& box) {
+  for (std::uint8_t axis = 0; axis < 3; ++axis) {
+    if (box.max[axis] < region.min[axis]) return axis;
+    if (box.min[axis] > region.max[axis]) return axis + 3;
+  }
+  return kSides;
+}
+
+// One tree of a tree, which may be empty, and leaves.
+std::vector<BvhNode> beside(const std::vector<BvhNode>& tree, const std::vector<BvhNode>& leaves,
+                            const std::vector<Aabb>& boxes) {
+  if (leaves.empty()) return tree;
+  std::vector<BvhNode> parts;  // roots
+  if (!tree.empty()) parts.push_back(tree[0]);
+  parts.insert(parts.end(), leaves.begin(), leaves.end());
+  std::vector<BvhNode> nodes(1);
+  nodes.reserve(tree.size() + 2 * parts.size());
+  std::uint32_t last = 0;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    const auto left = static_cast<std::uint32_t>(nodes.size());
+    nodes[last].first = left;
+    nodes.push_back(parts[i]);
+    nodes.emplace_back();
+    last = left + 1;
+  }
+  nodes[last] = parts.back();
+  const std::size_t count = nodes.size();
+  if (!tree.empty()) {
+    const auto shift = static_cast<std::uint32_t>(count - 1);  // the root is in its place already
+    nodes.insert(nodes.end(), tree.begin() + 1, tree.end());
+    for (std::size_t i = count; i < nodes.size(); ++i) nodes[i].first += nodes[i].is_leaf() ? 0 : shift;
+    nodes[1].first += nodes[1].is_leaf() ? 0 : shift;
+  }
+  fit_boxes(nodes, count, boxes);
+  return nodes;
+}
 
 // 0: compact. 1, 2, 3: long along x, y or z. 4, 5, 6: flat across x, y or z.
 std::uint64_t form_of(const Aabb& box) {
@@ -166,14 +211,54 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads) {
   Aabb bounds;
   for (const Vec3& p : mesh.vertices) bounds.include(p);
   const MortonCurve curve(bounds);
-  std::vector<Aabb> boxes(count);
+  const auto box_of = [&](std::uint32_t t) { return triangle_box(mesh, t); };
   std::vector<Keyed> items(count);
-  const auto place_on_curve = [&](std::size_t t) {
-    boxes[t] = triangle_box(mesh, static_cast<std::uint32_t>(t));
-    items[t] = {curve.code(centre(boxes[t])), static_cast<std::uint32_t>(t)};
+  const auto place_on_curve = [&](std::size_t i) {
+    const auto t = static_cast<std::uint32_t>(i);
+    items[t] = {curve.code(centre(box_of(t))), t};
   };
   parallel_for(count, threads, place_on_curve, kTaskSize);
-  return build(boxes, std::move(items), threads);
+  return build(std::move(items), box_of, threads);
+}
+
+Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  if (count == 0) return {};
+  const auto box_of = [&](std::uint32_t t) { return triangle_box(mesh, t); };
+  std::vector<std::uint8_t> side(count);
+  std::array<std::uint32_t, kSides + 1> size{};
+  Aabb bounds;  // of those that meet the region
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const Aabb box = box_of(t);
+    side[t] = side_beyond(region, box);
+    ++size[side[t]];
+    if (side[t] == kSides) bounds.include(box);
+  }
+  const MortonCurve curve(bounds);
+  std::vector<Keyed> items;
+  items.reserve(size[kSides]);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (side[t] == kSides) items.push_back({curve.code(centre(box_of(t))), t});
+  }
+  Bvh bvh = items.empty() ? Bvh{} : build(std::move(items), box_of, threads, count);
+  bvh.order.resize(count);
+  bvh.boxes.resize(count);
+  std::vector<BvhNode> leaves;
+  std::array<std::uint32_t, kSides> place{};
+  std::uint32_t first = size[kSides];
+  for (std::uint8_t s = 0; s < kSides; ++s) {
+    place[s] = first;
+    if (size[s] != 0) leaves.push_back({Aabb{}, first, size[s]});
+    first += size[s];
+  }
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (side[t] == kSides) continue;
+    const std::uint32_t at = place[side[t]]++;
+    bvh.order[at] = t;
+    bvh.boxes[at] = box_of(t);
+  }
+  bvh.nodes = beside(bvh.nodes, leaves, bvh.boxes);
+  return bvh;
 }
 
 std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes) {
@@ -204,7 +289,7 @@ Bvh build_bvh_by_form(const std::vector<Aabb>& boxes, unsigned threads) {
     // A Morton code without its last bit for each axis leaves room for the form above it.
     items[i] = {form_of(boxes[i]) << 3 * (kAxisBits - 1) | curve.code(centre(boxes[i])) >> 3, i};
   }
-  return build(boxes, std::move(items), threads);
+  return build(std::move(items), [&](std::uint32_t i) { return boxes[i]; }, threads);
 }
 
 }  // namespace satcheck

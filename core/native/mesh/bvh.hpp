@@ -24,6 +24,10 @@ struct Bvh {
 // The same tree whatever the number of threads; 0 takes one per core.
 Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
 
+// The same, refined only where boxes of triangles meet `region`. All others lie in six leaves at most, each of which
+// is beyond one side of it: no query within the region looks into them, and any other looks into few.
+Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads = 0);
+
 // Over boxes of any sizes, in the place of those of triangles. Long and flat ones go into subtrees of
 // their own, one for each direction: beams along x and along y that cross would else share the leaves,
 // whose boxes would be as large as the scaffold.

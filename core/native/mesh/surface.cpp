@@ -70,6 +70,15 @@ Surface make_surface(const Mesh& mesh, bool solid) {
   return surface;
 }
 
+Surface make_plain_surface(const Mesh& inspected, const Aabb* region) {
+  Surface surface;
+  surface.mesh = inspected;
+  surface.solid = true;
+  surface.bvh = region ? build_bvh_near(inspected, *region) : build_bvh(inspected);
+  surface.parts = {0};
+  return surface;
+}
+
 Surface refitted_surface(const Surface& like, const Mesh& mesh) {
   if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) return make_surface(mesh, like.solid);
   Surface surface = like;

@@ -23,6 +23,10 @@ struct Surface {
 // consistently wound, for then it has no inside.
 Surface make_surface(const Mesh& mesh, bool solid);
 
+// The same of a mesh as inspect() left it, whose topology was that of a plain solid: nothing is proven again.
+// region: where queries will be, as build_bvh_near() takes it; nothing: anywhere.
+Surface make_plain_surface(const Mesh& inspected, const Aabb* region = nullptr);
+
 // The surface of `mesh`, which is that of `like` with its vertices elsewhere, as an affine map puts them;
 // a mirror turns the winding. Nothing is sorted: the tree of `like` is fitted again. Where the triangles
 // are others, or rounding has put two vertices into one place, the surface is made anew.

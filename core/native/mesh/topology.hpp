@@ -26,6 +26,9 @@ struct Topology {
   bool oriented = false;  // no misoriented edge
   double volume = 0;      // signed, positive when wound outwards; 0.0 unless closed and oriented
   bool solid = false;     // closed, oriented, volume not exactly 0: winding numbers say what is inside
+
+  // One shell, wound outward: orient() would leave it as it is.
+  bool is_plain_solid() const { return closed && manifold && oriented && components == 1 && volume > 0; }
 };
 
 Topology measure_topology(const Mesh& mesh);

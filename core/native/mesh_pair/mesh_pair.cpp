@@ -68,10 +68,18 @@ MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vect
   return result;
 }
 
+std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+  if (found.crossing) {
+    if (!facts_at_crossing(a, b, *found.crossing).settled()) return std::nullopt;
+    return crossing_relation(a, b, *found.crossing);
+  }
+  if (!found.contacts.empty()) return std::nullopt;
+  return judged_relation(a, b, {});
+}
+
 MeshRelation relation_of_solids(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+  if (const auto simple = simple_relation_of(a, b, found)) return *simple;
   if (!found.crossing) return judged_relation(a, b, found.contacts);
-  const PairFacts facts = facts_at_crossing(a, b, *found.crossing);
-  if (facts.settled()) return crossing_relation(a, b, *found.crossing);
   return judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts);
 }
 
@@ -87,6 +95,12 @@ MeshRelation relation_of_sheets(const Surface& a, const Surface& b, const Surfac
   return result;
 }
 
+MeshRelation with_counts(MeshRelation result, const SurfaceContacts& found) {
+  result.box_tests = found.box_tests;
+  result.triangle_tests = found.triangle_tests;
+  return result;
+}
+
 }  // namespace
 
 MeshRelation mesh_relation(const Surface& a, const Surface& b) {
@@ -95,10 +109,13 @@ MeshRelation mesh_relation(const Surface& a, const Surface& b) {
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
-  MeshRelation result = a.solid || b.solid ? relation_of_solids(a, b, found) : relation_of_sheets(a, b, found);
-  result.box_tests = found.box_tests;
-  result.triangle_tests = found.triangle_tests;
-  return result;
+  return with_counts(a.solid || b.solid ? relation_of_solids(a, b, found) : relation_of_sheets(a, b, found), found);
+}
+
+std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
+  const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
+  const auto result = simple_relation_of(a, b, found);
+  return result ? std::optional(with_counts(*result, found)) : std::nullopt;
 }
 
 }  // namespace satcheck

@@ -29,4 +29,8 @@ struct MeshRelation {
 
 MeshRelation mesh_relation(const Surface& a, const Surface& b);
 
+// The same of two solids whose boxes differ, where one crossing settles it, or that they have no contact. It looks
+// at little beyond where the boxes of the two meet.
+std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b);
+
 }  // namespace satcheck

@@ -22,6 +22,9 @@ constexpr std::size_t kTurns = 4;
 // Vertices of a body that are worth a thread of their own.
 constexpr std::size_t kManyVertices = 8192;
 
+// Of its box what a body can be cut down to for one pair: cutting it costs a part of what it saves.
+constexpr double kLittle = 0.5;
+
 enum Clock : std::size_t { kBoxes, kOriented, kHulls, kNesting, kTriangles, kBand };
 
 bool holds(const Aabb& outer, const Aabb& inner) {
@@ -34,6 +37,17 @@ bool holds(const Aabb& outer, const Aabb& inner) {
 std::optional<ContactPair> crossing_of(const MeshRelation& found) {
   if (found.triangle_a == kNoTriangle || found.triangle_b == kNoTriangle) return {};
   return ContactPair{found.triangle_a, found.triangle_b};
+}
+
+// Of the volume of a box the part within another; 1 where it has none.
+double share_within(const Aabb& box, const Aabb& other) {
+  double share = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double common = std::fmin(box.max[axis], other.max[axis]) - std::fmax(box.min[axis], other.min[axis]);
+    const double size = box.max[axis] - box.min[axis];
+    share *= size > 0 ? std::fmax(common, 0) / size : 1;
+  }
+  return share;
 }
 
 class Climber {
@@ -117,13 +131,17 @@ class Climber {
     return found_.hulls->outcome != Outcome::undecided;
   }
 
+  double largest_coordinate() const {
+    double largest = 0;
+    for (const Aabb& box : {q_.a->bounds(), q_.b->bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
+    return largest;
+  }
+
   // Then hulls cost more than asking the vertices.
   bool serves_one_large_pair() { return q_.alone && (is_large(*q_.a) || is_large(*q_.b)); }
 
   bool points_are_apart() {
-    double largest = 0;
-    for (const Aabb& box : {q_.a->bounds(), q_.b->bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
-    found_.hulls = hulls_apart(q_.a->mesh()->vertices, q_.b->mesh()->vertices, largest);
+    found_.hulls = hulls_apart(q_.a->mesh()->vertices, q_.b->mesh()->vertices, largest_coordinate());
     if (found_.hulls) return found_.hulls->outcome == Outcome::separated;
     make_both([](PlacedGeometry& body) { body.hull_shape(); });
     return hulls_are_apart();
@@ -149,10 +167,39 @@ class Climber {
     return holds(q_.a->bounds(), q_.b->bounds()) || holds(q_.b->bounds(), q_.a->bounds());
   }
 
+  template <class Make>
+  void make_surfaces(Make make) {
+    make_both([&](PlacedGeometry& body) { (&body == q_.a ? a_ : b_) = make(body); });
+  }
+  void make_whole_surfaces() {
+    make_surfaces([](PlacedGeometry& body) { return body.surface(); });
+  }
+
+  // Where a surface has to be to matter for the relation to this body, and for a gap that is asked about.
+  Aabb reach_of(const PlacedGeometry& body) const {
+    const double reach = 2 * q_.asked_gap;
+    return {body.bounds().min - Vec3{reach, reach, reach}, body.bounds().max + Vec3{reach, reach, reach}};
+  }
+
+  // Whether little of each body can matter for the other, and nobody needs the rest.
+  bool little_matters() {
+    const auto can_be_cut = [](PlacedGeometry& body) { return body.shared().plain() && body.placed_as_in_file(); };
+    if (!serves_one_large_pair() || q_.wants_distance || !can_be_cut(*q_.a) || !can_be_cut(*q_.b)) return false;
+    return share_within(q_.a->bounds(), reach_of(*q_.b)) < kLittle && share_within(q_.b->bounds(), reach_of(*q_.a)) < kLittle;
+  }
+
   void triangles() {
     timed(kTriangles, [&] {
-      make_both([](PlacedGeometry& body) { body.surface(); });
-      found_.triangles = mesh_relation(*q_.a->surface(), *q_.b->surface());
+      if (little_matters()) {
+        make_surfaces([&](PlacedGeometry& body) {
+          return body.shared().surface_near(reach_of(&body == q_.a ? *q_.b : *q_.a));
+        });
+        found_.triangles = simple_relation(*a_, *b_);
+      }
+      if (!found_.triangles) {
+        make_whole_surfaces();
+        found_.triangles = mesh_relation(*a_, *b_);
+      }
       return true;
     });
     const Relation relation = found_.triangles->relation;
@@ -160,7 +207,7 @@ class Climber {
       timed(kBand, [&] { return measure_gap(); });
     } else if (relation != Relation::touching && q_.tolerance > 0) {
       timed(kBand, [&] {
-        found_.least_depth = least_depth(*q_.a, *q_.b, *found_.triangles);
+        found_.least_depth = least_depth(*a_, *b_, largest_coordinate(), *found_.triangles);
         if (*found_.least_depth > q_.tolerance) return true;
         found_.way_within = find_way_within(*q_.a, *q_.b, q_.tolerance, crossing_of(*found_.triangles));
         return true;
@@ -170,16 +217,17 @@ class Climber {
 
   bool measure_gap() {
     if (q_.asked_gap == 0) return false;
-    const std::shared_ptr<Surface> a = q_.a->surface(), b = q_.b->surface();
-    found_.gap = mesh_distance(*a, *b, q_.wants_distance ? INFINITY : q_.tolerance);
+    if (!a_) make_whole_surfaces();
+    found_.gap = mesh_distance(*a_, *b_, q_.wants_distance ? INFINITY : q_.tolerance);
     if (std::isfinite(found_.gap->distance)) {
-      found_.gap_is_void = has_void(*a, found_.gap->triangle_a) || has_void(*b, found_.gap->triangle_b);
+      found_.gap_is_void = has_void(*a_, found_.gap->triangle_a) || has_void(*b_, found_.gap->triangle_b);
     }
     return true;
   }
 
   const ClimbRequest& q_;
   Rung first_, last_;
+  std::shared_ptr<Surface> a_, b_;  // of the world, or refined only where the other body can be
   Climb found_;
 };
 

@@ -20,10 +20,13 @@ using Matrix = std::array<double, 16>;  // 4x4 by rows, for column vectors
 class Geometry {
  public:
   // solid: the mesh is closed and consistently wound. Surfaces throw std::invalid_argument where it is not.
-  Geometry(std::shared_ptr<Mesh> mesh, bool solid) : mesh_(std::move(mesh)), solid_(solid) {}
+  // plain: more than that, it is as inspect() left it and was found to be a plain solid; that is not proven again.
+  Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain = false)
+      : mesh_(std::move(mesh)), solid_(solid), plain_(plain) {}
 
   const std::shared_ptr<Mesh>& mesh() const { return mesh_; }
   bool solid() const { return solid_; }
+  bool plain() const { return plain_; }
   const Aabb& bounds();
 
   // Closed, consistently outward, and exactly convex. An affine map keeps that, up to the one rounding of each
@@ -32,6 +35,8 @@ class Geometry {
   std::optional<bool> known_convex() const;
 
   std::shared_ptr<Surface> surface();
+  // Of a plain one, for queries about this region; not kept.
+  std::shared_ptr<Surface> surface_near(const Aabb& region);
   std::shared_ptr<Polytope> hull();
   std::shared_ptr<Shape> hull_shape();
   std::shared_ptr<HullPoints> hull_points();
@@ -45,7 +50,7 @@ class Geometry {
 
  private:
   std::shared_ptr<Mesh> mesh_;
-  bool solid_;
+  bool solid_, plain_;
   mutable std::recursive_mutex mutex_;  // of all below
   std::optional<Aabb> bounds_;
   std::optional<bool> convex_;
@@ -69,6 +74,7 @@ class PlacedGeometry {
   double resolution() const { return resolution_; }
 
   std::shared_ptr<Mesh> mesh();  // each coordinate rounded once
+  bool placed_as_in_file() const { return !transform_; }
   std::shared_ptr<Surface> surface();
   std::shared_ptr<Polytope> hull();      // of all vertices, with its faces
   std::shared_ptr<Shape> hull_shape();   // the same as a shape, as a rule without faces

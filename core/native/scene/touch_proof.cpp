@@ -15,6 +15,10 @@ Shape triangle_hull(const Surface& surface, std::uint32_t triangle) {
   return make_hull(std::vector<Vec3>(c.begin(), c.end()));
 }
 
+double depth_inside(const Surface& a, const Surface& b, double largest) {
+  return std::max(mesh_distance(a, b, INFINITY).distance - chain_rounding(largest), 0.0);
+}
+
 }  // namespace
 
 double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b) {
@@ -26,17 +30,16 @@ double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle
 }
 
 double nested_depth(PlacedGeometry& a, PlacedGeometry& b) {
-  const double gap = mesh_distance(*a.surface(), *b.surface(), INFINITY).distance;
   double largest = 0;
   for (const Aabb& box : {a.bounds(), b.bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
-  return std::max(gap - chain_rounding(largest), 0.0);
+  return depth_inside(*a.surface(), *b.surface(), largest);
 }
 
-double least_depth(PlacedGeometry& a, PlacedGeometry& b, const MeshRelation& found) {
+double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& found) {
   const bool crosses = found.triangle_a != kNoTriangle && found.triangle_b != kNoTriangle;
   const bool nested = found.relation == Relation::contains || found.relation == Relation::inside;
-  const double crossing = crosses ? crossing_depth(*a.surface(), *b.surface(), found.triangle_a, found.triangle_b) : 0;
-  return nested ? std::max(crossing, nested_depth(a, b)) : crossing;
+  const double crossing = crosses ? crossing_depth(a, b, found.triangle_a, found.triangle_b) : 0;
+  return nested ? std::max(crossing, depth_inside(a, b, largest)) : crossing;
 }
 
 }  // namespace satcheck

@@ -14,7 +14,7 @@ double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle
 // Of nested bodies: the inner one stays inside at least until the surfaces meet.
 double nested_depth(PlacedGeometry& a, PlacedGeometry& b);
 
-// The better one of the two, for a pair of this relation.
-double least_depth(PlacedGeometry& a, PlacedGeometry& b, const MeshRelation& found);
+// The better one of the two, for a pair of this relation. largest: no |coordinate| of the two is greater.
+double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& found);
 
 }  // namespace satcheck

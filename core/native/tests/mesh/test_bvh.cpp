@@ -55,6 +55,23 @@ void check_tree(const Mesh& mesh) {
   check_holds(build_bvh_by_form(triangle_boxes(mesh)), triangle_boxes(mesh));
 }
 
+// Few leaves are large, and they are off the region.
+void check_near(const Mesh& mesh, const Aabb& region) {
+  const Bvh bvh = build_bvh_near(mesh, region);
+  check_holds(bvh, triangle_boxes(mesh));
+  check_same(bvh, build_bvh_near(mesh, region, 1));
+  CHECK(same(bvh.nodes[0].box, build_bvh(mesh).nodes[0].box));
+  std::size_t large = 0;
+  for (std::size_t i = 0; i < bvh.nodes.size(); ++i) {
+    const BvhNode& node = bvh.nodes[i];
+    CHECK(node.is_leaf() || node.first > i);
+    if (node.count <= 6) continue;
+    ++large;
+    CHECK(!meet(node.box, region));
+  }
+  CHECK(large <= 6);
+}
+
 // The same tree over vertices that an affine map has moved: the boxes are those of the triangles there.
 void check_refit(const Mesh& mesh) {
   Bvh bvh = build_bvh(mesh);
@@ -93,6 +110,12 @@ int main() {
   check_refit(box({0, 0, 0}, {1, 1, 1}));
   check_tree(box({0, 0, 0}, {1, 1, 1}));
   check_tree(uv_sphere(30));
+  for (const Aabb& region : {Aabb{{-2, -2, -2}, {2, 2, 2}}, Aabb{{0.9, -1, -1}, {3, 1, 1}}, Aabb{{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}},
+                             Aabb{{0.3, 0.3, 0.3}, {0.8, 0.8, 0.8}}, Aabb{{5, 5, 5}, {6, 6, 6}}}) {
+    check_near(uv_sphere(30), region);
+    check_near(box({0, 0, 0}, {1, 1, 1}), region);
+  }
+  CHECK(build_bvh_near(Mesh{}, {{0, 0, 0}, {1, 1, 1}}).nodes.empty());
   // More triangles than one thread takes alone.
   const Mesh large = uv_sphere(200);
   check_same(build_bvh(large, 1), build_bvh(large, 2));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mesh/inspection.hpp"
 #include "mesh/topology.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
@@ -120,6 +121,54 @@ void a_large_pair_alone_answers_as_any() {
   }
 }
 
+// A band of triangles, closed to a tube around the z axis: a plain solid that is not convex, as inspect() leaves it.
+Mesh ring(std::uint32_t around, std::uint32_t across, Vec3 centre, bool upright) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double u = 6.283185307179586 * i / around, v = 6.283185307179586 * j / across, r = 2 + 0.5 * std::cos(v);
+      const Vec3 p{r * std::cos(u), r * std::sin(u), 0.5 * std::sin(v)};
+      mesh.vertices.push_back(centre + (upright ? Vec3{p.x, -p.z, p.y} : p));
+      const std::uint32_t k = (i + 1) % around * across, l = (j + 1) % across;
+      mesh.triangles.push_back({i * across + j, k + j, k + l});
+      mesh.triangles.push_back({i * across + j, k + l, i * across + l});
+    }
+  }
+  return mesh;
+}
+
+std::shared_ptr<Geometry> inspected(const Mesh& mesh) {
+  const Inspection found = inspect(mesh, true);
+  return std::make_shared<Geometry>(std::make_shared<Mesh>(found.mesh), found.topology.solid, found.topology.is_plain_solid());
+}
+
+std::unique_ptr<PlacedGeometry> as_in_file(const std::shared_ptr<Geometry>& shared) {
+  return std::make_unique<PlacedGeometry>(shared, std::nullopt, bounds_of(*shared->mesh()), 1e-9);
+}
+
+void a_surface_cut_down_to_what_matters_answers_as_all_of_it() {
+  const auto lying = inspected(ring(160, 60, {0, 0, 0}, false));
+  CHECK(lying->plain());
+  int relations[6] = {};
+  for (const double x : {1.0, 1.49, 1.5, 2.0, 2.5, 3.0, 3.01, 3.5, 4.0, 4.9, 4.99}) {
+    const auto a = as_in_file(lying), b = as_in_file(inspected(ring(150, 70, {x, 0.01, 0.02}, true)));
+    for (const double gap : {0.0, 1e-9, 1e-2}) {
+      ClimbRequest request{a.get(), b.get(), gap, gap, false};
+      const Climb among_many = climb(request, Rung::triangles, Rung::triangles);
+      request.alone = true;
+      const Climb alone = climb(request, Rung::triangles, Rung::triangles);
+      CHECK(alone.triangles->relation == among_many.triangles->relation);
+      ++relations[static_cast<int>(alone.triangles->relation)];
+      CHECK(alone.gap.has_value() == among_many.gap.has_value());
+      if (alone.gap) CHECK(alone.gap->distance == among_many.gap->distance && alone.gap_is_void == among_many.gap_is_void);
+      CHECK(alone.least_depth.has_value() == among_many.least_depth.has_value());
+      if (alone.least_depth) CHECK((*alone.least_depth > 0) == (*among_many.least_depth > 0));
+    }
+  }
+  CHECK(lying->hierarchies() > 10);  // one of all of it, the others cut down
+  CHECK(relations[static_cast<int>(Relation::separated)] > 5 && relations[static_cast<int>(Relation::penetrating)] > 5);
+}
+
 void what_was_let_go_is_made_again() {
   const auto shell = geometry(hollow());
   const auto body = placed(shell, shifted(1, 2, 3, 0.5));
@@ -137,6 +186,7 @@ int main() {
   what_triangles_find();
   many_answer_as_one_by_one();
   a_large_pair_alone_answers_as_any();
+  a_surface_cut_down_to_what_matters_answers_as_all_of_it();
   what_was_let_go_is_made_again();
   return testing::exit_status();
 }
