@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from satcheck.audit.broad_phase import close_pairs
-from satcheck.audit.climb import climb_all, leaves_work
+from satcheck.audit.climb import leaves_work, start_climbs
 from satcheck.audit.effects import effects_of
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.pair import Pair
@@ -145,7 +145,7 @@ def _examine_all(
             )
             for (i, j), one in zip(close, asked, strict=True)
         ]
-        for k, one in turn.each(pairs, Steps(climb_all, _examine, leaves_work)):
+        for k, one in turn.each(pairs, Steps(start_climbs, _examine, leaves_work)):
             done[k] = one
             if progress is not None:
                 progress(len(done), len(pairs))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
@@ -39,22 +39,22 @@ def climb(pair: Pair, first: Rung = "aabb") -> core.Climb:
     return core.climb(_question(pair), first, last)
 
 
-def climb_all(pairs: Sequence[Pair], threads: int) -> list[core.Climb | None]:
-    """Many pairs with the same settings, on `threads` threads, 0: one a core.
+def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.Climb | None]]:
+    """Many pairs with the same settings, on `threads` threads, 0: one a core. The call waits.
 
     None for a pair that has to be asked alone: its climb failed, or has steps of its own.
     """
     plain = [k for k, pair in enumerate(pairs) if not (pair.curved or pair.outlined)]
-    found: list[core.Climb | None] = [None] * len(pairs)
-    if not plain:
-        return found
     last = LAST[pairs[0].settings.accuracy]
     alone = len(pairs) == 1 and pairs[0].alone
-    climbs = core.climb_all([_question(pairs[k]) for k in plain], last, threads, alone)
+    climbing = core.Climbing([_question(pairs[k]) for k in plain], last, threads, alone)
     if len(plain) == len(pairs):
-        return climbs
-    for k, one in zip(plain, climbs, strict=True):
-        found[k] = one
+        return climbing.found
+
+    def found() -> list[core.Climb | None]:
+        among = dict(zip(plain, climbing.found(), strict=True))
+        return [among.get(k) for k in range(len(pairs))]
+
     return found
 
 

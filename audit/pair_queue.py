@@ -2,14 +2,14 @@
 
 Pairs are taken along a curve through space, so that those of one body come close to each other: of
 many bodies only a few have a surface in memory at a time. They are taken in batches: the core
-climbs the ladder with all pairs of one at a time, then each is put into words. What still takes
-time then, a depth for instance, goes to threads.
+climbs the ladder with all pairs of one, in threads of its own, while those of the one before are
+put into words. What still takes time then, a depth for instance, goes to threads.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -25,19 +25,20 @@ T = TypeVar("T")
 
 # Below this many pairs, starting threads costs more than they save.
 PARALLEL_PAIRS = 8
-# The most pairs of a batch: no more results wait for their turn, and nobody waits longer to be
-# heard with Ctrl-C. And the most triangles of its pairs for each thread, about as many seconds and
-# gigabytes as there are tens of millions.
-BATCH_PAIRS = 2048
-BATCH_TRIANGLES = 500_000
+# The most pairs of a batch, two of which are under way: no more results wait for their turn, and
+# nobody waits longer to be heard with Ctrl-C. And the most triangles of its pairs for each thread,
+# about as many seconds and gigabytes as there are tens of millions.
+BATCH_PAIRS = 256
+BATCH_TRIANGLES = 250_000
 
 
 @frozen
 class Steps(Generic[C, T]):
-    """What is done about pairs. climb_all(pairs, threads): about a batch at once. examine(pair,
-    climb): one by one. leaves_work(pair, climb): whether that takes time."""
+    """What is done about pairs. start_climbs(pairs, threads): about a batch at once; the call that
+    it returns waits for what was found. examine(pair, climb): one by one. leaves_work(pair, climb):
+    whether that takes time."""
 
-    climb_all: Callable[[Sequence[Pair], int], Sequence[C]]
+    start_climbs: Callable[[Sequence[Pair], int], Callable[[], Sequence[C]]]
     examine: Callable[[Pair, C], T]
     leaves_work: Callable[[Pair, C], bool]
 
@@ -56,8 +57,10 @@ class InTurn:
         threads = self._threads(len(pairs))
         with ExitStack() as stack:
             workers = _Workers(threads, stack)
-            for batch in _batches(pairs, order, threads):
-                for k, one in zip(batch, workers.do([pairs[k] for k in batch], steps), strict=True):
+            batches = _batches(pairs, order, threads)
+            for batch, climbs in _climbed(pairs, batches, steps, threads):
+                done = workers.do([pairs[k] for k in batch], climbs, steps)
+                for k, one in zip(batch, done, strict=True):
                     for body in (pairs[k].a, pairs[k].b):
                         left[id(body)] -= 1
                         if not (left[id(body)] or self.keep):
@@ -93,6 +96,20 @@ def _batches(pairs: Sequence[Pair], order: Sequence[int], threads: int) -> Itera
         yield batch
 
 
+def _climbed(
+    pairs: Sequence[Pair], batches: Iterable[list[int]], steps: Steps[C, T], threads: int
+) -> Iterator[tuple[list[int], Sequence[C]]]:
+    """Each batch and what was found about it, while the next one climbs."""
+    ahead: tuple[list[int], Callable[[], Sequence[C]]] | None = None
+    for batch in batches:
+        found = ahead and (ahead[0], ahead[1]())
+        ahead = batch, steps.start_climbs([pairs[k] for k in batch], threads)
+        if found is not None:
+            yield found
+    if ahead is not None:
+        yield ahead[0], ahead[1]()
+
+
 class _Workers:
     """The threads of one run, started when the first pair needs them."""
 
@@ -101,8 +118,7 @@ class _Workers:
         self._stack = stack
         self._pool: Executor | None = None
 
-    def do(self, pairs: list[Pair], steps: Steps[C, T]) -> Iterator[T]:
-        climbs = steps.climb_all(pairs, self._threads)
+    def do(self, pairs: list[Pair], climbs: Sequence[C], steps: Steps[C, T]) -> Iterator[T]:
         heavy = [
             k
             for k, (pair, found) in enumerate(zip(pairs, climbs, strict=True))

@@ -352,8 +352,18 @@ class Climb:
     def nanoseconds(self) -> tuple[int, int, int, int, int, int]: ...
 
 def climb(pair: Question, first: Rung = "aabb", last: Rung = "triangles") -> Climb: ...
+class Climbing:
+    def __init__(
+        self,
+        pairs: list[Question],
+        last: Rung = "triangles",
+        threads: int = 0,
+        alone: bool = False,
+    ) -> None: ...
+    def found(self) -> list[Climb | None]: ...
+
 def climb_all(
-    pairs: Sequence[Question], last: Rung = "triangles", threads: int = 0, alone: bool = False
+    pairs: list[Question], last: Rung = "triangles", threads: int = 0, alone: bool = False
 ) -> list[Climb | None]: ...
 def crossing_depth(a: Surface, b: Surface, triangle_a: int, triangle_b: int) -> float: ...
 def find_way_within(

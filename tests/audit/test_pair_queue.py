@@ -35,7 +35,7 @@ def chain(count):
 def steps(examine, heavy=lambda _: False):
     """The climb of a pair is the pair itself."""
     return Steps(
-        climb_all=lambda pairs, _: list(pairs),
+        start_climbs=lambda pairs, _: lambda: list(pairs),
         examine=lambda pair, climb: examine(pair) if climb is pair else None,
         leaves_work=lambda pair, _: heavy(pair),
     )
@@ -58,13 +58,13 @@ def test_batches_are_bounded_in_pairs_and_in_triangles(jobs):
         pair.triangles = BATCH_TRIANGLES
     batches = []
 
-    def climb_all(batch, threads):
+    def start_climbs(batch, threads):
         assert threads == jobs
         batches.append(list(batch))
-        return batch
+        return lambda: batch
 
     done = steps(id)
-    assert len(list(InTurn(jobs).each(pairs, Steps(climb_all, done.examine, done.leaves_work))))
+    assert len(list(InTurn(jobs).each(pairs, Steps(start_climbs, done.examine, done.leaves_work))))
     assert sum(map(len, batches)) == len(pairs)
     assert max(map(len, batches)) <= BATCH_PAIRS
     assert len(batches) > 40 // (jobs + 1)

@@ -8,6 +8,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <future>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -128,27 +129,50 @@ nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of the to
       .def_prop_ro("nanoseconds", [](const Climb& c) { return nb::tuple(nb::cast(c.nanoseconds)); });
 }
 
-nb::list climb_many(const std::vector<PairTuple>& pairs, const std::string& last, unsigned threads, bool alone) {
-  std::vector<ClimbRequest> requests;
-  requests.reserve(pairs.size());
-  for (const PairTuple& pair : pairs) requests.push_back(request_from(pair, alone));
-  const Rung rung = rung_from(last);
-  std::vector<std::optional<Climb>> found;
-  {
-    const nb::gil_scoped_release release;
-    found = climb_all(requests, rung, threads);
+// A batch on its way up, in threads of its own; on one thread it climbs when it is asked for.
+class Climbing {
+ public:
+  Climbing(nb::list pairs, const std::string& last, unsigned threads, bool alone) : pairs_(std::move(pairs)) {
+    std::vector<ClimbRequest> requests;
+    requests.reserve(pairs_.size());
+    for (const nb::handle pair : pairs_) requests.push_back(request_from(nb::cast<PairTuple>(pair), alone));
+    const auto climb = [requests = std::move(requests), rung = rung_from(last), threads] {
+      return climb_all(requests, rung, threads);
+    };
+    found_ = std::async(threads == 1 ? std::launch::deferred : std::launch::async, climb);
   }
-  nb::list climbs;
-  for (std::optional<Climb>& one : found) climbs.append(one ? nb::cast(std::move(*one)) : nb::none());
-  return climbs;
-}
+
+  nb::list found() {
+    if (!found_.valid()) throw std::invalid_argument("what was found has been taken");
+    std::vector<std::optional<Climb>> found;
+    {
+      const nb::gil_scoped_release release;
+      found = found_.get();
+    }
+    nb::list climbs;
+    for (std::optional<Climb>& one : found) climbs.append(one ? nb::cast(std::move(*one)) : nb::none());
+    return climbs;
+  }
+
+ private:
+  nb::list pairs_;  // keeps the bodies
+  std::future<std::vector<std::optional<Climb>>> found_;
+};
 
 }  // namespace
 
 void bind_climb(nb::module_& m) {
   bind_geometry(m);
   bind_found(m);
-  m.def("climb_all", &climb_many, "pairs"_a, "last"_a = "triangles", "threads"_a = 0, "alone"_a = false,
+  nb::class_<Climbing>(m, "Climbing", "Pairs on their way up the ladder; while they climb, the caller can do something else.")
+      .def(nb::init<nb::list, const std::string&, unsigned, bool>(), "pairs"_a, "last"_a = "triangles", "threads"_a = 0,
+           "alone"_a = false, "As climb_all; on one thread nothing climbs before it is asked for.")
+      .def("found", &Climbing::found, "Waits, and hands over once.");
+  m.def("climb_all",
+        [](nb::list pairs, const std::string& last, unsigned threads, bool alone) {
+          return Climbing(std::move(pairs), last, threads, alone).found();
+        },
+        "pairs"_a, "last"_a = "triangles", "threads"_a = 0, "alone"_a = false,
         R"(Each pair (a, b, asked_gap, tolerance, wants_distance) up the ladder, on `threads` threads (0: one a core).
 
 A rung that proves the bodies apart by more than asked_gap ends the climb, and so does the rung `last`: "aabb", "obb",
