@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from satcheck.cli import exit_codes
 from satcheck.cli.lengths import in_units_of
-from satcheck.cli.output import CannotWrite, Document, talk
+from satcheck.cli.output import Document, cannot_write, talk
+from satcheck.cli.refusals import failure, wrong_usage
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
@@ -97,11 +96,11 @@ def run(choices: Choices) -> int:
 def refuse_early(paths: tuple[str, ...], output: Path | None, others: tuple[str, ...] = ()) -> None:
     """What can be seen to fail before any work is done. others: more files that are read."""
     if not paths:
-        raise click.UsageError("give two or more mesh files, or a scene file")
+        raise wrong_usage("give two or more mesh files, or a scene file")
     if output and not output.absolute().parent.is_dir():
-        raise CannotWrite(str(output), "its folder does not exist")
+        raise cannot_write(str(output), "its folder does not exist")
     if output is not None and any(_is_an_input(output, path) for path in (*paths, *others)):
-        raise click.UsageError(f"-o {output} would overwrite an input")
+        raise wrong_usage(f"-o {output} would overwrite an input")
 
 
 def _is_an_input(output: Path, path: str) -> bool:
@@ -124,15 +123,15 @@ def load(
     from satcheck.scene.loader import is_mesh
 
     if split and not any(map(is_mesh, paths)):
-        raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
+        raise wrong_usage("--split is about mesh files: a scene says what its bodies are")
     scene = load_scene(paths, split=split, packages=packages, allow_outside=allow_outside)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])
     if len(scene.bodies) + len(scene.unreadable) < 2:
         if scene.unreadable:
-            raise click.ClickException("an input could not be used: there is no pair to check")
-        raise click.UsageError(f"one body alone cannot collide: {_advice(paths[0], split)}")
+            raise failure("an input could not be used: there is no pair to check")
+        raise wrong_usage(f"one body alone cannot collide: {_advice(paths[0], split)}")
     return scene
 
 

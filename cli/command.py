@@ -9,11 +9,10 @@ from importlib import import_module
 
 import click
 
+from satcheck.cli.commands import COMMANDS
 from satcheck.cli.commands.options import HELP_NAMES
 
 DEFAULT_COMMAND = "check"
-# Each is `command` in the module of its name in cli/commands/, imported when it is called.
-COMMANDS = ("cache", "resolve", "schema", "stability", "suggest", "tradeoff", "verify")
 
 
 def meant(word: str) -> str | None:
@@ -40,6 +39,14 @@ class _Satcheck(click.Group):
         command = import_module(f"satcheck.cli.commands.{cmd_name}").command
         assert isinstance(command, click.Command)
         return command
+
+
+def default_context() -> click.Context:
+    """Of the command that needs no name, for what is wrong with a call that click has not read."""
+    group = click.Context(satcheck, info_name="satcheck")
+    command = satcheck.get_command(group, DEFAULT_COMMAND)
+    assert command is not None
+    return command.make_context(DEFAULT_COMMAND, [], parent=group, resilient_parsing=True)
 
 
 @click.group(cls=_Satcheck, context_settings=HELP_NAMES, add_help_option=False)

@@ -6,11 +6,9 @@ import gc
 import os
 import sys
 
-import click
-
 from satcheck.cli import exit_codes
-from satcheck.cli.command import satcheck
 from satcheck.cli.output import talk
+from satcheck.cli.plain import plain_choices
 
 COMPLETION_VARIABLE = "_SATCHECK_COMPLETE"
 
@@ -28,22 +26,54 @@ def _run() -> int:
     debug = "--debug" in sys.argv[1:]
     stdout = sys.stdout
     try:
-        result = satcheck.main(prog_name="satcheck", standalone_mode=False)
-    except click.UsageError as error:
-        error.show()
-        return exit_codes.ERROR
-    except click.ClickException as error:
-        return _failed(f"error: {error.format_message()}", debug)
-    except (click.Abort, KeyboardInterrupt):
-        talk("satcheck: interrupted")
-        return exit_codes.INTERRUPTED
+        result = _called(sys.argv[1:])
+    except KeyboardInterrupt:
+        return _interrupted()
     except SystemExit as stop:
         return _stopped(stop, reader_left=sys.stdout is not stdout)
     except MemoryError:
         return _failed("error: out of memory [out-of-memory]", debug)
     except Exception as error:  # noqa: BLE001  the last resort: no traceback, never exit 1
-        return _failed(_told(error), debug)
+        code = _said_by_click(error, debug)
+        return _failed(_told(error), debug) if code is None else code
     return result if isinstance(result, int) else exit_codes.CLEAN
+
+
+def _called(arguments: list[str]) -> object:
+    choices = None if COMPLETION_VARIABLE in os.environ else plain_choices(arguments)
+    if choices is None:
+        from satcheck.cli.command import satcheck
+
+        return satcheck.main(prog_name="satcheck", standalone_mode=False)
+    from satcheck.cli.checking import run
+
+    return run(choices)
+
+
+def _interrupted() -> int:
+    talk("satcheck: interrupted")
+    return exit_codes.INTERRUPTED
+
+
+def _said_by_click(error: Exception, debug: bool) -> int | None:
+    """The exit code of one of its exceptions; None for others. What nobody imported nobody
+    raised."""
+    if "click" not in sys.modules:
+        return None
+    import click
+
+    if isinstance(error, click.Abort):
+        return _interrupted()
+    if isinstance(error, click.UsageError):
+        if error.ctx is None:
+            from satcheck.cli.command import default_context
+
+            error = click.UsageError(error.message, default_context())
+        error.show()
+        return exit_codes.ERROR
+    if isinstance(error, click.ClickException):
+        return _failed(f"error: {error.format_message()}", debug)
+    return None
 
 
 def _stopped(stop: SystemExit, *, reader_left: bool) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
+from satcheck.cli.refusals import wrong_usage
 
 if TYPE_CHECKING:
     from satcheck.scene.units import Length
@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 def length(text: str) -> Length:
     """A click parameter type; click.BadParameter for what is not a length."""
+    import click
+
     from satcheck.scene.units import parse_length
 
     try:
@@ -25,4 +27,4 @@ def in_units_of(given: Length, declared: str | None, option: str) -> float:
     try:
         return given.in_units_of(declared)
     except ValueError as error:
-        raise click.UsageError(f"{option} {error}") from None
+        raise wrong_usage(f"{option} {error}") from None

@@ -9,9 +9,12 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple, TextIO
+from typing import TYPE_CHECKING, NamedTuple, TextIO
 
-import click
+from satcheck.cli.refusals import failure
+
+if TYPE_CHECKING:
+    import click
 
 # Wide enough that no cell is ever folded where no terminal sets a width (rich would assume 80).
 UNBOUNDED_WIDTH = 100_000
@@ -44,11 +47,14 @@ def talk(line: str) -> None:
         sys.stderr.flush()
 
 
-class CannotWrite(click.ClickException):
-    """The document could not be delivered."""
+def cannot_write(where: str, reason: str | None) -> click.ClickException:
+    """The document could not be delivered. To be raised."""
+    return failure(f"{where}: cannot write the report: {reason} [cannot-write]")
 
-    def __init__(self, where: str, reason: str | None) -> None:
-        super().__init__(f"{where}: cannot write the report: {reason} [cannot-write]")
+
+def form_of(form: str | None, output: Path | None) -> str:
+    """How to report: as asked, else as the name of the output file says."""
+    return form or ("json" if output and output.suffix.lower() == ".json" else "table")
 
 
 class Document:
@@ -84,7 +90,7 @@ class Document:
     def write(self, text: str | Sequence[str], *, utf8: bool = False) -> None:
         """Write it all, one text or its pieces.
 
-        A closed pipe is silent, any other failure is CannotWrite.
+        A closed pipe is silent, any other failure is cannot_write().
 
         utf8: whatever the terminal's encoding (JSON is UTF-8 by definition); lone surrogates of
         undecodable file names become their `\\udcXX` escapes, which JSON reads back.
@@ -99,7 +105,7 @@ class Document:
         except OSError as error:
             _abandon(self._stream)
             if error.errno not in _READER_LEFT:
-                raise CannotWrite("standard output", error.strerror) from None
+                raise cannot_write("standard output", error.strerror) from None
 
 
 def harmless(line: str, *, colour: bool = False) -> str:
@@ -117,20 +123,20 @@ def harmless(line: str, *, colour: bool = False) -> str:
 
 
 def write_file(path: Path, text: str | Sequence[str]) -> None:
-    """Write UTF-8 to a file, one text or its pieces; CannotWrite where that fails."""
+    """Write UTF-8 to a file, one text or its pieces; cannot_write() where that fails."""
     try:
         with path.open("w", encoding="utf-8", errors="backslashreplace", newline="") as stream:
             stream.writelines(_pieces(text))
     except OSError as error:
-        raise CannotWrite(str(path), error.strerror) from None
+        raise cannot_write(str(path), error.strerror) from None
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Write them as they are; CannotWrite where that fails."""
+    """Write them as they are; cannot_write() where that fails."""
     try:
         path.write_bytes(content)
     except OSError as error:
-        raise CannotWrite(str(path), error.strerror) from None
+        raise cannot_write(str(path), error.strerror) from None
 
 
 def _pieces(text: str | Sequence[str]) -> Sequence[str]:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import click
-
+from satcheck.cli.refusals import wrong_usage
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
@@ -40,16 +39,14 @@ def poses_of(scene: Scene, asked: Posing) -> list[Pose] | Pose:
     from satcheck.scene.robot import joint_samples, pose_of_states, read_poses
 
     if not scene.robots:
-        raise click.UsageError("there is no robot to pose: give a URDF")
+        raise wrong_usage("there is no robot to pose: give a URDF")
     if asked.seed is not None and not asked.sample:
-        raise click.UsageError("--seed chooses among random poses: add --sample N")
+        raise wrong_usage("--seed chooses among random poses: add --sample N")
     base = pose_of_states(scene, asked.state)
     read = [read_poses(given) for given in asked.pose]
     if asked.sample:
         if len(read) > 1 or any(isinstance(one, list) for one in read):
-            raise click.UsageError(
-                "--sample draws the poses: of --pose it takes one, to hold on to"
-            )
+            raise wrong_usage("--sample draws the poses: of --pose it takes one, to hold on to")
         fixed = {**base, **(read[0] if read and not isinstance(read[0], list) else {})}
         robots = [robot.robot for robot in scene.robots]
         return joint_samples(robots, asked.sample, asked.random_seed or 0, fixed)

@@ -352,6 +352,7 @@ class Climb:
     def nanoseconds(self) -> tuple[int, int, int, int, int, int]: ...
 
 def climb(pair: Question, first: Rung = "aabb", last: Rung = "triangles") -> Climb: ...
+
 class Climbing:
     def __init__(
         self,

@@ -9,7 +9,6 @@ import click
 from satcheck.cli.commands.options import (
     HELP_NAMES,
     debug_option,
-    form_of,
     form_option,
     jobs_option,
     open_option,
@@ -20,6 +19,7 @@ from satcheck.cli.commands.options import (
 )
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 from satcheck.cli.lengths import length
+from satcheck.cli.output import form_of
 
 PLANES = ("xy", "yz", "xz")
 ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from satcheck.cli.plain import FORMATS
+
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
-FORMATS = ("table", "json")
 SPLITS = ("nodes", "components", "none")
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 _STANDARD_OUTPUT = Path("-")
@@ -21,11 +22,6 @@ _STANDARD_OUTPUT = Path("-")
 
 def _file_or_nothing(_: click.Context, __: click.Parameter, given: Path | None) -> Path | None:
     return None if given == _STANDARD_OUTPUT else given
-
-
-def form_of(form: str | None, output: Path | None) -> str:
-    """How to report: as asked, else as the name of the output file says."""
-    return form or ("json" if output and output.suffix.lower() == ".json" else "table")
 
 
 def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:

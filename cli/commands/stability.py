@@ -9,12 +9,12 @@ import click
 from satcheck.cli.commands.options import (
     HELP_NAMES,
     debug_option,
-    form_of,
     form_option,
     output_option,
     outside_option,
     paths_argument,
 )
+from satcheck.cli.output import form_of
 
 
 @click.command("stability", context_settings=HELP_NAMES)

@@ -10,13 +10,13 @@ import click
 from satcheck.cli.commands.options import (
     HELP_NAMES,
     debug_option,
-    form_of,
     form_option,
     output_option,
     outside_option,
     paths_argument,
     split_option,
 )
+from satcheck.cli.output import form_of
 
 
 @click.command("tradeoff", context_settings=HELP_NAMES)

@@ -93,3 +93,10 @@ def test_the_second_run_on_a_concave_pair_does_not_import_coacd(tmp_path: Path) 
     assert "coacd" not in names
     assert "satcheck.core.worker" not in names
     assert first.out == second.out
+
+
+def test_a_plain_call_needs_no_click() -> None:
+    names = imported("--format", "json", "--no-depth", "box.obj", "box_pushed.stl", code=1)
+    assert not {name for name in names if name.startswith("click")}
+    assert names & {"inspect", "uuid", "difflib"} == set()
+    assert "click" in imported("--format=json", "box.obj", "box_pushed.stl", code=1)
