@@ -44,17 +44,29 @@ SATCHECK_INLINE Lanes shuffle(Lanes v) {
 #endif
 }
 
+// The same of two vectors: 4 to 7 are the lanes of the second.
+template <int a, int b, int c, int d>
+SATCHECK_INLINE Lanes shuffle(Lanes u, Lanes v) {
+#if defined(__clang__)
+  return __builtin_shufflevector(u, v, a, b, c, d);
+#else
+  return __builtin_shuffle(u, v, LaneMask{a, b, c, d});
+#endif
+}
+
 SATCHECK_INLINE Lanes square_root(Lanes v) {
 #if defined(__SSE2__)
-  __m128d half[2];
-  __builtin_memcpy(half, &v, sizeof half);
-  half[0] = _mm_sqrt_pd(half[0]);
-  half[1] = _mm_sqrt_pd(half[1]);
-  __builtin_memcpy(&v, half, sizeof half);
-  return v;
+  const __m128d low = _mm_sqrt_pd(__m128d{v[0], v[1]}), high = _mm_sqrt_pd(__m128d{v[2], v[3]});
+  return Lanes{low[0], low[1], high[0], high[1]};
 #else
   return Lanes{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
 #endif
+}
+
+SATCHECK_INLINE Lanes abs(Lanes v) { return (Lanes)((LaneMask)v & ~(LaneMask)Lanes{-0.0, -0.0, -0.0, -0.0}); }
+// `size` is not negative.
+SATCHECK_INLINE Lanes with_sign_of(Lanes sign, Lanes size) {
+  return (Lanes)((LaneMask)size | ((LaneMask)sign & (LaneMask)Lanes{-0.0, -0.0, -0.0, -0.0}));
 }
 
 // Bit l is set where lane l holds.
@@ -105,6 +117,10 @@ LaneMask each_mask(Function f) {
 inline LaneMask operator&(LaneMask a, LaneMask b) { return each_mask([&](int l) { return a.lane[l] && b.lane[l]; }); }
 inline LaneMask operator|(LaneMask a, LaneMask b) { return each_mask([&](int l) { return a.lane[l] || b.lane[l]; }); }
 inline Lanes square_root(Lanes v) { return each_lane([&](int l) { return std::sqrt(v[l]); }); }
+inline Lanes abs(Lanes v) { return each_lane([&](int l) { return std::fabs(v[l]); }); }
+inline Lanes with_sign_of(Lanes sign, Lanes size) {
+  return each_lane([&](int l) { return std::copysign(size[l], sign[l]); });
+}
 inline Lanes load_lanes(const double* from) { return {{from[0], from[1], from[2], from[3]}}; }
 inline Lanes select(LaneMask mask, Lanes a, Lanes b) {
   return each_lane([&](int l) { return mask.lane[l] ? a[l] : b[l]; });
@@ -112,6 +128,11 @@ inline Lanes select(LaneMask mask, Lanes a, Lanes b) {
 template <int a, int b, int c, int d>
 Lanes shuffle(Lanes v) {
   return {{v[a], v[b], v[c], v[d]}};
+}
+template <int a, int b, int c, int d>
+Lanes shuffle(Lanes u, Lanes v) {
+  const auto lane = [&](int l) { return l < 4 ? u[l] : v[l - 4]; };
+  return {{lane(a), lane(b), lane(c), lane(d)}};
 }
 inline int bits_of(LaneMask m) { return m.lane[0] | m.lane[1] << 1 | m.lane[2] << 2 | m.lane[3] << 3; }
 
@@ -122,6 +143,6 @@ inline int bits_of(LaneMask m) { return m.lane[0] | m.lane[1] << 1 | m.lane[2] <
 namespace satcheck {
 
 SATCHECK_INLINE Lanes all_lanes(double value) { return Lanes{value, value, value, value}; }
-SATCHECK_INLINE Lanes abs(Lanes v) { return select(v < all_lanes(0), -v, v); }
+SATCHECK_INLINE Lanes smaller(Lanes a, Lanes b) { return select(a < b, a, b); }
 
 }  // namespace satcheck

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/tolerances.hpp"
-#include "convex/box_contact.hpp"
+#include "convex/box_pair.hpp"
 #include "convex/contact_region.hpp"
 #include "convex/curved_axis.hpp"
 #include "convex/epa.hpp"
@@ -12,6 +12,7 @@
 #include "convex/exact_pair.hpp"
 #include "convex/exact_reach.hpp"
 #include "convex/pair_order.hpp"
+#include "convex/proof_noise.hpp"
 
 namespace satcheck {
 
@@ -34,11 +35,11 @@ bool solid_polytopes(const MinkowskiDifference& m) {
   return is_solid(m.a) && is_solid(m.b);
 }
 
-bool are_boxes(const MinkowskiDifference& m) { return m.a.kind == ShapeKind::box && m.b.kind == ShapeKind::box; }
+bool are_boxes(const Shape& a, const Shape& b) { return a.kind == ShapeKind::box && b.kind == ShapeKind::box; }
 
 bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
   if (method == MethodChoice::gjk) return false;
-  if (are_boxes(m)) return true;
+  if (are_boxes(m.a, m.b)) return true;
   if (!solid_polytopes(m)) return false;
   if (method == MethodChoice::sat) return true;
   return std::max(m.a.polytope.vertices.size(), m.b.polytope.vertices.size()) <= kSatVertexLimit;
@@ -46,7 +47,8 @@ bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
 
 CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
   const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
-  const SatResult sat = are_boxes(m) ? sat_boxes(m) : sat_polytopes(m, goal);
+  const BoxContact found = are_boxes(m.a, m.b) ? contact_of_boxes(m) : BoxContact{sat_polytopes(m, goal), {}, false};
+  const SatResult& sat = found.sat;
   result.axes_tested += sat.axes_tested;
   CoreAnswer answer;
   answer.lower = sat.lower;
@@ -58,8 +60,7 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   answer.index_a = sat.index_a;
   answer.index_b = sat.index_b;
   if (query != Query::overlap && sat.penetration >= -m.support_error()) {
-    const auto sole = are_boxes(m) ? sole_contact_of_boxes(m, sat) : std::nullopt;
-    answer.witness = sole ? *sole : contact_region_centre(m, sat.axis, sat.penetration);
+    answer.witness = found.sole ? found.witness : contact_region_centre(m, sat.axis, sat.penetration);
   }
   return answer;
 }
@@ -199,19 +200,11 @@ Polytope world_hull(const Shape& shape, const Pose& pose) {
   return in_place && shape.has_faces ? hull : convex_hull(hull.vertices);
 }
 
-// How far the rounding of a pose moves a vertex at most. In a coordinate 3 products and 2 sums make 5
-// roundings of no more than the reach of the turned vertex, sqrt(3) times its largest coordinate: as a
-// vector, 15 of that coordinate. Adding the translation rounds the sum; rounded up.
-double placement_error(const Shape& shape, const Pose& pose) {
-  if (pose.rotation == Mat3{} && pose.translation == Vec3{}) return 0;
-  return kUnitRoundoff * (norm(pose.translation) + 20 * (max_abs(shape.origin) + shape.extent));
-}
-
 // The rounding that a proof in float64 has to beat. Cores of vertices are judged where their poses
 // round them to, curved ones where their poses put them.
 double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
   if (m.curved) return m.support_error();
-  return m.support_error() + placement_error(m.a, pose_a) + placement_error(m.b, pose_b);
+  return proof_noise(m.scale, m.a, pose_a, m.b, pose_b);
 }
 
 void write_distance(const MinkowskiDifference& m, const CoreAnswer& core, const Pose& pose_a, double noise,
@@ -276,21 +269,9 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (side == 0) result.distance = 0;
 }
 
-// Yes or no of two boxes, where their axes prove it.
-bool decided_by_sides(const MinkowskiDifference& m, double noise, PairResult& result) {
-  const BoxSides sides = sides_of_boxes(m, noise);
-  result.method = Method::sat;
-  result.feature = sides.feature;
-  result.index_a = sides.index_a;
-  result.index_b = sides.index_b;
-  result.axes_tested = sides.axes_tested;
-  result.outcome = sides.side < 0 ? Outcome::separated : sides.side > 0 ? Outcome::penetrating : Outcome::undecided;
-  return sides.side != 0;
-}
-
 // What an axis that separates leaves open is the distance. Of boxes that are asked for it, it comes first.
 CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
-  const bool distance_first = query == Query::distance && are_boxes(m);
+  const bool distance_first = query == Query::distance && are_boxes(m.a, m.b);
   const auto distance = [&](double lower_bound) {
     const GjkResult g = gjk(m, GjkGoal::distance);
     result.gjk_iterations += g.iterations;
@@ -311,8 +292,9 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const double noise = proof_noise(m, pose_a, pose_b), margin = m.a.margin + m.b.margin;
   PairResult result;
   const bool by_sat = takes_sat(m, method);
-  if (by_sat && query == Query::overlap && are_boxes(m)) {
-    if (!decided_by_sides(m, noise, result)) settle_exactly(a, pose_a, b, pose_b, true, noise, result);
+  if (by_sat && query == Query::overlap && are_boxes(m.a, m.b)) {
+    result.axes_tested = 15;  // overlap_of_boxes() left it open
+    settle_exactly(a, pose_a, b, pose_b, true, noise, result);
     return result;
   }
   CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, noise, result);
@@ -329,7 +311,7 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   const bool polytopes = a.is_polytope() && b.is_polytope();
   if (!polytopes && core.has_axis) straighten(core);
   if (query != Query::overlap && core.has_axis) write_distance(m, core, pose_a, noise, result);
-  const double confirmed_below = core.method == Method::sat && !are_boxes(m) ? std::fmax(kShallow * m.scale, noise) : noise;
+  const double confirmed_below = core.method == Method::sat && !are_boxes(m.a, m.b) ? std::fmax(kShallow * m.scale, noise) : noise;
   const bool in_doubt = core.lower + margin <= confirmed_below && core.upper + margin >= -noise;
   const double widest = kWidestInterval * m.scale;
   const bool too_wide = result.has_distance && !(core.upper - core.lower <= widest && noise <= widest);
@@ -342,17 +324,34 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   return result;
 }
 
-}  // namespace
-
-PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
-                      MethodChoice method) {
-  const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
-  if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);
-  if (needs_faces && !b.has_faces) return check_pair(a, pose_a, with_faces(b), pose_b, query, method);
+PairResult check_in_any_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                              MethodChoice method) {
   if (comes_before(a, pose_a, b, pose_b)) return check_in_order(a, pose_a, b, pose_b, query, method);
   PairResult result = check_in_order(b, pose_b, a, pose_a, query, method);
   mirror(result);
   return result;
+}
+
+PairResult check_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query) {
+  PairResult result = query == Query::overlap ? overlap_of_boxes(a, pose_a, b, pose_b) : depth_of_boxes(a, pose_a, b, pose_b);
+  if (result.outcome == Outcome::undecided) {
+    result = check_in_any_order(a, pose_a, b, pose_b, query, MethodChoice::automatic);
+  }
+  return result;
+}
+
+}  // namespace
+
+PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
+                      MethodChoice method) {
+  // Boxes that are asked for their distance are apart, most of them: GJK comes first.
+  if (are_boxes(a, b) && query != Query::distance && method != MethodChoice::gjk) {
+    return check_boxes(a, pose_a, b, pose_b, query);
+  }
+  const bool needs_faces = method == MethodChoice::sat || !a.is_polytope() || !b.is_polytope();
+  if (needs_faces && !a.has_faces) return check_pair(with_faces(a), pose_a, b, pose_b, query, method);
+  if (needs_faces && !b.has_faces) return check_pair(a, pose_a, with_faces(b), pose_b, query, method);
+  return check_in_any_order(a, pose_a, b, pose_b, query, method);
 }
 
 }  // namespace satcheck

@@ -38,7 +38,7 @@ std::partial_ordering order(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-bool comes_before(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+bool comes_before_in_full(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const auto by_shape = order(a, b);
   return by_shape != 0 ? by_shape < 0 : order(pose_a, pose_b) <= 0;
 }

@@ -8,8 +8,14 @@
 
 namespace satcheck {
 
-// Compares what the shapes are, then where they stand; no scaling changes the result.
-bool comes_before(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
+// Compares all that the shapes are, then where they stand.
+bool comes_before_in_full(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
+
+// No scaling changes the result. Most shapes differ in the first coordinate that is compared.
+inline bool comes_before(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  if (a.kind == b.kind && a.size.x != b.size.x) return a.size.x < b.size.x;
+  return comes_before_in_full(a, pose_a, b, pose_b);
+}
 
 // Turns it into the answer to the question with A and B exchanged.
 void mirror(PairResult& result);

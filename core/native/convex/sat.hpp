@@ -27,18 +27,6 @@ struct SatResult {
 
 enum class SatGoal { any_separating_axis, least_overlap };
 
-// Two boxes over 15 axes: the least overlap.
-SatResult sat_boxes(const MinkowskiDifference& difference);
-
-// Two boxes over 15 axes, yes or no. `noise` bounds the rounding error of an overlap.
-struct BoxSides {
-  int side = 0;  // -1: an axis separates by more than noise; 1: the boxes overlap on all by more; 0: neither
-  Feature feature = Feature::none;  // the axis that separates
-  std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
-  int axes_tested = 0;
-};
-BoxSides sides_of_boxes(const MinkowskiDifference& difference, double noise);
-
 // Two solid polytopes over the face normals of both and the edge pairs whose arcs cross on the Gauss map.
 SatResult sat_polytopes(const MinkowskiDifference& difference, SatGoal goal);
 

@@ -1,0 +1,164 @@
+// Nothing branches on coordinates up to the end (box_axes.hpp): what the axis decides is looked up.
+#include "convex/box_pair.hpp"
+
+#include "convex/box_axes.hpp"
+#include "convex/pair_order.hpp"
+#include "convex/proof_noise.hpp"
+
+namespace satcheck {
+
+namespace {
+
+// 1 / sine of the angle of two edges, up to which their crossing is well conditioned.
+constexpr double kCrossing = 1e3;
+
+// The boxes in the order in which they are answered.
+struct OrderedBoxes {
+  const Shape *a, *b;
+  const Pose *pose_a, *pose_b;
+  bool swapped;
+};
+
+SATCHECK_INLINE OrderedBoxes in_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  const Shape* const shapes[2] = {&a, &b};
+  const Pose* const poses[2] = {&pose_a, &pose_b};
+  const bool swapped = !comes_before(a, pose_a, b, pose_b);
+  return {shapes[swapped], shapes[!swapped], poses[swapped], poses[!swapped], swapped};
+}
+
+SATCHECK_INLINE PlacedBoxes placed_boxes(const OrderedBoxes& o) { return placed_boxes(*o.a, *o.pose_a, *o.b, *o.pose_b); }
+
+SATCHECK_INLINE double proof_noise(double scale, const OrderedBoxes& o) {
+  return proof_noise(scale, *o.a, *o.pose_a, *o.b, *o.pose_b);
+}
+
+// What the axis is, by LeastOverlap::kind; 3: there is none. In the order that was asked for.
+struct FoundFeature {
+  Feature feature;
+  std::uint32_t index_a, index_b;
+};
+
+SATCHECK_INLINE FoundFeature found_feature(int kind, int i, int k, bool swapped) {
+  constexpr Feature seen[2][4] = {{Feature::face_a, Feature::face_b, Feature::edge_edge, Feature::none},
+                                  {Feature::face_b, Feature::face_a, Feature::edge_edge, Feature::none}};
+  constexpr std::uint32_t none = Shape::kNoIndex, hides[4][2] = {{0, none}, {none, 0}, {0, 0}, {none, none}};
+  static_assert(none == ~std::uint32_t{0});
+  const std::uint32_t index[2] = {static_cast<std::uint32_t>(i) | hides[kind][0], static_cast<std::uint32_t>(k) | hides[kind][1]};
+  return {seen[swapped][kind], index[swapped], index[!swapped]};
+}
+
+struct ContactPoints {
+  Lanes on_a, on_b;  // frame of A; on_a - on_b = penetration * axis
+  bool sole;
+};
+
+// By kind of axis and axis of the box: where witness points have to lie over the face, or within the edge, 0.
+constexpr double kFar = INFINITY;
+constexpr double kSlackA[3][3][4] = {{{kFar, 0, 0, kFar}, {0, kFar, 0, kFar}, {0, 0, kFar, kFar}},
+                                     {{kFar, kFar, kFar, kFar}, {kFar, kFar, kFar, kFar}, {kFar, kFar, kFar, kFar}},
+                                     {{0, kFar, kFar, kFar}, {kFar, 0, kFar, kFar}, {kFar, kFar, 0, kFar}}};
+constexpr double kSlackB[3][3][4] = {{{kFar, kFar, kFar, kFar}, {kFar, kFar, kFar, kFar}, {kFar, kFar, kFar, kFar}},
+                                     {{kFar, 0, 0, kFar}, {0, kFar, 0, kFar}, {0, 0, kFar, kFar}},
+                                     {{0, kFar, kFar, kFar}, {kFar, 0, kFar, kFar}, {kFar, kFar, 0, kFar}}};
+
+// A corner of B against a face of A, a corner of A against a face of B, or the crossing of an edge of
+// each seen along the axis.
+SATCHECK_INLINE ContactPoints contact_points(const PlacedBoxes& boxes, const LeastOverlap& least) {
+  const Lanes n = least.axis, against = -least.axis_in_b, way = n * least.penetration;
+  const bool edges = least.kind == 2;
+  // Of edges the middles, which are 0 along them.
+  constexpr double keeps[4][4] = {{0, 1, 1, 0}, {1, 0, 1, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}};
+  const Lanes of_a = with_sign_of(n, boxes.half_a) * load_lanes(keeps[edges ? least.i : 3]);
+  const Lanes in_b = with_sign_of(against, boxes.half_b) * load_lanes(keeps[edges ? least.k : 3]);
+  const Lanes of_b = combine(boxes.a_in_b.row, in_b) + boxes.offset;
+  // How far along A's edge the crossing lies: by what of it is across B's.
+  const Lanes e = unit_lane(least.i), across_f = e - boxes.a_in_b.row[least.k] * boxes.b_in_a.row[least.i][least.k];
+  const Lanes apart = across_f * (of_b - of_a + way);
+  const double s = (apart[0] + apart[1] + apart[2]) * (least.inverse_sine * least.inverse_sine);
+  const Lanes points[3] = {of_b + way, of_a, of_a + e * s};
+  const Lanes on_a = points[least.kind], on_b = on_a - way;
+
+  const Lanes placed_in_b = combine(boxes.b_in_a.row, on_b - boxes.offset);
+  const LaneMask beside = (abs(on_a) > boxes.half_a + load_lanes(kSlackA[least.kind][least.i])) |
+                          (abs(placed_in_b) > boxes.half_b + load_lanes(kSlackB[least.kind][least.k]));
+  // A face of the other box sees one corner.
+  constexpr double least_slope[3][2] = {{0, kSameFeature}, {kSameFeature, 0}, {0, 0}};
+  const LaneMask level = (abs(n) < all_lanes(least_slope[least.kind][0])) | (abs(against) < all_lanes(least_slope[least.kind][1]));
+  const bool crosses = !edges | (least.inverse_sine < kCrossing), none = bits_of_three(beside | level) == 0;
+  return {on_a, on_b, static_cast<bool>(crosses & none)};
+}
+
+SATCHECK_INLINE Vec3 vec3(Lanes v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m) {
+  const PlacedBoxes boxes = placed_boxes(m);
+  const LeastOverlap least = least_overlap(boxes);
+  const ContactPoints contact = contact_points(boxes, least);
+  const FoundFeature found = found_feature(least.kind, least.i, least.k, false);
+  return {{least.penetration, least.lower, vec3(least.axis), found.feature, found.index_a, found.index_b, 15},
+          {vec3(contact.on_a), vec3(contact.on_b)},
+          contact.sole};
+}
+
+SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  const OrderedBoxes ordered = in_order(a, pose_a, b, pose_b);
+  const PlacedBoxes boxes = placed_boxes(ordered);
+  BoxAxes axes;
+  measure_faces(boxes, axes);
+  const double noise = proof_noise(boxes.scale, ordered);
+  const Lanes some = all_lanes(noise), none = all_lanes(-noise), limit = all_lanes(noise * noise);
+  // Four bits a triple of axes: where the boxes are apart by more than noise, and where they may be.
+  int apart = bits_of_three(axes.overlap[0] < none) | bits_of_three(axes.overlap[1] < none) << 4;
+  LaneMask open = (axes.overlap[0] < some) | (axes.overlap[1] < some);
+  const bool by_face = apart != 0;
+  if (!by_face) measure_edges(boxes, axes);
+  for (int i = 0; i < 3 && !by_face; ++i) {
+    // Against noise times the length, squared: of parallel edges that is 0 against 0, and in nobody's way.
+    const Lanes overlap = signed_square(axes.overlap[2 + i]), short_of = limit * axes.length_squared[i];
+    apart |= bits_of_three(overlap < -short_of) << (8 + 4 * i);
+    open = open | (overlap < short_of);
+  }
+  const int first = std::countr_zero(static_cast<unsigned>(apart) | 1u << 20);
+  constexpr int kinds[6] = {0, 1, 2, 2, 2, 3};
+  const int triple = first >> 2, k = first & 3, kind = kinds[triple];
+  const FoundFeature found = found_feature(kind, kind == 2 ? triple - 2 : k, k, ordered.swapped);
+  PairResult result;
+  result.outcome = apart != 0 ? Outcome::separated : bits_of_three(open) != 0 ? Outcome::undecided : Outcome::penetrating;
+  result.method = Method::sat;
+  result.feature = found.feature;
+  result.index_a = found.index_a;
+  result.index_b = found.index_b;
+  result.axes_tested = by_face ? 6 : 15;
+  return result;
+}
+
+SATCHECK_WIDE PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  const OrderedBoxes ordered = in_order(a, pose_a, b, pose_b);
+  const PlacedBoxes boxes = placed_boxes(ordered);
+  const LeastOverlap least = least_overlap(boxes);
+  const ContactPoints contact = contact_points(boxes, least);
+  const double noise = proof_noise(boxes.scale, ordered);
+  if (!(least.lower > noise) || !(noise <= kWidestInterval * boxes.scale) || !contact.sole) return {};
+  const FoundFeature found = found_feature(least.kind, least.i, least.k, ordered.swapped);
+  const LaneMat3 to_world = transposed(lane_mat3(ordered.pose_a->rotation));
+  const Lanes normal = combine(to_world.row, least.axis);
+  const Lanes origin = three(ordered.pose_a->translation);
+  const Vec3 witness[2] = {vec3(combine(to_world.row, contact.on_a) + origin), vec3(combine(to_world.row, contact.on_b) + origin)};
+  return {.outcome = Outcome::penetrating,
+          .method = Method::sat,
+          .feature = found.feature,
+          .index_a = found.index_a,
+          .index_b = found.index_b,
+          .has_distance = true,
+          .distance = -least.penetration,
+          .lower = -least.penetration - noise,
+          .upper = -least.lower + noise,
+          .normal = vec3(all_lanes(0) + normal * (ordered.swapped ? -1.0 : 1.0)),  // no negative zeros
+          .witness_a = witness[ordered.swapped],
+          .witness_b = witness[!ordered.swapped],
+          .axes_tested = 15};
+}
+
+}  // namespace satcheck
