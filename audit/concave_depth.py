@@ -122,14 +122,15 @@ def depth_by_move(pair: Pair, contact: Contact, move: Vector, plan: Plan) -> Dep
     then searched, as without a band. Within the input precision there is nothing to refine.
     """
     if pair.asked.tolerance is None:
-        return _depth_of(pair, move, crossing_depth(pair, contact.crossing))
+        return depth_of_move(pair, move, crossing_depth(pair, contact.crossing))
     depth = concave_depth(pair, contact, plan)
     if depth.escape.verified and depth.upper <= math.hypot(*move):
         return depth
-    return _depth_of(pair, move, depth.lower)
+    return depth_of_move(pair, move, depth.lower)
 
 
-def _depth_of(pair: Pair, move: Vector, lower: float) -> Depth:
+def depth_of_move(pair: Pair, move: Vector, lower: float) -> Depth:
+    """Of a pair that a verified translation of A frees."""
     length, normal = _length_and_normal(move)
     upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
     return Depth(min(lower, upper), upper, normal, Escape(move, True, upper))

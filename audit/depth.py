@@ -42,7 +42,7 @@ def measure_depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan)
     if pair.curved:
         from satcheck.audit.curved.depth import sandwiched_depth
 
-        return sandwiched_depth(pair, plan)
+        return sandwiched_depth(pair, move, plan)
     from satcheck.audit.concave_depth import concave_depth, depth_by_move
 
     if move is not None:

@@ -141,7 +141,7 @@ def _unproven(pair: Pair) -> str:
 
 def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any]:
     shallow, move = _is_shallow(pair, contact, plan), None
-    if contact.convex is None and pair.may("exact") and not pair.curved:
+    if contact.convex is None and pair.may("exact"):
         move = move_within(pair, contact, plan)
     guess = shallow and not contact.proven
     depth = None if guess else _depth(pair, contact, move, plan)

@@ -44,6 +44,8 @@ def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
     """
     if pair.tolerance == 0:
         return None
+    if pair.curved:
+        return _move_off_mesh(pair, plan)
     lower, cost = _least_depth(pair, contact)
     if lower > pair.tolerance:
         plan.add("touch-band", "deeper", f"{_band(pair)}: at least {lower:.3g} deep", cost)
@@ -59,6 +61,18 @@ def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
     else:
         result, detail = "within", f"{math.hypot(*move):.3g} frees A"
     plan.add("touch-band", result, f"{_band(pair)}: {detail}", cost + spent)
+    return move
+
+
+def _move_off_mesh(pair: Pair, plan: Plan) -> Vector | None:
+    """For a curved shape and a mesh."""
+    from satcheck.audit.curved.in_mesh import move_off
+
+    move = move_off(pair, pair.tolerance)
+    if move is None:
+        plan.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
+    else:
+        plan.record("touch-band", "within", f"{_band(pair)}: {math.hypot(*move):.3g} frees A")
     return move
 
 

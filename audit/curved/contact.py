@@ -9,12 +9,14 @@ from satcheck.audit.curved.signed import convex_pair
 from satcheck.audit.ladder import Contact
 
 if TYPE_CHECKING:
+    from satcheck.audit.curved.signed import Signed
     from satcheck.audit.pair import Pair
     from satcheck.audit.placed_body import PlacedBody
     from satcheck.audit.plan import Plan
     from satcheck.audit.report import Effect, Relation, Vector
 
 STAGE = "curved"
+PROOF = "curved-exact"
 TOO_CLOSE = "one may lie within the other: too close to its surface to tell"
 ON_MESHES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
 OPEN_BOUNDS = "the bounds of a curved shape did not close"
@@ -34,7 +36,11 @@ def frees(pair: Pair, move: Vector) -> bool:
     """Whether A, moved, provably has no common interior with B."""
     if _is_convex(pair.a) and _is_convex(pair.b):
         found = convex_pair(pair.a, pair.b, move)
-        return found is not None and found.lower >= 0
+        if found is None or found.exact or found.lower >= 0:
+            return found is not None and found.lower >= 0
+        from satcheck.audit.curved.exact.pair import proven
+
+        return proven(pair.a, pair.b, found, move)[0].lower >= 0
     from satcheck.audit.curved.in_mesh import frees_mesh
 
     return frees_mesh(pair, move)
@@ -61,19 +67,37 @@ def _settle_convex(pair: Pair, plan: Plan) -> Contact:
         plan.record(STAGE, "undecided", OPEN_BOUNDS)
         return Contact("indeterminate", False, reason=f"undecided: {OPEN_BOUNDS}")
     plan.record(STAGE, found.outcome, "convex shapes")
+    if not found.exact:
+        found = _closed(pair, found, plan)
     if found.outcome != "penetrating":
         reason = None if found.exact else CLOSE_CONTACT
         return Contact(found.outcome, found.exact, max(found.lower, 0.0), found, reason=reason)  # type: ignore[arg-type]
-    relation, is_known = _nesting(pair)
+    relation, is_known = _nesting(pair, plan)
     if relation != "penetrating":
         plan.record("containment", relation, "one shape holds the other")
     reason = None if is_known else TOO_CLOSE
     return Contact(relation, is_known, 0.0, found, reason=reason)
 
 
-def _nesting(pair: Pair) -> tuple[Relation, bool]:
+def _closed(pair: Pair, found: Signed, plan: Plan) -> Signed:
+    """With what exact arithmetic proves where bounds do not."""
+    from satcheck.audit.curved.exact.pair import proven
+
+    closed, detail = proven(pair.a, pair.b, found)
+    plan.record(PROOF, closed.outcome if closed.exact else "undecided", detail)
+    return closed
+
+
+def _nesting(pair: Pair, plan: Plan) -> tuple[Relation, bool]:
     """contains, inside or penetrating, and whether that is known."""
     outer, inner = _holds(pair.a, pair.b), _holds(pair.b, pair.a)
+    if outer is None or inner is None:
+        from satcheck.audit.curved.exact.nesting import nesting
+
+        known = nesting(pair.a, pair.b)
+        outer = known[0] if outer is None else outer
+        inner = known[1] if inner is None else inner
+        plan.record(PROOF, "undecided" if None in (outer, inner) else "known", "which holds which")
     if outer:
         return "contains", True
     if inner:

@@ -3,25 +3,32 @@ around it. What frees the outer mesh frees the shape, and no less than frees the
 
 from __future__ import annotations
 
+from satcheck.audit.concave_depth import depth_of_move
 from satcheck.audit.curved.around import mesh_around
+from satcheck.audit.curved.in_mesh import move_off
 from satcheck.audit.depth import Depth, measure_depth
 from satcheck.audit.ladder import settle
 from satcheck.audit.pair import Pair
 from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.plan import Plan
-from satcheck.audit.report import OVERLAPS
+from satcheck.audit.report import OVERLAPS, Vector
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.core import Mesh
 from satcheck.core.frozen import replace
 from satcheck.scene.remeshed import remeshed
 
 
-def sandwiched_depth(pair: Pair, plan: Plan) -> Depth:
+def sandwiched_depth(pair: Pair, move: Vector | None, plan: Plan) -> Depth:
+    """move: a translation of A within the touch band that is known to free it."""
     inner, outer = _depth_with(pair, around=False), _depth_with(pair, around=True)
     if outer is None:
         raise AssertionError("what is known to overlap a shape overlaps the mesh around it")
     lower = 0.0 if inner is None else max(min(inner.lower, outer.upper) - _sticks_out(pair), 0.0)
     plan.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
+    move = move or move_off(pair, outer.upper)
+    if move is not None:
+        plan.record("verify", "separated", "the shape, moved by the MTV")
+        return depth_of_move(pair, move, lower)
     verified = "separated" if outer.escape.verified else "failed"
     plan.record("verify", verified, "the mesh around the shape, moved by the MTV")
     return Depth(lower, outer.upper, outer.normal, outer.escape)

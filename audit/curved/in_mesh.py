@@ -6,12 +6,13 @@ import math
 from typing import TYPE_CHECKING
 
 from satcheck.audit.boxes import holds as box_holds
-from satcheck.audit.curved.contact import CLOSE_CONTACT, STAGE, TOO_CLOSE
+from satcheck.audit.curved.contact import CLOSE_CONTACT, PROOF, STAGE, TOO_CLOSE
 from satcheck.audit.curved.nesting import holds
 from satcheck.audit.curved.signed import ORIGIN, Signed
 from satcheck.audit.curved.triangles import Nearest, against_triangles, cancelling
 from satcheck.audit.ladder import Contact
-from satcheck.audit.vectors import added
+from satcheck.audit.tolerances import rounding_pad
+from satcheck.audit.vectors import added, scaled
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.shape import CurvedShape
@@ -32,12 +33,15 @@ _TRIED: tuple[Vector, ...] = (
 def settle_mesh(pair: Pair, plan: Plan) -> Contact:
     curved, mesh, sign = _sides(pair)
     seen = _seen(curved, mesh, pair.asked_gap)
+    if seen.refined:
+        detail = f"{seen.refined} triangles that bounds leave open"
+        plan.record(PROOF, seen.nearest.outcome if seen.nearest else "undecided", detail)
     crossed = _ends(mesh, seen)
     if crossed:
         return _crossing(pair, plan, len(crossed))
     winding = _winding_within(curved, mesh)
     if winding:
-        return _within(plan, seen, sign)
+        return _within(plan, mesh, seen, sign)
     if winding is None or seen.undecided or len(seen.crossed):
         reason = _open(seen)
         plan.record(STAGE, "undecided", reason)
@@ -52,6 +56,21 @@ def frees_mesh(pair: Pair, move: Vector) -> bool:
     seen = _seen(curved, mesh, 0.0, moved)
     apart = seen.nearest is None or seen.nearest.outcome == "separated" or seen.nearest.lower >= 0
     return apart and not seen.undecided and _winding_within(curved, mesh, moved) == 0
+
+
+def move_off(pair: Pair, most: float) -> Vector | None:
+    """A translation of A, no longer than that, that provably frees it: off the triangle that the
+    shape is deepest in. None: that does not do, as a rule because it stands in several."""
+    curved, mesh, sign = _sides(pair)
+    nearest = _seen(curved, mesh, 0.0).nearest
+    if nearest is None or nearest.normal is None:
+        return None
+    for longer in (0.0, rounding_pad(pair.largest_coordinate)):
+        length = longer - min(nearest.lower, 0.0)
+        move = added(scaled(nearest.normal, -sign * length), ORIGIN)  # which has no negative zero
+        if 0 < math.hypot(*move) <= most and frees_mesh(pair, move):
+            return move
+    return None
 
 
 def _seen(curved: CurvedShape, mesh: PlacedBody, reach: float, move: Vector = ORIGIN) -> Nearest:
@@ -73,9 +92,22 @@ def _ends(mesh: PlacedBody, seen: Nearest) -> list[int]:
     return [k for k in crossed if not mesh.solid or mesh.surface().is_boundary(k)]
 
 
-def _within(plan: Plan, seen: Nearest, sign: float) -> Contact:
+def _touched(mesh: PlacedBody, seen: Nearest) -> int | None:
+    """A triangle on which the body ends that the shape provably touches, while it enters none."""
+    if seen.undecided or seen.nearest is None or not seen.nearest.exact:
+        return None
+    surface = mesh.surface()
+    ends = (k for k in seen.touched if not mesh.solid or surface.is_boundary(k))
+    return next(ends, None)
+
+
+def _within(plan: Plan, mesh: PlacedBody, seen: Nearest, sign: float) -> Contact:
     """A point inside the shape is known to lie within the mesh: they overlap."""
     nearest = seen.nearest
+    touched = _touched(mesh, seen)
+    if touched is not None:
+        plan.record(STAGE, "penetrating", f"within, and touches triangle {touched}")
+        return Contact("penetrating", True)
     if seen.undecided or (nearest is not None and nearest.outcome != "separated"):
         plan.record(STAGE, "penetrating", f"within, and close to triangle {seen.triangle}")
         return Contact("penetrating", False, reason=TOO_CLOSE)
@@ -111,10 +143,13 @@ def _apart(pair: Pair, plan: Plan, seen: Nearest, sign: float) -> Contact:
         return Contact("separated", True, gap)
     nearest: Signed = seen.nearest if sign > 0 else seen.nearest.swapped()
     plan.record(STAGE, nearest.outcome, f"nearest is triangle {seen.triangle}")
-    reason = None if nearest.exact else CLOSE_CONTACT
     relation: Relation = "separated" if nearest.outcome == "separated" else "touching"
+    exact = nearest.exact
+    if relation == "touching":
+        exact = _touched(_sides(pair)[1], seen) is not None
+    reason = None if exact else CLOSE_CONTACT
     gap = max(nearest.lower, 0.0) if solid else 0.0
-    return Contact(relation, nearest.exact, gap, nearest, reason=reason)
+    return Contact(relation, exact, gap, nearest, reason=reason)
 
 
 def _sides(pair: Pair) -> tuple[CurvedShape, PlacedBody, float]:

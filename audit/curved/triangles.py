@@ -32,7 +32,9 @@ class Nearest:
     nearest: Signed | None
     triangle: int
     crossed: Indices
+    touched: tuple[int, ...]
     undecided: bool
+    refined: int = 0
 
 
 def against_triangles(
@@ -50,18 +52,33 @@ def against_triangles(
     gaps = np.maximum(low - corners.max(axis=1), corners.min(axis=1) - high)
     close = np.setdiff1d(np.flatnonzero(gaps.max(axis=1) <= reach), without)
     if not len(close):
-        return Nearest(None, -1, close, False)
+        return Nearest(None, -1, close, (), False)
     placed = replace(curved, pose=curved.moved(move))
     results = _ask([placed.shape, *(core.Hull(corners[k]) for k in close)], placed)
     found = [signed(results[k], curved.slack) for k in range(len(close))]
+    refined = _refine(placed, corners[close], found)
     known = [(one, int(k)) for one, k in zip(found, close, strict=True) if one is not None]
     crossed = close[[one is not None and one.outcome == "penetrating" for one in found]]
+    touched = tuple(k for one, k in known if one.outcome == "touching" and one.exact)
     if not known:
-        return Nearest(None, -1, crossed, True)
+        return Nearest(None, -1, crossed, touched, True, refined)
     best, triangle = min(known, key=lambda one: one[0].distance)
-    return Nearest(
-        _of_all(best, [one for one, _ in known]), triangle, crossed, len(known) < len(found)
-    )
+    of_all = _of_all(best, [one for one, _ in known])
+    return Nearest(of_all, triangle, crossed, touched, len(known) < len(found), refined)
+
+
+def _refine(
+    curved: CurvedShape, corners: npt.NDArray[np.float64], found: list[Signed | None]
+) -> int:
+    """Puts in place what exact arithmetic proves where bounds do not; of how many it was asked."""
+    left = {k: one for k, one in enumerate(found) if one is not None and not one.exact}
+    if left:
+        from satcheck.audit.curved.exact.triangles import refined
+
+        of_left = refined(curved.at(ORIGIN), corners[list(left)], list(left.values()))
+        for k, one in zip(left, of_left, strict=True):
+            found[k] = one
+    return len(left)
 
 
 def _of_all(best: Signed, known: Sequence[Signed]) -> Signed:
@@ -73,8 +90,16 @@ def _of_all(best: Signed, known: Sequence[Signed]) -> Signed:
         lower=min(one.lower for one in known),
         upper=min(one.upper for one in known),
         outcome=outcome,
-        exact=all(one.exact for one in known if one.outcome == outcome),
+        exact=_is_exact(outcome, known),
     )
+
+
+def _is_exact(outcome: Outcome, known: Sequence[Signed]) -> bool:
+    """A shape touches triangles when it does one of them, and its inside meets none."""
+    those = [one for one in known if one.outcome == outcome]
+    if outcome != "touching":
+        return all(one.exact for one in those)
+    return any(one.exact for one in those) and all(one.lower >= 0 for one in those)
 
 
 def cancelling(mesh: core.Mesh, chosen: Sequence[int]) -> Indices:

@@ -24,7 +24,7 @@ SPENT = "budget"
 PART_SECONDS = Settings().part_seconds
 # Stages of a plan that are rungs, and how they are called here.
 STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
-STAGES |= {"parts": "parts", "triangles": "exact"}
+STAGES |= {"curved-exact": "hull", "parts": "parts", "triangles": "exact"}
 
 
 # What a stage records that had nothing to add to the one below.

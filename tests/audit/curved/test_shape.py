@@ -110,3 +110,13 @@ def test_nothing_is_rounded_where_nothing_turns() -> None:
     assert curved_shape(Cylinder(1.0, 2.0), moved(0.1, 0.2, 0.3)).slack == 0.0
     assert curved_shape(Sphere(1.0), tilted(30.0, 0.1, 0.2, 0.3)).slack == 0.0
     assert curved_shape(Cylinder(1.0, 2.0), tilted(30.0, 0, 0, 0)).slack > 0.0
+
+
+def test_a_turned_sphere_is_the_sphere() -> None:
+    """Whatever the rotation rounds; another matrix makes of it what it is, exactly."""
+    degrees = [k * 7.3 for k in range(50)]
+    turned = [curved_shape(Sphere(1.5), tilted(d, 0.1, 0.2, 0.3)) for d in degrees]
+    assert {(one.primitive, one.slack) for one in turned} == {(Sphere(1.5), 0.0)}
+    assert len({one.given for one in turned}) == 1
+    scaled = (3.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+    assert curved_shape(Sphere(1.5), scaled).given.columns[0] == (3.0, 0.0, 0.0)

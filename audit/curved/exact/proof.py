@@ -1,0 +1,107 @@
+"""Separated, touching or penetrating, proven along an exact axis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from itertools import product
+from typing import Literal
+
+from satcheck.audit.curved.exact.body import ExactBody
+from satcheck.audit.curved.exact.faces import Disc, Polygon, common_points
+from satcheck.audit.curved.exact.lattice import Point, Vector, between, dot, negated, shifted
+from satcheck.audit.curved.exact.reach import gap_bounds, sign_of_gap
+from satcheck.core.frozen import frozen
+
+# "free": the axis separates them with no gap, and no common point was found.
+Outcome = Literal["separated", "touching", "penetrating", "free"]
+Bounds = tuple[Fraction, Fraction]
+
+# Of the axes along which they overlap, those with the least overlap are looked at for a common
+# point inside.
+MOST_OVERLAPS = 4
+# Some roundoffs of a coordinate, relative to the size of the body.
+PULLS = tuple(Fraction(1, 1 << k) for k in (48, 52, 56, 60, 64))
+NO_GAP: Bounds = (Fraction(0), Fraction(0))
+
+
+@frozen
+class Proof:
+    """axis: from A to B; gap: bounds along it, in lattice units times its length, < 0 where they
+    overlap, 0 also where they are beside each other. point: of both, on the lattice: inside A where
+    they penetrate, and inside B if it has an inside."""
+
+    outcome: Outcome
+    axis: Vector
+    gap: Bounds
+    point: Point | None = None
+
+
+def prove(
+    a: ExactBody, b: ExactBody, axes: Iterable[Vector], *, contact: bool = True
+) -> Proof | None:
+    """What the first of the axes proves that says anything about them. B alone may be flat.
+
+    contact: a common point is looked for where there is no gap.
+    """
+    overlaps = []
+    free: Proof | None = None
+    for n in axes:
+        forth, back = a.reach(n), b.reach(negated(n))
+        sign = sign_of_gap(forth, back)
+        if sign > 0:
+            return Proof("separated", n, gap_bounds(forth, back))
+        if sign == 0 and free is None:
+            free = _contact(a, b, n) if contact else Proof("free", n, NO_GAP)
+            if free.outcome != "free" or not contact:
+                return free
+        elif sign < 0:
+            gap = gap_bounds(forth, back)
+            overlaps.append((gap[0] * abs(gap[0]) / dot(n, n), n, gap))
+    if free is not None:
+        return free
+    overlaps.sort(reverse=True)
+    for _, n, gap in overlaps[:MOST_OVERLAPS]:
+        point = _point_inside(a, b, n, gap)
+        if point is not None:
+            return Proof("penetrating", n, gap, point)
+    return None
+
+
+def _contact(a: ExactBody, b: ExactBody, n: Vector) -> Proof:
+    """Where they touch. Without a gap every root is rational, so the faces are exact, and of those
+    all but two discs are searched completely."""
+    f, g = a.face(n), b.face(negated(n))
+    for p in common_points(f, g, n):
+        if a.side(p) >= 0 and b.side(p) >= 0:
+            return Proof("touching", n, NO_GAP, p)
+    both_discs = isinstance(f, Disc) and isinstance(g, Disc)
+    return Proof("free" if both_discs else "separated", n, NO_GAP)
+
+
+def _point_inside(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> Point | None:
+    """Half way between their faces; of a flat B on it."""
+    # B's face is moved into the plane of A's; from there the way back is along -n.
+    step = -gap[0] / dot(n, n)
+    back = step if b.flat else step / 2
+    for p in common_points(a.face(n), b.face(negated(n)).moved(n, step), n):
+        inside = shifted(p, n, -back)
+        if _is_inside(a, b, inside):
+            return inside
+    return next((p for p in _pulled_in(a, b, n) if _is_inside(a, b, p)), None)
+
+
+def _is_inside(a: ExactBody, b: ExactBody, p: Point) -> bool:
+    return a.side(p) > 0 and b.side(p) >= (not b.flat)
+
+
+def _pulled_in(a: ExactBody, b: ExactBody, n: Vector) -> Iterator[Point]:
+    """Where one body reaches farthest into the other, and a little towards its own middle: of faces
+    that are nearly, and not quite, across the axis."""
+    for body, face in ((a, a.face(n)), (b, b.face(negated(n)))):
+        if isinstance(face, Polygon):
+            middle = body.middle
+            yield from (
+                between(p, middle, share)
+                for p, share in product(face.points[:MOST_OVERLAPS], PULLS)
+            )
