@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.output import form_of
+from satcheck.core.choices import ACCURACY, DEPTH_BUDGET, DEPTH_WIDTH, LEAST_SEVERITY
 
 if TYPE_CHECKING:
     from satcheck.cli.checking import Choices
@@ -41,11 +42,11 @@ _DEFAULTS: dict[str, Any] = {
     "volume": False,
     "clearance": None,
     "tolerance": None,
-    "accuracy": "exact",
-    "depth_width": 0.01,
-    "depth_budget": 2.0,
+    "accuracy": ACCURACY,
+    "depth_width": DEPTH_WIDTH,
+    "depth_budget": DEPTH_BUDGET,
     "split": None,
-    "fail_on": "error",
+    "fail_on": LEAST_SEVERITY,
     "allow_open": False,
     "cross_check": False,
     "planar": None,

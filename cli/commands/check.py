@@ -20,10 +20,17 @@ from satcheck.cli.commands.options import (
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 from satcheck.cli.lengths import length
 from satcheck.cli.output import form_of
+from satcheck.core.choices import (
+    ACCURACIES,
+    ACCURACY,
+    DEPTH_BUDGET,
+    DEPTH_WIDTH,
+    FAIL_ON,
+    LEAST_SEVERITY,
+    MOST_BUDGET,
+)
+from satcheck.core.conventions import PLANES
 
-PLANES = ("xy", "yz", "xz")
-ACCURACIES = ("aabb", "obb", "hull", "parts", "exact")
-SEVERITIES = ("error", "warning", "note")
 # More characters than the first sentence of any help text has.
 _WHOLE_SENTENCE = 200
 
@@ -116,7 +123,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--accuracy",
     type=click.Choice(ACCURACIES),
-    default="exact",
+    default=ACCURACY,
     show_default=True,
     help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
     "All but exact may report overlaps that are none, and say so.",
@@ -125,15 +132,15 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--depth-width",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),
     metavar="RATIO",
-    default=0.01,
+    default=DEPTH_WIDTH,
     show_default=True,
     help="Narrow the depth interval of concave pairs to this width, relative to its upper end.",
 )
 @click.option(
     "--depth-budget",
-    type=click.FloatRange(0, 86400, min_open=True),
+    type=click.FloatRange(0, MOST_BUDGET, min_open=True),
     metavar="SECONDS",
-    default=2.0,
+    default=DEPTH_BUDGET,
     show_default=True,
     help="Stop narrowing after this much work a pair. The seconds, of a slow machine, stand for a "
     "number of steps: the answer is the same everywhere.",
@@ -146,8 +153,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @split_option
 @click.option(
     "--fail-on",
-    type=click.Choice(SEVERITIES),
-    default="error",
+    type=click.Choice(FAIL_ON),
+    default=LEAST_SEVERITY,
     show_default=True,
     help="The least severity of a finding that makes the check fail. Overlaps and gaps below the "
     "clearance are errors, unless a rule of the scene says otherwise; what only touches is a note.",
