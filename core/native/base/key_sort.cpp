@@ -4,26 +4,65 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <memory>
 #include <numeric>
 
 namespace satcheck {
 namespace {
 
-// The order of the numbers as one of bit patterns; -0.0 is 0.0.
-std::uint64_t ordered_bits(double coordinate) {
-  constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
-  const auto bits = std::bit_cast<std::uint64_t>(coordinate + 0.0);
-  return bits & kSign ? ~bits : bits | kSign;
+// By the lowest `bits` of key(item), a digit at a time, from one place to the other and back: where they are then.
+template <class Item, class Key>
+std::span<Item> sort_by_digits(std::span<Item> from, std::span<Item> to, std::size_t bits, Key key) {
+  constexpr std::size_t kDigitBits = 11;
+  constexpr std::uint64_t kMask = (1 << kDigitBits) - 1;
+  const std::size_t digits = (bits + kDigitBits - 1) / kDigitBits;
+  const auto digit = [&](const Item& item, std::size_t d) { return key(item) >> d * kDigitBits & kMask; };
+  std::vector<std::array<std::uint32_t, kMask + 1>> place(digits);
+  for (const Item& item : from) {
+    for (std::size_t d = 0; d < digits; ++d) ++place[d][digit(item, d)];
+  }
+  for (std::size_t d = 0; d < digits; ++d) {
+    if (place[d][digit(from[0], d)] == from.size()) continue;
+    std::exclusive_scan(place[d].begin(), place[d].end(), place[d].begin(), 0u);
+    for (const Item& item : from) to[place[d][digit(item, d)]++] = item;
+    std::swap(from, to);
+  }
+  return from;
 }
 
-void order_by_axis(const std::vector<Vec3>& points, int axis, std::span<Keyed> items) {
-  for (Keyed& item : items) item.key = ordered_bits(points[item.number][axis]);
-  sort_by_key(items);
-  if (axis == 2) return;
-  for (std::size_t first = 0, last = 0; first < items.size(); first = last) {
-    while (last < items.size() && items[last].key == items[first].key) ++last;
-    if (last - first > 1) order_by_axis(points, axis + 1, items.subspan(first, last - first));
+// By coordinates from this axis on, those before it being equal; of equal points the first comes first.
+void order_from_axis(const std::vector<Vec3>& points, int axis, std::span<std::uint32_t> order) {
+  const auto compare_all = [&] {
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
+      return points[i] != points[k] ? coordinates_less(points[i], points[k]) : i < k;
+    });
+  };
+  constexpr std::size_t kFewPoints = 64;
+  if (order.size() <= kFewPoints) return compare_all();
+  double low = INFINITY, high = -INFINITY;
+  for (const std::uint32_t i : order) {
+    low = smaller(points[i][axis], low);
+    high = larger(points[i][axis], high);
+  }
+  if (!(low < high)) {
+    if (axis < 2) order_from_axis(points, axis + 1, order);
+    return;
+  }
+  // Cells of equal width keep the order of the coordinates, whatever rounds, and the ends are not in one.
+  constexpr double kLastCell = 0xFFFFFFFF;
+  const double scale = kLastCell / (high - low);
+  if (!(scale > 0 && scale < INFINITY)) return compare_all();
+  const auto buffer = std::make_unique_for_overwrite<std::uint64_t[]>(2 * order.size());
+  const std::span<std::uint64_t> cells{buffer.get(), order.size()};
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    cells[i] = std::uint64_t{static_cast<std::uint32_t>((points[order[i]][axis] - low) * scale)} << 32 | order[i];
+  }
+  const std::span<std::uint64_t> sorted = sort_by_digits(cells, {buffer.get() + order.size(), order.size()},
+                                                              32, [](std::uint64_t cell) { return cell >> 32; });
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(sorted[i]);
+  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+    while (last < order.size() && sorted[last] >> 32 == sorted[first] >> 32) ++last;
+    if (last - first > 1) order_from_axis(points, axis, order.subspan(first, last - first));
   }
 }
 
@@ -37,32 +76,17 @@ void sort_by_key(std::span<Keyed> items) {
     });
     return;
   }
-  constexpr std::size_t kDigitBits = 11, kDigits = (64 + kDigitBits - 1) / kDigitBits;
-  constexpr std::uint64_t kMask = (1 << kDigitBits) - 1;
-  const auto digit = [](const Keyed& item, std::size_t d) { return item.key >> d * kDigitBits & kMask; };
-  std::vector<std::array<std::uint32_t, kMask + 1>> place(kDigits);
-  for (const Keyed& item : items) {
-    for (std::size_t d = 0; d < kDigits; ++d) ++place[d][digit(item, d)];
-  }
-  std::vector<Keyed> buffer(items.size());
-  std::span<Keyed> from = items, to = buffer;
-  for (std::size_t d = 0; d < kDigits; ++d) {
-    if (place[d][digit(from[0], d)] == items.size()) continue;
-    std::exclusive_scan(place[d].begin(), place[d].end(), place[d].begin(), 0u);
-    for (const Keyed& item : from) to[place[d][digit(item, d)]++] = item;
-    std::swap(from, to);
-  }
-  if (from.data() != items.data()) std::copy(from.begin(), from.end(), items.begin());
+  const auto buffer = std::make_unique_for_overwrite<Keyed[]>(items.size());
+  const std::span<Keyed> sorted =
+      sort_by_digits(items, {buffer.get(), items.size()}, 64, [](const Keyed& item) { return item.key; });
+  if (sorted.data() != items.data()) std::copy(sorted.begin(), sorted.end(), items.begin());
 }
 
 std::vector<std::uint32_t> order_by_coordinates(const std::vector<Vec3>& points) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   if (strictly_ascending(points)) return order;
-  std::vector<Keyed> items(points.size());
-  for (const std::uint32_t i : order) items[i].number = i;
-  order_by_axis(points, 0, items);
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = items[i].number;
+  order_from_axis(points, 0, order);
   return order;
 }
 
@@ -76,11 +100,11 @@ void sort_triangles(std::vector<Triangle>& triangles, std::size_t vertex_count) 
   std::vector<std::uint32_t> start(vertex_count + 1, 0);
   for (const Triangle& t : triangles) ++start[t[0] + 1];
   std::inclusive_scan(start.begin(), start.end(), start.begin());
-  std::vector<std::uint64_t> others(triangles.size());  // the second and the third corner
+  const auto others = std::make_unique_for_overwrite<std::uint64_t[]>(triangles.size());  // the second and the third corner
   std::vector<std::uint32_t> place(start.begin(), start.end() - 1);
   for (const Triangle& t : triangles) others[place[t[0]]++] = std::uint64_t{t[1]} << 32 | t[2];
   for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    std::sort(others.begin() + start[v], others.begin() + start[v + 1]);
+    sort_list(others.get() + start[v], others.get() + start[v + 1]);
     for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
       triangles[i] = {v, static_cast<std::uint32_t>(others[i] >> 32), static_cast<std::uint32_t>(others[i])};
     }

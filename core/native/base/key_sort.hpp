@@ -1,6 +1,8 @@
 // Sorting by keys of few bits, which needs no comparisons.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,6 +15,22 @@ struct Keyed {
   std::uint64_t key;
   std::uint32_t number;
 };
+
+// In place; of a few items, as most lists around a vertex are, for less than std::sort().
+template <class Item>
+void sort_list(Item* first, Item* last) {
+  constexpr std::ptrdiff_t kFew = 16;
+  if (last - first > kFew) {
+    std::sort(first, last);
+    return;
+  }
+  for (Item* i = first; i < last; ++i) {
+    const Item item = *i;
+    Item* at = i;
+    for (; at > first && item < at[-1]; --at) *at = at[-1];
+    *at = item;
+  }
+}
 
 // By key, equal keys by number. Equal keys must come with ascending numbers.
 void sort_by_key(std::span<Keyed> items);

@@ -17,10 +17,12 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void unite(std::uint32_t a, std::uint32_t b) {
+  // Whether they were apart.
+  bool unite(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
+    return a != b;
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "base/edge_table.hpp"
@@ -137,7 +138,7 @@ void count_triangles(Topology& topology, const Mesh& welded, const EdgeTable& ed
 }
 
 // With vertex v at place[v], each triangle from its lowest corner on, in ascending order.
-std::vector<Triangle> sorted_triangles(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& place,
+std::vector<Triangle> sorted_triangles(const std::vector<Triangle>& triangles, const std::uint32_t* place,
                                        std::size_t vertex_count) {
   std::vector<Triangle> result;
   result.reserve(triangles.size());
@@ -169,22 +170,23 @@ Mesh sort(const Mesh& mesh) {
     place[v] = static_cast<std::uint32_t>(result.vertices.size());
     result.vertices.push_back(mesh.vertices[v]);
   }
-  result.triangles = sorted_triangles(mesh.triangles, place, result.vertices.size());
+  result.triangles = sorted_triangles(mesh.triangles, place.data(), result.vertices.size());
   return result;
 }
 
 Mesh weld_and_sort(const Mesh& mesh) {
-  const std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
+  const std::vector<Vec3>& points = mesh.vertices;
   const std::vector<bool> referenced = find_referenced(mesh);
   Mesh result;
   result.vertices.reserve(points.size());
-  std::vector<std::uint32_t> place(points.size());
+  const auto place = std::make_unique_for_overwrite<std::uint32_t[]>(points.size());
   for (const std::uint32_t v : order_by_coordinates(points)) {
     if (!referenced[v]) continue;
-    if (result.vertices.empty() || result.vertices.back() != points[v]) result.vertices.push_back(points[v]);
+    const Vec3 p = points[v] + Vec3{};  // -0.0 + 0.0 == +0.0
+    if (result.vertices.empty() || result.vertices.back() != p) result.vertices.push_back(p);
     place[v] = static_cast<std::uint32_t>(result.vertices.size() - 1);
   }
-  result.triangles = sorted_triangles(mesh.triangles, place, result.vertices.size());
+  result.triangles = sorted_triangles(mesh.triangles, place.get(), result.vertices.size());
   return result;
 }
 

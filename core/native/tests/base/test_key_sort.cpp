@@ -41,6 +41,14 @@ void coordinates() {
     CHECK(order_by_coordinates(points) == expected);
     CHECK(!strictly_ascending(points));
   }
+  std::vector<Vec3> crowded;  // ever closer to 0, each in several places
+  for (int k = 0; k < 6000; ++k) crowded.push_back({std::ldexp(1.0, -(k % 150)), (k % 7) * 1e-60 - 1e20, std::ldexp(-1.0, k % 90)});
+  std::vector<std::uint32_t> expected(crowded.size());
+  std::iota(expected.begin(), expected.end(), 0u);
+  std::stable_sort(expected.begin(), expected.end(), [&](std::uint32_t i, std::uint32_t k) {
+    return coordinates_less(crowded[i], crowded[k]);
+  });
+  CHECK(order_by_coordinates(crowded) == expected);
   CHECK(strictly_ascending({{0, 0, 0}, {0, 0, 1}, {0, 1, -5}}));
   CHECK(!strictly_ascending({{0.0, 0, 0}, {-0.0, 0, 0}}));
 }
