@@ -7,7 +7,7 @@ from array import array
 from satcheck.core import Mesh
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawScene
+from satcheck.scene.loading.raw_mesh import Block, Matrix, RawMesh, RawScene
 
 
 def flattened(scene: RawScene) -> RawMesh:
@@ -43,7 +43,7 @@ def _usable(mesh: RawMesh | MeshFileError) -> RawMesh:
     return mesh
 
 
-def concatenate(parts: list[tuple[bytes, bytes, Matrix | None]]) -> tuple[bytes, bytes]:
+def concatenate(parts: list[tuple[Block, Block, Matrix | None]]) -> tuple[Block, Block]:
     """(vertices, triangles) of all parts together, each at its matrix.
 
     parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the
@@ -51,7 +51,7 @@ def concatenate(parts: list[tuple[bytes, bytes, Matrix | None]]) -> tuple[bytes,
     """
     if len(parts) == 1 and parts[0][2] is None:
         return parts[0][:2]
-    vertices: list[bytes] = []
+    vertices: list[Block] = []
     triangles = array("I")
     offset = 0
     for part_vertices, part_triangles, matrix in parts:
@@ -66,7 +66,7 @@ def concatenate(parts: list[tuple[bytes, bytes, Matrix | None]]) -> tuple[bytes,
     return b"".join(vertices), triangles.tobytes()
 
 
-def _placed(vertices: bytes, triangles: bytes, matrix: Matrix) -> tuple[bytes, bytes]:
+def _placed(vertices: Block, triangles: Block, matrix: Matrix) -> tuple[Block, Block]:
     try:
         return Mesh.from_bytes(vertices, triangles).transformed(matrix).to_bytes()
     except ValueError as error:

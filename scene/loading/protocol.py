@@ -17,7 +17,7 @@ from typing import Any
 
 from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.loading.raw_mesh import Block, RawMesh, RawNode, RawPart, RawScene
 
 _REQUEST = struct.Struct("<I")
 _REPLY = struct.Struct("<4sI")
@@ -61,7 +61,7 @@ def unpack_request(request: bytes) -> Request:
 def pack_reply(answer: RawScene | MeshFileError) -> bytes:
     if isinstance(answer, MeshFileError):
         return _frame({"refusal": [answer.code, answer.message]}, [])
-    arrays: list[bytes] = []
+    arrays: list[Block] = []
     for part in answer.parts:
         if isinstance(part.mesh, RawMesh):
             arrays += [part.mesh.vertices, part.mesh.triangles]
@@ -91,7 +91,7 @@ def _mesh_header(mesh: RawMesh | MeshFileError) -> dict[str, Any]:
     }
 
 
-def _frame(header: dict[str, Any], arrays: list[bytes]) -> bytes:
+def _frame(header: dict[str, Any], arrays: list[Block]) -> bytes:
     text = json.dumps(header).encode()
     return b"".join((_REPLY.pack(_MAGIC, len(text)), text, *arrays))
 

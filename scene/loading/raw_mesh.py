@@ -8,6 +8,7 @@ from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 
 Precision = Literal["written-digits", "float32", "float64"]
+Block = bytes | memoryview
 Matrix = tuple[float, ...]  # row-major 4x4 for column vectors
 
 
@@ -21,8 +22,8 @@ class RawMesh:
     units: as the file declares them, or None. warnings: (code, message).
     """
 
-    vertices: bytes
-    triangles: bytes
+    vertices: Block
+    triangles: Block
     precision: Precision
     decimals: int = 0
     significant: int = 0

@@ -1,5 +1,6 @@
 // The Python face of the readers: `satcheck.scene._readers`. The only file here that knows nanobind.
 #include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
@@ -13,10 +14,12 @@ using namespace satcheck::scene;
 
 namespace {
 
+// The bytes of an array of the mesh, which it keeps alive.
 template <class T>
-nb::bytes to_bytes(const std::vector<T>& values) {
+auto view(const std::vector<T>& values, nb::handle owner) {
   static_assert(std::endian::native == std::endian::little, "the arrays are handed over as little-endian bytes");
-  return nb::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  return nb::ndarray<nb::memview, const std::uint8_t, nb::ndim<1>>(reinterpret_cast<const std::uint8_t*>(values.data()),
+                                                                 {values.size() * sizeof(T)}, owner);
 }
 
 template <ReadOutcome (*Read)(std::string_view)>
@@ -45,9 +48,9 @@ NB_MODULE(_readers, m) {
       .def_ro("message", &Warning::message);
 
   nb::class_<MeshData>(m, "MeshData", "A mesh as the file wrote it, in file units; all coordinates finite.")
-      .def_prop_ro("vertices", [](const MeshData& mesh) { return to_bytes(mesh.vertices); },
+      .def_prop_ro("vertices", [](nb::handle self) { return view(nb::cast<const MeshData&>(self).vertices, self); },
                    "Little-endian float64 x, y, z of each vertex.")
-      .def_prop_ro("triangles", [](const MeshData& mesh) { return to_bytes(mesh.triangles); },
+      .def_prop_ro("triangles", [](nb::handle self) { return view(nb::cast<const MeshData&>(self).triangles, self); },
                    "Little-endian uint32 vertex numbers, three a triangle.")
       .def_prop_ro("precision", &precision_name, "\"written-digits\", \"float32\" or \"float64\".")
       .def_ro("decimals", &MeshData::decimals,

@@ -77,7 +77,9 @@ void construct_mesh(Mesh* self, VertexArray vertices, IndexArray<Index> triangle
   new (self) Mesh(std::move(mesh));
 }
 
-Mesh mesh_from_bytes(nb::bytes vertices, nb::bytes triangles) {
+using Bytes = nb::ndarray<const std::uint8_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+Mesh mesh_from_bytes(const Bytes& vertices, const Bytes& triangles) {
   if (vertices.size() % sizeof(Vec3) != 0 || triangles.size() % sizeof(Triangle) != 0) {
     throw std::invalid_argument("the byte counts are not multiples of 24 and 12");
   }
@@ -112,7 +114,7 @@ when a coordinate other than 0 lies outside 1e-80 .. 1e45, beyond which nothing 
            "triangles"_a.noconvert())
       .def("__init__", &construct_mesh<std::int64_t>, "vertices"_a.noconvert(),
            "triangles"_a.noconvert())
-      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
+      .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, ReleaseGil(), "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
       .def("to_bytes", &mesh_to_bytes, "The inverse of from_bytes.")
       .def_prop_ro("vertex_count", [](const Mesh& mesh) { return mesh.vertices.size(); })
       .def_prop_ro("triangle_count", [](const Mesh& mesh) { return mesh.triangles.size(); })
