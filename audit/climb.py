@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from satcheck.audit.pair import Pair
     from satcheck.audit.planner import Asked
     from satcheck.audit.report import Effect
-    from satcheck.core.choices import Accuracy
+    from satcheck.audit.settings import Accuracy
 
     Question = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, bool]
     Rung = Literal["aabb", "obb", "hull", "triangles"]

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 from satcheck.audit.boxes import diagonal, largest_coordinate
 from satcheck.audit.placed_body import PlacedBody
 from satcheck.audit.planner import Asked
-from satcheck.audit.settings import Settings
+from satcheck.audit.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.tolerances import TOUCH_FRACTION
-from satcheck.core.choices import ACCURACIES, Accuracy
 from satcheck.core.conventions import axes_of
 from satcheck.core.frozen import derived, frozen
 

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
-from satcheck.core.choices import (
-    ACCURACIES,
-    ACCURACY,
-    DEPTH_BUDGET,
-    DEPTH_WIDTH,
-    FAIL_ON,
-    LEAST_SEVERITY,
-    MOST_BUDGET,
-    Accuracy,
-    FailOn,
-)
 from satcheck.core.conventions import PLANES, Plane
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
 
+Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
+ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
+
+FailOn = Literal["error", "warning", "note"]
+FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
+
+# Relative width of the depth interval of a concave pair below which nothing finer is asked for.
+DEPTH_WIDTH = 0.01
+# Seconds, in work units of a slow machine, that narrowing the interval of one pair may take.
+DEPTH_BUDGET = 2.0
+MOST_BUDGET = 86400.0
 # Up to this many bodies the pairs that the broad phase settled are listed as findings too.
 LIST_PRUNED_BODIES = 16
 # Points that the contacts of a pair may list: some 5 MB of JSON.
@@ -57,8 +58,8 @@ class Settings:
     contact_points: int = CONTACT_POINTS
     clearance: float | None = None
     tolerance: float | None = None
-    accuracy: Accuracy = ACCURACY
-    fail_on: FailOn = LEAST_SEVERITY
+    accuracy: Accuracy = "exact"
+    fail_on: FailOn = "error"
     allow_open: bool = False
     cross_check: bool = False
     cross_check_seconds: float = 30.0

@@ -27,7 +27,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import fields
 
 if TYPE_CHECKING:
-    from satcheck.core.choices import FailOn
+    from satcheck.audit.settings import FailOn
     from satcheck.scene import Scene
     from satcheck.scene.health import MeshHealth
     from satcheck.scene.primitives import Primitive

@@ -11,9 +11,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from satcheck.cli.choices import ACCURACY, DEPTH_BUDGET, DEPTH_WIDTH, LEAST_SEVERITY
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.output import form_of
-from satcheck.core.choices import ACCURACY, DEPTH_BUDGET, DEPTH_WIDTH, LEAST_SEVERITY
 
 if TYPE_CHECKING:
     from satcheck.cli.checking import Choices

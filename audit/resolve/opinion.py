@@ -8,8 +8,8 @@ from typing import Literal
 from satcheck.audit.pair import Pair
 from satcheck.audit.report import OVERLAPS, SEVERITIES, Finding, Vector
 from satcheck.audit.resolve.separation import longer, nudge, way_outside
+from satcheck.audit.settings import FailOn
 from satcheck.audit.vectors import scaled
-from satcheck.core.choices import FailOn
 from satcheck.core.frozen import frozen
 
 

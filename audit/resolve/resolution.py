@@ -9,7 +9,7 @@ from typing import Any, Literal, cast
 from satcheck.audit import report_values
 from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
 from satcheck.audit.resolve.opinion import is_objected
-from satcheck.core.choices import FailOn
+from satcheck.audit.settings import FailOn
 from satcheck.core.frozen import frozen
 
 SCHEMA = "satcheck.resolution/1"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.core.choices import Accuracy
+from satcheck.audit.settings import Accuracy
 from satcheck.core.frozen import frozen
 
 

@@ -6,6 +6,16 @@ from typing import Any
 
 import click
 
+from satcheck.cli.choices import (
+    ACCURACIES,
+    ACCURACY,
+    DEPTH_BUDGET,
+    DEPTH_WIDTH,
+    FAIL_ON,
+    LEAST_SEVERITY,
+    MOST_BUDGET,
+    PLANES,
+)
 from satcheck.cli.commands.options import (
     HELP_NAMES,
     debug_option,
@@ -20,16 +30,6 @@ from satcheck.cli.commands.options import (
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 from satcheck.cli.lengths import length
 from satcheck.cli.output import form_of
-from satcheck.core.choices import (
-    ACCURACIES,
-    ACCURACY,
-    DEPTH_BUDGET,
-    DEPTH_WIDTH,
-    FAIL_ON,
-    LEAST_SEVERITY,
-    MOST_BUDGET,
-)
-from satcheck.core.conventions import PLANES
 
 # More characters than the first sentence of any help text has.
 _WHOLE_SENTENCE = 200
