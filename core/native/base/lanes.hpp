@@ -54,6 +54,9 @@ SATCHECK_INLINE Lanes shuffle(Lanes u, Lanes v) {
 #endif
 }
 
+// Lane by lane; where they are equal, or one is no number, that of b.
+SATCHECK_INLINE Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
+
 SATCHECK_INLINE Lanes square_root(Lanes v) {
 #if defined(__SSE2__)
   const __m128d low = _mm_sqrt_pd(__m128d{v[0], v[1]}), high = _mm_sqrt_pd(__m128d{v[2], v[3]});
@@ -125,6 +128,7 @@ inline Lanes load_lanes(const double* from) { return {{from[0], from[1], from[2]
 inline Lanes select(LaneMask mask, Lanes a, Lanes b) {
   return each_lane([&](int l) { return mask.lane[l] ? a[l] : b[l]; });
 }
+inline Lanes larger(Lanes a, Lanes b) { return select(a > b, a, b); }
 template <int a, int b, int c, int d>
 Lanes shuffle(Lanes v) {
   return {{v[a], v[b], v[c], v[d]}};

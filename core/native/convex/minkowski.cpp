@@ -19,7 +19,11 @@ Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Po
 
 MinkowskiDifference::MinkowskiDifference(const Shape& shape_a, const Pose& pose_a, const Shape& shape_b,
                                          const Pose& pose_b)
-    : a(shape_a), b(shape_b), curved(!has_only_vertices(shape_a) || !has_only_vertices(shape_b)) {
+    : a(shape_a),
+      b(shape_b),
+      map_a(shape_a.support_map.for_query(shape_a.polytope.vertices)),
+      map_b(shape_b.support_map.for_query(shape_b.polytope.vertices)),
+      curved(!has_only_vertices(shape_a) || !has_only_vertices(shape_b)) {
   const Mat3& ra = pose_a.rotation;
   const Mat3& rb = pose_b.rotation;
   const Vec3 columns[3] = {{rb.row[0].x, rb.row[1].x, rb.row[2].x},

@@ -26,14 +26,16 @@ struct MinkowskiDifference {
   const Shape& b;
   Pose b_in_a;   // places B's core in A's frame
   double scale;  // bounds every coordinate of A - B: the unit of all tolerances
+  const SupportMap *map_a, *map_b;  // or null
   bool curved;   // a core has more than vertices: bounds close in the limit
 
   MinkowskiDifference(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
   // The point of A - B farthest along `direction` (any length but zero).
   SATCHECK_INLINE SupportPoint support(Vec3 direction) const {
-    const CorePoint on_a = inlined_core_support(a, direction);
-    const CorePoint on_b = inlined_core_support(b, transpose_times(b_in_a.rotation, -direction));
+    const Vec3 into_b = transpose_times(b_in_a.rotation, -direction);
+    const CorePoint on_a = map_a ? map_a->support(direction) : inlined_core_support(a, direction);
+    const CorePoint on_b = map_b ? map_b->support(into_b) : inlined_core_support(b, into_b);
     const Vec3 pb = b_in_a * on_b.point;
     return {on_a.point - pb, on_a.point, on_a.index, on_b.index};
   }

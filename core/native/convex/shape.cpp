@@ -7,7 +7,6 @@
 namespace satcheck {
 
 namespace {
-
 void require_positive(double value, const char* what) {
   if (!(value >= kSmallestSize && value <= kLargestCoordinate)) {
     throw std::invalid_argument(std::string(what) + " must be positive, and between 1e-45 and 1e45");
@@ -53,6 +52,7 @@ Shape make_hull(Polytope polytope) {
   shape.polytope = std::move(polytope);
   shape.arcs = arcs_of(shape.polytope);
   shape.lanes = VertexLanes(shape.polytope.vertices);
+  shape.support_map = LazySupportMap(shape.polytope.vertices.size());
   shape.extent = largest_coordinate(shape.polytope.vertices);
   return shape;
 }

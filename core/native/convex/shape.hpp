@@ -9,7 +9,7 @@
 #include <string>
 
 #include "convex/polytope.hpp"
-#include "convex/support_scan.hpp"
+#include "convex/support_map.hpp"
 
 namespace satcheck {
 
@@ -38,6 +38,7 @@ struct Shape {
   // Hull and box. Hull: coordinates are relative to `origin`, which brings a hull far from the world's
   // origin to its own without any rounding.
   VertexLanes lanes;
+  LazySupportMap support_map;  // of a hull of many vertices
   Polytope polytope;
   std::vector<EdgeArc> arcs;  // of a solid hull
 
@@ -59,11 +60,7 @@ Shape make_cylinder(double radius, double half_height);
 Shape make_cone(double radius, double half_height);
 Shape make_ellipsoid(Vec3 radii);
 
-// Support point of the core in the local frame, and its index where the core has vertices.
-struct CorePoint {
-  Vec3 point;
-  std::uint32_t index;
-};
+// Support point of the core in the local frame.
 CorePoint core_support(const Shape& shape, Vec3 direction);
 CorePoint round_support(const Shape& shape, Vec3 direction);  // of neither hulls nor boxes
 

@@ -8,6 +8,12 @@
 
 namespace satcheck {
 
+// A support point, and its index where the shape has vertices.
+struct CorePoint {
+  Vec3 point;
+  std::uint32_t index;
+};
+
 // Vertices as structure of arrays, padded with copies of vertex 0 to a multiple of kLanes so that
 // the scan has no remainder.
 struct VertexLanes {
@@ -16,6 +22,19 @@ struct VertexLanes {
 
   explicit VertexLanes(const std::vector<Vec3>& points = {});
   std::size_t padded() const { return x.size(); }
+};
+
+// Dot products of a direction with four points.
+struct LaneDirection {
+  Lanes x, y, z;
+
+  SATCHECK_INLINE explicit LaneDirection(Vec3 d) : x(all_lanes(d.x)), y(all_lanes(d.y)), z(all_lanes(d.z)) {}
+  SATCHECK_INLINE Lanes heights(const double* px, const double* py, const double* pz) const {
+    return load_lanes(px) * x + load_lanes(py) * y + load_lanes(pz) * z;
+  }
+  SATCHECK_INLINE Lanes heights(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) const {
+    return Lanes{p.x, q.x, r.x, s.x} * x + Lanes{p.y, q.y, r.y, s.y} * y + Lanes{p.z, q.z, r.z, s.z} * z;
+  }
 };
 
 // A value a lane, and the index where it stood, kept as float64 so that one mask selects both.
@@ -36,24 +55,26 @@ SATCHECK_INLINE std::uint32_t index_of_largest(LaneBest best) {
   return static_cast<std::uint32_t>(best.index[0]);
 }
 
-// Index of the largest dot product with `direction`; the first of them in a tie. Not empty.
-SATCHECK_INLINE std::uint32_t support_index(const VertexLanes& vertices, Vec3 direction) {
-  const double *x = vertices.x.data(), *y = vertices.y.data(), *z = vertices.z.data();
-  const Lanes dx = all_lanes(direction.x), dy = all_lanes(direction.y), dz = all_lanes(direction.z);
-  const auto height = [&](std::size_t i) {
-    return load_lanes(x + i) * dx + load_lanes(y + i) * dy + load_lanes(z + i) * dz;
-  };
+// Index of the largest dot product with `direction` among `padded` points, a multiple of 8 above 0; the first of
+// them in a tie.
+SATCHECK_INLINE std::uint32_t support_index(const double* x, const double* y, const double* z, std::size_t padded,
+                                            Vec3 direction) {
+  const LaneDirection d(direction);
   Lanes at0 = {0, 1, 2, 3}, at1 = {4, 5, 6, 7};
-  LaneBest best0 = {height(0), at0}, best1 = {height(4), at1};
-  for (std::size_t i = VertexLanes::kLanes; i < vertices.padded(); i += VertexLanes::kLanes) {
+  LaneBest best0 = {d.heights(x, y, z), at0}, best1 = {d.heights(x + 4, y + 4, z + 4), at1};
+  for (std::size_t i = VertexLanes::kLanes; i < padded; i += VertexLanes::kLanes) {
     at0 = at0 + all_lanes(8);
     at1 = at1 + all_lanes(8);
-    const Lanes height0 = height(i), height1 = height(i + 4);
+    const Lanes height0 = d.heights(x + i, y + i, z + i), height1 = d.heights(x + i + 4, y + i + 4, z + i + 4);
     const LaneMask higher0 = height0 > best0.value, higher1 = height1 > best1.value;
     best0 = {select(higher0, height0, best0.value), select(higher0, at0, best0.index)};
     best1 = {select(higher1, height1, best1.value), select(higher1, at1, best1.index)};
   }
   return index_of_largest(larger(best0, best1));
+}
+
+SATCHECK_INLINE std::uint32_t support_index(const VertexLanes& vertices, Vec3 direction) {
+  return support_index(vertices.x.data(), vertices.y.data(), vertices.z.data(), vertices.padded(), direction);
 }
 
 }  // namespace satcheck
