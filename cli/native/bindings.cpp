@@ -12,7 +12,9 @@ using namespace satcheck::cli;
 
 namespace {
 
-constexpr std::string_view kStep = "  ";
+// Bytes of what is written at once, as a rule.
+constexpr std::size_t kUsual = 4096;
+constexpr std::size_t kStep = 2;  // blanks that a depth more takes
 
 // Keeps values that hold themselves from ending the process.
 class Nesting {
@@ -32,6 +34,8 @@ bool is_scalar(PyObject* value) {
 
 class Writer {
  public:
+  Writer() { text_.reserve(kUsual); }
+
   // depth: of the object or list that the value is a member of, plus 1.
   void value(PyObject* value, int depth) {
     if (PyDict_Check(value)) {
@@ -156,7 +160,7 @@ class Writer {
 
   void line(int depth) {
     text_ += '\n';
-    for (int k = 0; k < depth; ++k) text_ += kStep;
+    text_.append(kStep * static_cast<std::size_t>(depth), ' ');
   }
 
   [[noreturn]] static void refuse(const char* what, PyObject* value) {

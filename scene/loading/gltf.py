@@ -23,6 +23,7 @@ from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, R
 from satcheck.scene.plain_ids import UniqueNames
 
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
+_VERTEX_BYTES = 24
 _NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
 # Extensions a file may require without changing where its triangles are.
 _HARMLESS_PREFIXES = ("KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "KHR_xmp_")
@@ -224,31 +225,32 @@ class _Scene:
         if primitive.get("targets"):
             warnings["rest-shape"] = "morphing is ignored: the rest shape is used"
         positions = self._accessors.positions(integer(attributes, "POSITION", -1))
-        count = len(positions) // 3
+        count = len(positions) // _VERTEX_BYTES
         if "indices" in primitive:
-            corners = self._accessors.indices(integer(primitive, "indices", -1))
+            corners, largest = self._accessors.indices(integer(primitive, "indices", -1))
         else:
-            corners = array("I", range(count))
-        if corners and max(corners) >= count:
+            corners, largest = array("I", range(count)).tobytes(), count - 1
+        if corners and largest >= count:
             raise MeshFileError(
                 "index-out-of-range",
-                f"{where}: index out of range: {max(corners)} of {count} vertices",
+                f"{where}: index out of range: {largest} of {count} vertices",
             )
-        return positions.tobytes(), _triangles(corners, mode, where).tobytes()
+        return positions, _triangles(corners, mode, where)
 
 
-def _triangles(corners: array[int], mode: int, where: str) -> array[int]:
+def _triangles(numbers: bytes, mode: int, where: str) -> bytes:
+    corners = array("I", numbers)
     if mode == _TRIANGLES:
         if len(corners) % 3:
             raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
-        return corners
+        return numbers
     triangles = array("I")
     for i in range(len(corners) - 2):
         if mode == _FAN:
             triangles.extend((corners[i + 1], corners[i + 2], corners[0]))
         else:  # in a strip, every other triangle runs backwards
             triangles.extend((corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]))
-    return triangles
+    return triangles.tobytes()
 
 
 def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[float]:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import base64
-import binascii
-import math
 import struct
 import sys
 from array import array
 from pathlib import Path
 from typing import Any
 
+from satcheck.scene._readers import float64_of, uint32_of
 from satcheck.scene.errors import MeshFileError
 
 _GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
@@ -111,27 +109,28 @@ class Accessors:
         self._allow_outside = allow_outside
         self._buffers: dict[int, memoryview] = {}
 
-    def positions(self, index: int) -> array[float]:
-        """x, y, z of each element as float64, all finite."""
+    def positions(self, index: int) -> bytes:
+        """x, y, z of each element, little-endian float64, all finite."""
         values, normalized = self._read(index, "VEC3")
         code = values.typecode
         if code == "I":
             raise MeshFileError("bad-record", f"accessor {index}: positions of type uint32")
-        if code == "f" or not normalized:
-            coordinates = array("d", values)
-            # Of float32 numbers no sum overflows: one is not finite where the sum is not.
-            if not math.isfinite(sum(coordinates)):
+        if code == "f":
+            coordinates = float64_of(values.tobytes())
+            if coordinates is None:
                 raise MeshFileError("non-finite", f"accessor {index}: non-finite coordinates")
             return coordinates
+        if not normalized:
+            return array("d", values).tobytes()
         one = next(largest for known, largest in _COMPONENTS.values() if known == code)
-        return array("d", (max(value / one, -1.0) for value in values))
+        return array("d", (max(value / one, -1.0) for value in values)).tobytes()
 
-    def indices(self, index: int) -> array[int]:
-        """Vertex numbers as uint32."""
+    def indices(self, index: int) -> tuple[bytes, int]:
+        """Vertex numbers, little-endian uint32, and the largest of them."""
         values, _ = self._read(index, "SCALAR")
         if values.typecode not in _INDEX_TYPES:
             raise MeshFileError("bad-record", f"accessor {index}: indices are not unsigned")
-        return values if values.typecode == "I" else array("I", values)
+        return uint32_of(values.tobytes(), values.itemsize)
 
     def _read(self, index: int, kind: str) -> tuple[array[Any], bool]:
         accessor = member(self._accessors, index, "accessor")
@@ -201,6 +200,9 @@ class Accessors:
         if not isinstance(uri, str):
             raise MeshFileError("bad-record", f"buffer {number}: the URI is not a text")
         if uri.startswith("data:"):
+            import base64
+            import binascii
+
             header, _, text = uri.partition(",")
             try:
                 if not header.endswith(";base64"):

@@ -8,6 +8,7 @@
 #include <bit>
 
 #include "readers.hpp"
+#include "typed_arrays.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck::scene;
@@ -69,4 +70,21 @@ NB_MODULE(_readers, m) {
   m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.");
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
+
+  m.def(
+      "float64_of",
+      [](const nb::bytes& float32) -> nb::object {
+        const auto found = float64_of({float32.c_str(), float32.size()});
+        return found ? nb::object(to_bytes(*found)) : nb::none();
+      },
+      nb::arg("float32"), nb::sig("def float64_of(float32: bytes) -> bytes | None"),
+      "Little-endian float32 numbers as float64; None where one is not finite.");
+  m.def(
+      "uint32_of",
+      [](const nb::bytes& unsigned_numbers, std::size_t size) {
+        const VertexNumbers found = uint32_of({unsigned_numbers.c_str(), unsigned_numbers.size()}, size);
+        return nb::make_tuple(to_bytes(found.numbers), found.largest);
+      },
+      nb::arg("unsigned_numbers"), nb::arg("size"), nb::sig("def uint32_of(unsigned_numbers: bytes, size: int) -> tuple[bytes, int]"),
+      "Little-endian unsigned numbers of 1, 2 or 4 bytes as uint32, and the largest (0: there are none).");
 }

@@ -57,9 +57,11 @@ void layout_of_numbers() {
 
 void numbers_read_back_the_same() {
   std::mt19937_64 random(20260728);
+  int exponent = 0;
   for (int k = 0; k < 100000; ++k) {
-    const double value = std::bit_cast<double>(random());
+    double value = std::bit_cast<double>(random());
     if (!std::isfinite(value)) continue;
+    if (k % 2 == 0) value = std::ldexp(std::frexp(value, &exponent), k % 80 - 20);  // those of usual sizes
     const std::string text = number(value);
     check(std::bit_cast<std::uint64_t>(std::strtod(text.c_str(), nullptr)) == std::bit_cast<std::uint64_t>(value), text,
           __LINE__);
@@ -72,6 +74,13 @@ void escapes() {
   CHECK_STRING("a\"b\\c/", "\"a\\\"b\\\\c/\"");
   CHECK_STRING("\b\f\n\r\t", "\"\\b\\f\\n\\r\\t\"");
   CHECK_STRING(std::string_view("\0\x1b\x7f", 3), "\"\\u0000\\u001b\x7f\"");
+  for (std::size_t at = 0; at < 40; ++at) {
+    std::string long_text(40, '\x7e'), escaped = "\"" + long_text + "\"";
+    long_text[at] = '"';
+    escaped.insert(at + 1, "\\");
+    escaped[at + 2] = '"';
+    CHECK_STRING(long_text, escaped);
+  }
   CHECK_STRING("\xc3\xa4\xf0\x9f\x98\x80", "\"\xc3\xa4\xf0\x9f\x98\x80\"");
 }
 

@@ -8,21 +8,26 @@ namespace satcheck {
 namespace {
 
 constexpr int kLimbBits = 32;
-constexpr int kMantissaBits = 53;
+constexpr std::uint64_t kLimbMask = 0xFFFFFFFF;
+// Of a float64: mantissa * 2^(biased exponent - bias), where the mantissa has 53 bits.
+constexpr int kFractionBits = 52;
+constexpr int kExponentMask = 0x7FF;
+constexpr int kExponentBias = 1075;
 
 }  // namespace
 
 Dyadic::Dyadic(double value) {
-  if (value == 0) return;
-  int exponent = 0;
-  const double mantissa = std::frexp(std::fabs(value), &exponent);
-  auto bits = static_cast<std::uint64_t>(std::ldexp(mantissa, kMantissaBits));
-  const int zeros = std::countr_zero(bits);
-  bits >>= zeros;
-  exponent_ = exponent - kMantissaBits + zeros;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto biased = static_cast<int>(bits >> kFractionBits & kExponentMask);
+  auto mantissa = bits & ((std::uint64_t{1} << kFractionBits) - 1);
+  if (biased != 0) mantissa |= std::uint64_t{1} << kFractionBits;
+  if (mantissa == 0) return;
+  const int zeros = std::countr_zero(mantissa);
+  mantissa >>= zeros;
+  exponent_ = std::max(biased, 1) - kExponentBias + zeros;
   negative_ = value < 0;
-  limbs_ = {static_cast<std::uint32_t>(bits), static_cast<std::uint32_t>(bits >> kLimbBits)};
-  trim();
+  limbs_.push_back(static_cast<std::uint32_t>(mantissa));
+  if (mantissa >> kLimbBits != 0) limbs_.push_back(static_cast<std::uint32_t>(mantissa >> kLimbBits));
 }
 
 void Dyadic::trim() {
@@ -46,30 +51,6 @@ Dyadic Dyadic::operator-() const {
   return result;
 }
 
-int Dyadic::compare(const Limbs& a, const Limbs& b) {
-  if (a.size() != b.size()) return a.size() < b.size() ? -1 : 1;
-  for (std::size_t i = a.size(); i-- > 0;) {
-    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
-  }
-  return 0;
-}
-
-Limbs Dyadic::shifted(const Limbs& a, std::int64_t bits) {
-  const auto whole = static_cast<std::size_t>(bits / kLimbBits);
-  const int part = static_cast<int>(bits % kLimbBits);
-  Limbs result;
-  result.reserve(whole + a.size() + 1);
-  result.append_zeros(whole);
-  std::uint64_t carry = 0;
-  for (const std::uint32_t limb : a) {
-    carry |= static_cast<std::uint64_t>(limb) << part;
-    result.push_back(static_cast<std::uint32_t>(carry));
-    carry >>= kLimbBits;
-  }
-  if (carry != 0) result.push_back(static_cast<std::uint32_t>(carry));
-  return result;
-}
-
 Dyadic operator+(const Dyadic& a, const Dyadic& b) { return Dyadic::sum(a, b, b.negative_); }
 
 Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
@@ -79,25 +60,41 @@ Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
     result.negative_ = b_is_negative;
     return result;
   }
-  Dyadic result;
-  result.exponent_ = std::min(a.exponent_, b.exponent_);
-  const Limbs x = shifted(a.limbs_, a.exponent_ - result.exponent_);
-  const Limbs y = shifted(b.limbs_, b.exponent_ - result.exponent_);
-  const int order = compare(x, y);
-  const Limbs& large = order >= 0 ? x : y;
-  const Limbs& small = order >= 0 ? y : x;
+  const bool a_is_fine = a.exponent_ <= b.exponent_;
+  const Dyadic &fine = a_is_fine ? a : b, &coarse = a_is_fine ? b : a;
   const bool subtract = a.negative_ != b_is_negative;
-  result.negative_ = order >= 0 ? a.negative_ : b_is_negative;
-  result.limbs_.append_zeros(large.size());
+  // The digits of the coarse one move up by so many, and by so many bits.
+  const std::int64_t shift = coarse.exponent_ - fine.exponent_;
+  const auto whole = static_cast<std::size_t>(shift / kLimbBits);
+  const int part = static_cast<int>(shift % kLimbBits);
+  const std::size_t count_fine = fine.limbs_.size(), count_coarse = coarse.limbs_.size();
+  Dyadic result;
+  result.exponent_ = fine.exponent_;
+  result.negative_ = a_is_fine ? a.negative_ : b_is_negative;
+  result.limbs_.append_zeros(std::max(count_fine, whole + count_coarse + 1));
+  const std::uint32_t *x = fine.limbs_.begin(), *y = coarse.limbs_.begin();
   std::uint32_t* digit = result.limbs_.begin();
   std::int64_t carry = 0;
-  for (std::size_t i = 0; i < large.size(); ++i) {
-    const std::int64_t other = i < small.size() ? small[i] : 0;
-    carry += static_cast<std::int64_t>(large[i]) + (subtract ? -other : other);
+  std::uint64_t moved = 0;
+  for (std::size_t i = 0; i < result.limbs_.size(); ++i) {
+    if (i >= whole && i - whole < count_coarse) moved |= static_cast<std::uint64_t>(y[i - whole]) << part;
+    const auto other = static_cast<std::int64_t>(moved & kLimbMask);
+    moved >>= kLimbBits;
+    carry += static_cast<std::int64_t>(i < count_fine ? x[i] : 0) + (subtract ? -other : other);
     digit[i] = static_cast<std::uint32_t>(carry);
     carry >>= kLimbBits;  // arithmetic: -1 is a borrow
   }
-  if (carry != 0) result.limbs_.push_back(static_cast<std::uint32_t>(carry));
+  if (carry > 0) {
+    result.limbs_.push_back(static_cast<std::uint32_t>(carry));
+  } else if (carry < 0) {  // the coarse one is the larger: the digits are those of 2^k less the difference
+    result.negative_ = !result.negative_;
+    std::uint64_t one = 1;
+    for (std::size_t i = 0; i < result.limbs_.size(); ++i) {
+      one += static_cast<std::uint32_t>(~digit[i]);
+      digit[i] = static_cast<std::uint32_t>(one);
+      one >>= kLimbBits;
+    }
+  }
   result.trim();
   return result;
 }

@@ -25,8 +25,6 @@ class Dyadic {
  private:
   // a + b, where b has the sign that is given.
   static Dyadic sum(const Dyadic& a, const Dyadic& b, bool b_is_negative);
-  static int compare(const Limbs& a, const Limbs& b);
-  static Limbs shifted(const Limbs& a, std::int64_t bits);
   void trim();
   // The leading bits as a float64 in [2^63, 2^64) and the exponent that goes with it.
   double leading(std::int64_t& exponent) const;

@@ -61,16 +61,32 @@ ExactPoint between(const ExactPoint& p, const ExactPoint& q, const Dyadic& wp, c
                           (wp + wq) * p.w * q.w);
 }
 
-Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-  const Dyadic ax = a.x, ay = a.y, az = a.z;
-  const Dyadic ux = b.x - ax, uy = b.y - ay, uz = b.z - az;
-  const Dyadic vx = c.x - ax, vy = c.y - ay, vz = c.z - az;
-  return minor(uy, uz, vy, vz) * (d.x - ax) + minor(uz, ux, vz, vx) * (d.y - ay) +
-         minor(ux, uy, vx, vy) * (d.z - az);
-}
+namespace {
+
+// The plane through a, b and c: value(p) has the sign of orientation(a, b, c, p).
+class ExactPlane {
+ public:
+  ExactPlane(Vec3 a, Vec3 b, Vec3 c) : ax_(a.x), ay_(a.y), az_(a.z) {
+    const Dyadic ux = b.x - ax_, uy = b.y - ay_, uz = b.z - az_;
+    const Dyadic vx = c.x - ax_, vy = c.y - ay_, vz = c.z - az_;
+    nx_ = minor(uy, uz, vy, vz);
+    ny_ = minor(uz, ux, vz, vx);
+    nz_ = minor(ux, uy, vx, vy);
+  }
+
+  Dyadic value(Vec3 p) const { return nx_ * (p.x - ax_) + ny_ * (p.y - ay_) + nz_ * (p.z - az_); }
+
+ private:
+  Dyadic ax_, ay_, az_, nx_, ny_, nz_;
+};
+
+}  // namespace
+
+Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return ExactPlane(a, b, c).value(d); }
 
 ExactPoint plane_meeting_point(Vec3 a, Vec3 b, Vec3 c, Vec3 p, Vec3 q) {
-  const Dyadic wp = orientation_value(a, b, c, q), wq = -orientation_value(a, b, c, p);
+  const ExactPlane plane(a, b, c);
+  const Dyadic wp = plane.value(q), wq = -plane.value(p);
   return make_exact_point(wp * p.x + wq * q.x, wp * p.y + wq * q.y, wp * p.z + wq * q.z, wp + wq);
 }
 
