@@ -75,7 +75,8 @@ void escapes() {
   CHECK_STRING("\b\f\n\r\t", "\"\\b\\f\\n\\r\\t\"");
   CHECK_STRING(std::string_view("\0\x1b\x7f", 3), "\"\\u0000\\u001b\x7f\"");
   for (std::size_t at = 0; at < 40; ++at) {
-    std::string long_text(40, '\x7e'), escaped = "\"" + long_text + "\"";
+    std::string long_text(40, '\x7e'), escaped(long_text.size() + 2, '\x7e');
+    escaped.front() = escaped.back() = '"';
     long_text[at] = '"';
     escaped.insert(at + 1, "\\");
     escaped[at + 2] = '"';
