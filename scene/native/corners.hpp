@@ -42,7 +42,7 @@ class Corners {
     Slot& slot = find(point, hash);
     if (slot.number != kEmpty) return slot.number;
     slot = {point, count_};
-    vertices.insert(vertices.end(), point.begin(), point.end());
+    for (const Coordinate c : point) vertices.push_back(c);
     if (2 * std::size_t{++count_} > slots_.size()) grow();
     return count_ - 1;
   }

@@ -17,6 +17,31 @@ constexpr std::size_t count_offset = 80;
 // Facets that are read together, so that looking up their corners need not wait for memory.
 constexpr std::size_t block_size = 16;
 
+using Facet = std::array<Corners<float>::Point, 3>;
+
+Facet load_facet(const char* from) {
+  Facet facet;
+  for (std::size_t i = 0; i < 9; ++i) facet[i / 3][i % 3] = load<float>(from + i * sizeof(float));
+  return facet;
+}
+
+// All exponents at once: that of what is infinite or no number has every bit set.
+bool is_finite(const Facet& facet) {
+  constexpr std::uint32_t kExponent = 0x7F800000;
+  bool finite = true;
+  for (const auto& point : facet) {
+    for (const float c : point) finite &= (std::bit_cast<std::uint32_t>(c) & kExponent) != kExponent;
+  }
+  return finite;
+}
+
+[[noreturn]] void fail_at_coordinate(const Facet& facet, std::size_t number, std::size_t offset) {
+  std::size_t i = 0;
+  while (std::isfinite(facet[i / 3][i % 3])) ++i;
+  fail_at_byte(code::non_finite, "non-finite coordinate in facet " + std::to_string(number + 1),
+               static_cast<std::int64_t>(offset + i * sizeof(float)));
+}
+
 MeshData read_binary(std::string_view bytes, std::size_t count) {
   if (count > static_cast<std::size_t>(max_vertices) / 3) {
     fail(code::too_large, std::to_string(count) + " facets are more than 32-bit vertex numbers can hold");
@@ -27,28 +52,21 @@ MeshData read_binary(std::string_view bytes, std::size_t count) {
   mesh.vertices.reserve(expected * 3);
   mesh.triangles.reserve(count * 3);
   Corners<float> corners(expected);
-  std::array<Corners<float>::Point, 3 * block_size> points;
+  std::array<Facet, block_size> facets;
   std::array<std::uint64_t, 3 * block_size> hashes;
+  std::array<std::uint32_t, 3 * block_size> numbers;
   for (std::size_t first = 0; first < count; first += block_size) {
-    const std::size_t last = std::min(first + block_size, count);
-    std::size_t size = 0;
-    for (std::size_t facet = first; facet < last; ++facet) {
-      const std::size_t start = header_size + facet * facet_size + normal_size;
-      for (std::size_t i = 0; i < 9; ++i) {
-        const std::size_t offset = start + i * sizeof(float);
-        const float value = load<float>(bytes.data() + offset);
-        if (!std::isfinite(value)) {
-          fail_at_byte(code::non_finite, "non-finite coordinate in facet " + std::to_string(facet + 1),
-                       static_cast<std::int64_t>(offset));
-        }
-        points[size + i / 3][i % 3] = value;
-      }
-      for (std::size_t i = size; i < size + 3; ++i) corners.fetch(hashes[i] = corners.hash(points[i]));
-      size += 3;
-    }
+    const std::size_t size = std::min(block_size, count - first);
     for (std::size_t i = 0; i < size; ++i) {
-      mesh.triangles.push_back(corners.number(points[i], hashes[i], mesh.vertices));
+      const std::size_t offset = header_size + (first + i) * facet_size + normal_size;
+      facets[i] = load_facet(bytes.data() + offset);
+      if (!is_finite(facets[i])) fail_at_coordinate(facets[i], first + i, offset);
+      for (std::size_t k = 0; k < 3; ++k) corners.fetch(hashes[3 * i + k] = corners.hash(facets[i][k]));
     }
+    for (std::size_t i = 0; i < 3 * size; ++i) {
+      numbers[i] = corners.number(facets[i / 3][i % 3], hashes[i], mesh.vertices);
+    }
+    mesh.triangles.insert(mesh.triangles.end(), numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(3 * size));
   }
   return mesh;
 }

@@ -221,6 +221,12 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
 }
 
 bool collinear(Vec3 a, Vec3 b, Vec3 c) {
+  // Of most triangles a rounded component of the normal is clearly not 0.
+  const Vec3 u = b - a, v = c - a;
+  const auto is_clear = [](double left, double right) {
+    return std::fabs(left - right) > kOrientation2dBound * (std::fabs(left) + std::fabs(right));
+  };
+  if (is_clear(u.y * v.z, u.z * v.y) || is_clear(u.z * v.x, u.x * v.z) || is_clear(u.x * v.y, u.y * v.x)) return false;
   return orientation_2d(a, b, c, 0) == 0 && orientation_2d(a, b, c, 1) == 0 &&
          orientation_2d(a, b, c, 2) == 0;
 }

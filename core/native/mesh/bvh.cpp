@@ -163,6 +163,11 @@ std::uint8_t side_beyond(const Aabb& region, const Aabb& box) {
   return kSides;
 }
 
+Vec3 clamped(Vec3 p, const Aabb& box) {
+  const auto within = [](double c, double low, double high) { return c < low ? low : c > high ? high : c; };
+  return {within(p.x, box.min.x, box.max.x), within(p.y, box.min.y, box.max.y), within(p.z, box.min.z, box.max.z)};
+}
+
 // One tree of a tree, which may be empty, and leaves.
 std::vector<BvhNode> beside(const std::vector<BvhNode>& tree, const std::vector<BvhNode>& leaves,
                             const std::vector<Aabb>& boxes) {
@@ -225,37 +230,29 @@ Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (count == 0) return {};
   const auto box_of = [&](std::uint32_t t) { return triangle_box(mesh, t); };
-  std::vector<std::uint8_t> side(count);
-  std::array<std::uint32_t, kSides + 1> size{};
-  Aabb bounds;  // of those that meet the region
+  const MortonCurve curve(region);
+  std::vector<Keyed> items;
+  std::array<std::vector<std::uint32_t>, kSides> beyond;
   for (std::uint32_t t = 0; t < count; ++t) {
     const Aabb box = box_of(t);
-    side[t] = side_beyond(region, box);
-    ++size[side[t]];
-    if (side[t] == kSides) bounds.include(box);
-  }
-  const MortonCurve curve(bounds);
-  std::vector<Keyed> items;
-  items.reserve(size[kSides]);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (side[t] == kSides) items.push_back({curve.code(centre(box_of(t))), t});
+    const std::uint8_t side = side_beyond(region, box);
+    if (side == kSides) {
+      items.push_back({curve.code(clamped(centre(box), region)), t});
+    } else {
+      beyond[side].push_back(t);
+    }
   }
   Bvh bvh = items.empty() ? Bvh{} : build(std::move(items), box_of, threads, count);
-  bvh.order.resize(count);
-  bvh.boxes.resize(count);
+  bvh.order.reserve(count);
+  bvh.boxes.reserve(count);
   std::vector<BvhNode> leaves;
-  std::array<std::uint32_t, kSides> place{};
-  std::uint32_t first = size[kSides];
-  for (std::uint8_t s = 0; s < kSides; ++s) {
-    place[s] = first;
-    if (size[s] != 0) leaves.push_back({Aabb{}, first, size[s]});
-    first += size[s];
-  }
-  for (std::uint32_t t = 0; t < count; ++t) {
-    if (side[t] == kSides) continue;
-    const std::uint32_t at = place[side[t]]++;
-    bvh.order[at] = t;
-    bvh.boxes[at] = box_of(t);
+  for (const std::vector<std::uint32_t>& triangles : beyond) {
+    if (triangles.empty()) continue;
+    BvhNode& leaf = leaves.emplace_back();
+    leaf.first = static_cast<std::uint32_t>(bvh.order.size());
+    leaf.count = static_cast<std::uint32_t>(triangles.size());
+    bvh.order.insert(bvh.order.end(), triangles.begin(), triangles.end());
+    for (const std::uint32_t t : triangles) bvh.boxes.push_back(box_of(t));
   }
   bvh.nodes = beside(bvh.nodes, leaves, bvh.boxes);
   return bvh;
