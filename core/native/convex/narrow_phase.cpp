@@ -154,14 +154,16 @@ CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, double noise, Pai
   const bool overlap_only = query == Query::overlap && margin == 0;
   const GjkResult g = gjk(m, overlap_only ? GjkGoal::overlap : GjkGoal::distance);
   result.gjk_iterations += g.iterations;
-  if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
-  if (overlap_only && !m.curved && g.status == GjkResult::Status::encloses) {
+  if (overlap_only && !m.curved) {
     CoreAnswer answer;
-    answer.lower = enclosed_radius(g.simplex) - m.support_error();
     answer.method = Method::gjk;
     answer.feature = Feature::vertices;
+    answer.upper = -g.lower;
+    if (g.status == GjkResult::Status::separated) return answer;
+    if (g.status == GjkResult::Status::encloses) answer.lower = enclosed_radius(g.simplex) - m.support_error();
     if (answer.lower > noise) return answer;
   }
+  if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
   return from_epa(m, g, query, result);
 }
 
@@ -326,9 +328,12 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
 
 PairResult check_in_any_order(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                               MethodChoice method) {
-  if (comes_before(a, pose_a, b, pose_b)) return check_in_order(a, pose_a, b, pose_b, query, method);
-  PairResult result = check_in_order(b, pose_b, a, pose_a, query, method);
-  mirror(result);
+  // Looked up, not branched upon: which comes first is anybody's guess.
+  const Shape* const shapes[2] = {&a, &b};
+  const Pose* const poses[2] = {&pose_a, &pose_b};
+  const bool swapped = !comes_before(a, pose_a, b, pose_b);
+  PairResult result = check_in_order(*shapes[swapped], *poses[swapped], *shapes[!swapped], *poses[!swapped], query, method);
+  if (swapped) mirror(result);
   return result;
 }
 

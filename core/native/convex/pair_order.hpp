@@ -11,9 +11,9 @@ namespace satcheck {
 // Compares all that the shapes are, then where they stand.
 bool comes_before_in_full(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
 
-// No scaling changes the result. Most shapes differ in the first coordinate that is compared.
+// No scaling changes the result. Most shapes of a kind differ in what is compared first.
 inline bool comes_before(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  if (a.kind == b.kind && a.size.x != b.size.x) return a.size.x < b.size.x;
+  if (a.kind == b.kind && a.extent != b.extent) return a.extent < b.extent;
   return comes_before_in_full(a, pose_a, b, pose_b);
 }
 

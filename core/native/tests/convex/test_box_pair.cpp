@@ -2,6 +2,7 @@
 #include "convex/box_pair.hpp"
 
 #include "base/tolerances.hpp"
+#include "convex/pair_order.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"
 
@@ -91,7 +92,7 @@ void test_difference_gives_the_same_bits() {
   testing::Source source(9);
   for (int round = 0; round < 300; ++round) {
     const Boxes boxes = random_boxes(source, 0.7);
-    if (!(boxes.a.size.x < boxes.b.size.x)) continue;  // answered in the frame of A
+    if (!comes_before(boxes.a, boxes.pose_a, boxes.b, boxes.pose_b)) continue;  // not answered in the frame of A
     const PairResult r = depth_of_boxes(boxes.a, boxes.pose_a, boxes.b, boxes.pose_b);
     if (r.outcome != Outcome::penetrating) continue;
     const BoxContact contact = contact_of_boxes({boxes.a, boxes.pose_a, boxes.b, boxes.pose_b});
