@@ -23,6 +23,11 @@ auto view(const std::vector<T>& values, nb::handle owner) {
                                                                  {values.size() * sizeof(T)}, owner);
 }
 
+template <class T>
+nb::bytes to_bytes(const std::vector<T>& values) {
+  return nb::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
 template <ReadOutcome (*Read)(std::string_view)>
 ReadOutcome read(const nb::bytes& data) {
   const std::string_view bytes(data.c_str(), data.size());
