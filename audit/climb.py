@@ -26,7 +26,9 @@ LAST: dict[Accuracy, Rung] = {
     "exact": "triangles",
 }
 # What is computed after the ladder, whatever it found.
-_EXTRAS: tuple[Effect, ...] = ("volume", "contacts", "cross-check", "certificate", "sweep")
+_EXTRAS: frozenset[Effect] = frozenset(
+    ("volume", "contacts", "cross-check", "certificate", "sweep")
+)
 
 
 def climb(pair: Pair, first: Rung = "aabb") -> core.Climb:
@@ -66,7 +68,7 @@ def leaves_work(pair: Pair, found: core.Climb | None) -> bool:
 
 
 def _is_asked_more(asked: Asked, found: core.Climb) -> bool:
-    if any(effect in asked.by for effect in _EXTRAS):
+    if not _EXTRAS.isdisjoint(asked.by):
         return True
     return "depth" in asked.by and _overlaps(found)
 

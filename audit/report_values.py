@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
-from satcheck.audit.contact_report import Vector
 from satcheck.audit.report import (
     RELATIONS,
     BodyReport,
@@ -28,8 +28,13 @@ def _number(value: float | None) -> float | None:
     return value + 0.0
 
 
-def _vector(value: Vector | None) -> list[float | None] | None:
-    return None if value is None else [_number(c) for c in value]
+def _numbers(values: Sequence[float] | None) -> list[float] | None:
+    """The same of each."""
+    if values is None:
+        return None
+    if not all(map(math.isfinite, values)):
+        raise ValueError(f"a report holds finite numbers only, not {values!r}")
+    return [value + 0.0 for value in values]
 
 
 def summary(one: Summary) -> dict[str, Any]:
@@ -87,7 +92,7 @@ def body(one: BodyReport) -> dict[str, Any]:
         "sha256": one.sha256,
         "path": one.path,
         "shape": one.shape,
-        "transform": one.transform and [_number(entry) for entry in one.transform],
+        "transform": _numbers(one.transform),
         "groups": list(one.groups),
         "static": one.static,
         "triangles": one.triangles,
@@ -101,7 +106,7 @@ def body(one: BodyReport) -> dict[str, Any]:
 
 
 def finding(one: Finding, timings: bool = True) -> dict[str, Any]:
-    bounds, witness = one.depth_bounds, one.witness
+    witness = one.witness
     return {
         "id": one.id,
         "a": one.a,
@@ -114,13 +119,13 @@ def finding(one: Finding, timings: bool = True) -> dict[str, Any]:
         "tolerance": _number(one.tolerance),
         "distance": _number(one.distance),
         "depth": _number(one.depth),
-        "depth_bounds": bounds and [_number(bounds[0]), _number(bounds[1])],
+        "depth_bounds": _numbers(one.depth_bounds),
         "quality": one.quality,
-        "normal": _vector(one.normal),
-        "mtv": _vector(one.mtv),
+        "normal": _numbers(one.normal),
+        "mtv": _numbers(one.mtv),
         "mtv_moves": one.mtv_moves,
         "mtv_verified": one.mtv_verified,
-        "witness": witness and {"a": _vector(witness.a), "b": _vector(witness.b)},
+        "witness": witness and {"a": _numbers(witness.a), "b": _numbers(witness.b)},
         "volume": _number(one.volume),
         "volume_error": _number(one.volume_error),
         "contacts": one.contacts and one.contacts.to_dict(),

@@ -16,7 +16,8 @@ PATIENCE = 0.7
 
 
 class Bar:
-    """Context manager; call it as `bar(done, total)` from any thread. `unit`: what is counted."""
+    """Context manager; call what it gives as `bar(done, total)` from any thread. `unit`: what is
+    counted."""
 
     def __init__(self, unit: str = "pairs") -> None:
         self._unit = unit
@@ -31,9 +32,11 @@ class Bar:
         self._timer = threading.Timer(PATIENCE, self._show)
         self._timer.daemon = True
 
-    def __enter__(self) -> Bar:
-        if self._wanted:
-            self._timer.start()
+    def __enter__(self) -> Bar | None:
+        """None where nobody would see it."""
+        if not self._wanted:
+            return None
+        self._timer.start()
         return self
 
     def __call__(self, done: int, total: int) -> None:
