@@ -29,8 +29,18 @@ SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
   const double noise = m.support_error();
   GjkResult result;
   result.lower = -INFINITY;
-  result.simplex.add(m.support(first_direction(m)));
+  const Vec3 first = first_direction(m);
+  result.simplex.add(m.support(first));
   result.v = result.simplex.vertex[0].w;
+  if (goal == GjkGoal::overlap) {  // pairs well apart are so along the line of their origins
+    result.axis = first * (-1 / norm(first));
+    result.lower = dot(result.axis, result.v);
+    if (result.lower > noise) {
+      result.upper = norm(result.v);
+      result.status = GjkResult::Status::separated;
+      return result;
+    }
+  }
   result.upper = norm(result.v);
   const double gap = m.curved ? kCurvedGap * m.scale : 4 * kUnitRoundoff * m.scale;
   while (result.upper > noise) {
