@@ -123,15 +123,12 @@ std::vector<BvhNode> graft(const Subtree& trunk, std::vector<Subtree>& branches)
   return nodes;
 }
 
-// The tree over the items, which are not yet sorted and whose boxes are box_of(number). Its arrays have room for
-// `total` items.
+// The tree over the items, which are not yet sorted and whose boxes are box_of(number).
 template <class BoxOf>
-Bvh build(std::vector<Keyed> items, BoxOf box_of, unsigned threads, std::size_t total = 0) {
+Bvh build(std::vector<Keyed> items, BoxOf box_of, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(items.size());
   sort_by_key(items);
   Bvh bvh;
-  bvh.order.reserve(total);
-  bvh.boxes.reserve(total);
   bvh.order.resize(count);
   bvh.boxes.resize(count);
   const Subtree trunk = grow(items, {0, count}, kTaskSize);
@@ -169,8 +166,7 @@ Vec3 clamped(Vec3 p, const Aabb& box) {
 }
 
 // One tree of a tree, which may be empty, and leaves.
-std::vector<BvhNode> beside(const std::vector<BvhNode>& tree, const std::vector<BvhNode>& leaves,
-                            const std::vector<Aabb>& boxes) {
+std::vector<BvhNode> beside(const std::vector<BvhNode>& tree, const std::vector<BvhNode>& leaves) {
   if (leaves.empty()) return tree;
   std::vector<BvhNode> parts;  // roots
   if (!tree.empty()) parts.push_back(tree[0]);
@@ -193,7 +189,11 @@ std::vector<BvhNode> beside(const std::vector<BvhNode>& tree, const std::vector<
     for (std::size_t i = count; i < nodes.size(); ++i) nodes[i].first += nodes[i].is_leaf() ? 0 : shift;
     nodes[1].first += nodes[1].is_leaf() ? 0 : shift;
   }
-  fit_boxes(nodes, count, boxes);
+  for (std::size_t i = count; i-- > 0;) {
+    if (nodes[i].is_leaf() || nodes[i].first >= count) continue;
+    nodes[i].box = nodes[nodes[i].first].box;
+    nodes[i].box.include(nodes[nodes[i].first + 1].box);
+  }
   return nodes;
 }
 
@@ -233,6 +233,7 @@ Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads) {
   const MortonCurve curve(region);
   std::vector<Keyed> items;
   std::array<std::vector<std::uint32_t>, kSides> beyond;
+  std::array<Aabb, kSides> around;
   for (std::uint32_t t = 0; t < count; ++t) {
     const Aabb box = box_of(t);
     const std::uint8_t side = side_beyond(region, box);
@@ -240,21 +241,20 @@ Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads) {
       items.push_back({curve.code(clamped(centre(box), region)), t});
     } else {
       beyond[side].push_back(t);
+      around[side].include(box);
     }
   }
-  Bvh bvh = items.empty() ? Bvh{} : build(std::move(items), box_of, threads, count);
+  Bvh bvh = items.empty() ? Bvh{} : build(std::move(items), box_of, threads);
   bvh.order.reserve(count);
-  bvh.boxes.reserve(count);
   std::vector<BvhNode> leaves;
-  for (const std::vector<std::uint32_t>& triangles : beyond) {
+  for (std::uint8_t side = 0; side < kSides; ++side) {
+    const std::vector<std::uint32_t>& triangles = beyond[side];
     if (triangles.empty()) continue;
-    BvhNode& leaf = leaves.emplace_back();
-    leaf.first = static_cast<std::uint32_t>(bvh.order.size());
-    leaf.count = static_cast<std::uint32_t>(triangles.size());
+    const auto first = static_cast<std::uint32_t>(bvh.order.size());
+    leaves.push_back({around[side], first, static_cast<std::uint32_t>(triangles.size())});
     bvh.order.insert(bvh.order.end(), triangles.begin(), triangles.end());
-    for (const std::uint32_t t : triangles) bvh.boxes.push_back(box_of(t));
   }
-  bvh.nodes = beside(bvh.nodes, leaves, bvh.boxes);
+  bvh.nodes = beside(bvh.nodes, leaves);
   return bvh;
 }
 

@@ -18,14 +18,15 @@ struct BvhNode {
 struct Bvh {
   std::vector<BvhNode> nodes;        // nodes[0] is the root; empty for an empty mesh
   std::vector<std::uint32_t> order;  // triangle numbers, leaves hold ranges of them
-  std::vector<Aabb> boxes;           // of these triangles
+  std::vector<Aabb> boxes;           // of these triangles; of the last ones they may be left out
 };
 
 // The same tree whatever the number of threads; 0 takes one per core.
 Bvh build_bvh(const Mesh& mesh, unsigned threads = 0);
 
 // The same, refined only where boxes of triangles meet `region`. All others lie in six leaves at most, each of which
-// is beyond one side of it: no query within the region looks into them, and any other looks into few.
+// is beyond one side of it: no query within the region looks into them, and any other looks into few. Of their
+// triangles no boxes are kept.
 Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads = 0);
 
 // Over boxes of any sizes, in the place of those of triangles. Long and flat ones go into subtrees of
@@ -46,10 +47,15 @@ inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
   return box;
 }
 
+// Of the triangle at a place in `order`.
+inline Aabb box_at(const Bvh& bvh, const Mesh& mesh, std::uint32_t place) {
+  return place < bvh.boxes.size() ? bvh.boxes[place] : triangle_box(mesh, bvh.order[place]);
+}
+
 // Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.
 // Returns whether all were visited.
 template <class Visit>
-bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
+bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit) {
   if (bvh.nodes.empty()) return true;
   std::vector<std::uint32_t> stack{0};
   while (!stack.empty()) {
@@ -62,10 +68,16 @@ bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (meet(bvh.boxes[i], query) && !visit(bvh.order[i])) return false;
+      if (meet(box_at(bvh, mesh, i), query) && !visit(bvh.order[i])) return false;
     }
   }
   return true;
+}
+
+// Of a tree that keeps all boxes.
+template <class Visit>
+bool visit_box(const Bvh& bvh, const Aabb& query, Visit visit) {
+  return visit_box(bvh, Mesh{}, query, visit);
 }
 
 }  // namespace satcheck

@@ -77,7 +77,7 @@ std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint3
   const Mesh& mesh = surface.mesh;
   const Aabb box = triangle_box(mesh, t);
   std::vector<std::uint32_t> partners;
-  visit_box(surface.bvh, box, [&](std::uint32_t u) {
+  visit_box(surface.bvh, mesh, box, [&](std::uint32_t u) {
     if (u != t && meet(box, triangle_box(mesh, u)) && !is_collinear(mesh, u) && has_more_in_common(mesh, t, u)) {
       partners.push_back(u);
     }

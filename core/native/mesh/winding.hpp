@@ -62,7 +62,7 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
   Aabb path = point_box(p);
   path.include(far);
   int winding = 0;
-  const bool generic = visit_box(bvh, path, [&](std::uint32_t t) {
+  const bool generic = visit_box(bvh, mesh, path, [&](std::uint32_t t) {
     if (!counts(t)) return true;
     const Triangle& v = mesh.triangles[t];
     const auto crossing =
@@ -78,7 +78,7 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
 template <class Point>
 std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p) {
   std::vector<std::uint32_t> found;
-  visit_box(bvh, point_box(p), [&](std::uint32_t t) {
+  visit_box(bvh, mesh, point_box(p), [&](std::uint32_t t) {
     const Triangle& v = mesh.triangles[t];
     if (point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) found.push_back(t);
     return true;

@@ -58,8 +58,9 @@ class DistanceSearch {
     for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
       const std::uint32_t ta = a_.bvh.order[k];
       const Corners ca = corners(a_.mesh, ta);
+      const Aabb box = box_at(a_.bvh, a_.mesh, k);
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
-        if (!(box_distance_squared(a_.bvh.boxes[k], b_.bvh.boxes[l]) <= bound_)) continue;
+        if (!(box_distance_squared(box, box_at(b_.bvh, b_.mesh, l)) <= bound_)) continue;
         const std::uint32_t tb = b_.bvh.order[l];
         const Witnesses w = triangle_distance(ca, corners(b_.mesh, tb));
         const bool improves = w.distance_squared < bound_ ||

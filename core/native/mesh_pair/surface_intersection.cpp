@@ -268,7 +268,7 @@ SurfaceIntersection surface_intersection(const Surface& a, const Surface& b, std
   Assembly assembly(mesh_a, mesh_b);
   for (std::uint32_t ta = 0; ta < mesh_a.triangles.size(); ++ta) {
     const Aabb box = triangle_box(mesh_a, ta);
-    const bool complete = visit_box(bvh, box, [&](std::uint32_t tb) {
+    const bool complete = visit_box(bvh, mesh_b, box, [&](std::uint32_t tb) {
       if (meet(box, triangle_box(mesh_b, tb))) {
         assembly.add({from.source[ta], to.source[tb]}, meet_triangles(mesh_a, ta, mesh_b, tb), ta);
       }

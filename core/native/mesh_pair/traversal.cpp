@@ -44,13 +44,13 @@ class Traversal {
 
   void test_leaves(const BvhNode& m, const BvhNode& n) {
     for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
-      const Aabb& box = a_.bvh.boxes[k];
+      const Aabb box = box_at(a_.bvh, a_.mesh, k);
       if (!meet(box, n.box)) continue;
       const std::uint32_t ta = a_.bvh.order[k];
       const Corners ca = corners(a_.mesh, ta);
       const TrianglePlane plane(ca[0], ca[1], ca[2]);
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
-        if (!meet(box, b_.bvh.boxes[l])) continue;
+        if (!meet(box, box_at(b_.bvh, b_.mesh, l))) continue;
         const std::uint32_t tb = b_.bvh.order[l];
         ++found_.triangle_tests;
         const TriangleContact contact = classify(plane, corners(b_.mesh, tb));
