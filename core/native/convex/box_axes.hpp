@@ -144,7 +144,8 @@ SATCHECK_INLINE LeastOverlap least_overlap(const PlacedBoxes& boxes) {
   best.kind = by_edges ? 2 : by_b;
   best.penetration = by_edges ? of_pair : of_face;
   best.lower = best.penetration - tie;
-  best.k = std::countr_zero(static_cast<unsigned>(bits_of_three(least[best.kind] == all_lanes(best.penetration))));
+  const int where = bits_of_three(least[best.kind] == all_lanes(best.penetration));
+  best.k = std::countr_zero(static_cast<unsigned>(where) | 4u);  // within three also where nothing is a number
   const bool not_0 = of_edges[0][best.k] != best.penetration, not_1 = of_edges[1][best.k] != best.penetration;
   best.i = by_edges ? not_0 + (not_0 & not_1) : best.k;
 
