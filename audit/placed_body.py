@@ -136,9 +136,13 @@ def _curved(body: Body) -> CurvedShape | None:
 
 
 def _checked(body: Body, shared: SharedMesh) -> Placed:
-    from satcheck.verify.bodies import place_shape
+    from satcheck.scene.primitives import is_curved
+    from satcheck.verify.bodies import curved_of, place_shape
 
-    return place_shape(body.id, body.groups, shared.shape(), body.transform)
+    primitive = body.shape
+    curved = primitive is not None and is_curved(primitive)
+    shape = curved_of(body.file, primitive) if curved and primitive else shared.shape()
+    return place_shape(body.id, body.groups, shape, body.transform)
 
 
 class PlacedBody:

@@ -12,27 +12,30 @@ import numpy as np
 
 from satcheck.scene import Body, MeshFile, MeshFileError
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.primitives import is_curved, primitive_of
+from satcheck.scene.primitives import Primitive, is_curved, primitive_of
 from satcheck.scene.shape_file import shape_file
+from satcheck.scene.shape_image import image_of
+from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
-
-CURVED = "a curved shape: certificates speak of meshes alone"
 
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A mesh file, or a primitive. convex: exactly, in its own coordinates. A solid is balanced."""
+    """A mesh file, or a primitive. convex: exactly, in its own coordinates. A solid is balanced.
+    curved: what the mesh is only within."""
 
     file: MeshFile
     vertices: Floats
     triangles: Indices
     convex: bool
+    curved: Primitive | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A body of the report, or why it cannot be had. resolution: world units, recomputed."""
+    """A body of the report, a mesh in the world or a curved shape, or why it cannot be had.
+    resolution: world units, recomputed. convex: also of every curved shape."""
 
     id: str
     groups: frozenset[str]
@@ -42,6 +45,18 @@ class Placed:
     static: bool = False
     reason: str | None = None
     claims: bool = True  # False: the report calls it unreadable
+    curved: Curved | None = None
+
+    @property
+    def bounds(self) -> tuple[Floats, Floats] | None:
+        if self.world is not None:
+            return self.world.bounds
+        return None if self.curved is None else self.curved.bounds
+
+    def moved(self, offset: list[float]) -> Placed:
+        """Each coordinate is rounded once."""
+        world = None if self.world is None else self.world.moved(offset)
+        return replace(self, world=world, curved=self.curved and self.curved.moved(offset))
 
 
 class Bodies:
@@ -106,10 +121,9 @@ class Bodies:
         if key not in self._shapes:
             try:
                 primitive = primitive_of(values)
-                if is_curved(primitive):
-                    self._shapes[key] = CURVED
-                    return CURVED
-                self._shapes[key] = _checked_shape(shape_file(primitive, file))
+                made = shape_file(primitive, file)
+                curved = is_curved(primitive)
+                self._shapes[key] = curved_of(made, primitive) if curved else _checked_shape(made)
             except (MeshFileError, ValueError) as error:
                 self._shapes[key] = f"{file}: not a shape: {error}"
         return self._shapes[key]
@@ -139,14 +153,26 @@ def shape_of(file: MeshFile) -> Shape:
     return Shape(file, vertices, triangles, solid and is_convex(vertices, triangles))
 
 
+def curved_of(file: MeshFile, primitive: Primitive) -> Shape:
+    """file: of the mesh within the shape, of which nothing is asked."""
+    vertices, triangles = np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
+    return Shape(file, vertices, triangles, True, primitive)
+
+
 def place_shape(
     name: str, groups: Iterable[str], shape: Shape, pose: tuple[float, ...] | None
 ) -> Placed:
-    world = placed(shape.vertices, shape.triangles, shape.file.health.solid, pose)
+    world = curved = None
+    if shape.curved is None:
+        world = placed(shape.vertices, shape.triangles, shape.file.health.solid, pose)
+    else:
+        if pose is not None and tuple(pose[12:]) != (0.0, 0.0, 0.0, 1.0):
+            raise Rejected("the pose is not affine")
+        curved = Curved(image_of(shape.curved, pose))
     resolution = Body(name, name, shape.file, pose).resolution_world
     if not np.isfinite(resolution):
         raise Rejected("its placement is out of range")
-    return Placed(name, frozenset(groups), world, shape.convex, resolution)
+    return Placed(name, frozenset(groups), world, shape.convex, resolution, curved=curved)
 
 
 def _pose(value: Any) -> tuple[float, ...] | None:

@@ -10,7 +10,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any, Literal
 
-from satcheck.verify.bodies import CURVED, Bodies, Placed
+from satcheck.verify.bodies import Bodies, Placed
 from satcheck.verify.exact import Rejected
 from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
@@ -134,10 +134,9 @@ class _Report:
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
         self.listed_apart = 0  # of these, pairs that may be apart by their boxes
-        self.unlisted_unknown = 0  # of the others, those with a body whose box is not known
         unplaced = [body for body in placed if body.claims and body.reason]
-        self.faults = [f"{b.id}: {b.reason}" for b in unplaced if b.reason != CURVED]
-        self.beyond = [f"{b.id}: {b.reason}" for b in unplaced if b.reason == CURVED]
+        self.faults = [f"{b.id}: {b.reason}" for b in unplaced]
+        self.beyond: list[str] = []
         if document.get("motions"):
             self.beyond.append("bodies move: what happens on the way is not certified")
 
@@ -168,7 +167,7 @@ class _Report:
         if entry.get("motion") is not None:
             raise Rejected("what happens while bodies move is not certified")
         asked = self.asked_of(a, b)
-        unknown = any(body.claims and body.world is None for body in (a, b))
+        unknown = any(body.claims and body.bounds is None for body in (a, b))
         self.listed_apart += unknown or _boxes_apart(a, b, asked)
         if entry.get("relation") == "indeterminate":
             claims = (entry.get(key) for key in ("severity", "undecided", "certificate"))
@@ -192,8 +191,6 @@ class _Report:
                 exempted += 1
             elif _boxes_apart(a, b, self.asked_of(a, b)):
                 pruned += 1
-            elif CURVED in (a.reason, b.reason):
-                self.unlisted_unknown += 1
             else:
                 faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
         return pruned, exempted
@@ -209,12 +206,11 @@ class _Report:
             if number(pairs.get(key)) != value:
                 raise Rejected(f"the summary counts {pairs.get(key)!r} pairs as {key}, not {value}")
         said = number(pairs.get("pruned"))
-        unlisted = pruned + self.unlisted_unknown
-        if said != unlisted and not (unlisted == 0 and 0 <= said <= self.listed_apart):
+        if said != pruned and not (pruned == 0 and 0 <= said <= self.listed_apart):
             raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
         if number(pairs.get("decided")) != total - allowed - indeterminate - said:
             raise Rejected("the summary's counts of pairs do not add up")
-        relations["separated"] += unlisted
+        relations["separated"] += pruned
         by_relation = _object(summary, "by_relation")
         if {k: v for k, v in by_relation.items() if v} != {k: v for k, v in relations.items() if v}:
             raise Rejected("the summary's counts by relation are not those of the findings")
@@ -247,9 +243,9 @@ def _fails(finding: dict[str, Any], least: int) -> bool:
 
 
 def _boxes_apart(a: Placed, b: Placed, asked: Asked) -> bool:
-    if a.world is None or b.world is None:
+    if a.bounds is None or b.bounds is None:
         return False
-    (low_a, high_a), (low_b, high_b) = a.world.bounds, b.world.bounds
+    (low_a, high_a), (low_b, high_b) = a.bounds, b.bounds
     most = a.resolution + b.resolution if asked.tolerance is None else asked.tolerance
     widest = max((low_b - high_a).max(), (low_a - high_b).max())
     if widest <= 0:

@@ -12,6 +12,8 @@ import numpy as np
 
 from satcheck.verify.bodies import Placed
 from satcheck.verify.boundary import boundary_point
+from satcheck.verify.curved import Curved
+from satcheck.verify.curved_pair import CurvedPair
 from satcheck.verify.evidence import axis, gap_along, member, rational, vector
 from satcheck.verify.exact import Point, Rejected, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
@@ -36,13 +38,17 @@ class Proven:
 
 def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> Proven:
     """Rejects a finding, of two bodies that could be read, that is not proven."""
-    if a.world is None or b.world is None:
+    if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
     certificate = finding.get("certificate")
     if certificate is None:
         raise Rejected("it has no certificate")
     tolerance = _tolerance(finding, a, b, asked)
     clearance = Fraction(asked.clearance or 0.0)
+    if a.curved is not None or b.curved is not None:
+        return _check_curved(finding, a, b, asked, tolerance)
+    assert a.world is not None
+    assert b.world is not None
     pair = pair_of(a, b, a.world, b.world)
     relation, exact = finding.get("relation"), finding.get("exact_relation")
     separated = relation == "separated"
@@ -67,6 +73,52 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     return proven
 
 
+def _check_curved(
+    finding: dict[str, Any], a: Placed, b: Placed, asked: Asked, tolerance: Fraction
+) -> Proven:
+    """Of two solids, so that neither can hide in the other; their depth is not certified."""
+    pair, certificate = curved_pair_of(a, b), finding["certificate"]
+    relation, exact = finding.get("relation"), finding.get("exact_relation")
+    clearance = Fraction(asked.clearance or 0.0)
+    separated = relation == "separated"
+    beyond, least = (tolerance, clearance) if separated else (Fraction(0), Fraction(0))
+    pair.prove(str(exact), member(certificate, "relation"), beyond, least)
+    proven = Proven(mtv=_check_mtv(finding, certificate, a, b))
+    _bounds_of_depth(finding)
+    if relation != exact:
+        band = tolerance * (1 + EXACT_WIDTH)
+        if exact == "separated" and relation in ("touching", "near"):
+            squared, near = pair.squared_gap(member(certificate, "gap")), relation == "near"
+            if not (squared < clearance**2 if near else squared <= band**2):
+                raise Rejected("the points of the gap are further apart than that")
+        elif not (exact in OVERLAPS and relation == "touching" and _in_band(finding, pair, band)):
+            raise Rejected(f"{relation!r} does not follow from {exact!r}")
+    depth = proven_depth(finding, proven.depth, proven.mtv)
+    check_severity(finding, asked, False, depth, EXACT_WIDTH)
+    return proven
+
+
+def _in_band(finding: dict[str, Any], pair: CurvedPair, band: Fraction) -> bool:
+    """Whether an overlap is no deeper than that, along the axis of the certificate."""
+    proof = member(finding["certificate"], "band")
+    if pair.gap(axis(member(proof, "axis")), -band) < 0:
+        raise Rejected("the bodies overlap by more than the tolerance")
+    return True
+
+
+def curved_pair_of(a: Placed, b: Placed) -> CurvedPair:
+    """World units: one lattice is enough for the vertices of the one mesh at most."""
+    bodies: list[Curved | Exact] = []
+    for body in (a, b):
+        if body.curved is not None:
+            bodies.append(body.curved)
+        elif body.world is None or not body.convex or body.world.is_flat:
+            raise Rejected("a curved shape is certified against convex bodies only")
+        else:
+            bodies.append(Exact(body.world, body.world.lattice))
+    return CurvedPair(bodies[0], bodies[1])
+
+
 def pair_of(a: Placed, b: Placed, world_a: World, world_b: World) -> Pair:
     k = max(world_a.lattice, world_b.lattice)
     return Pair(Exact(world_a, k), Exact(world_b, k), a.convex and b.convex)
@@ -85,9 +137,9 @@ def number(value: Any) -> Fraction:
 def default_tolerance(a: Placed, b: Placed) -> float:
     """The input precision of two bodies, but no more than a share of the smaller one."""
     sizes = [
-        math.dist(*(corner.tolist() for corner in body.world.bounds))
+        math.dist(*(corner.tolist() for corner in body.bounds))
         for body in (a, b)
-        if body.world is not None
+        if body.bounds is not None
     ]
     return min(a.resolution + b.resolution, TOUCH_FRACTION * min(sizes))
 
@@ -110,9 +162,8 @@ def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) 
         return False
     if finding.get("exact_relation") not in OVERLAPS:
         raise Rejected("only an overlap has a way out")
-    assert a.world is not None
-    assert b.world is not None
-    largest = Fraction(max(float(np.abs(w.bounds).max()) for w in (a.world, b.world)))
+    bounds = [body.bounds for body in (a, b) if body.bounds is not None]
+    largest = Fraction(max(float(np.abs(box).max()) for box in bounds))
     if finding.get("mtv_moves") != "a":
         raise Rejected("the MTV moves A")
     depth = number(finding.get("depth"))
@@ -124,28 +175,23 @@ def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) 
 
 
 def _prove_way_out(move: Point, certificate: Any, a: Placed, b: Placed) -> None:
-    assert a.world is not None
-    assert b.world is not None
     offset = [float(c) for c in move]
     if not np.isfinite(offset).all():
         raise Rejected("a translation is finite")
+    if a.curved is not None or b.curved is not None:
+        curved_pair_of(a.moved(offset), b).prove_free(certificate)
+        return
+    assert a.world is not None
+    assert b.world is not None
     prove_free(certificate, pair_of(a, b, a.world.moved(offset), b.world))
 
 
 def _check_depth(finding: dict[str, Any], certificate: dict[str, Any], pair: Pair) -> bool:
     """The interval of the depth: a ball in the Minkowski difference, an axis across it."""
-    bounds, figure = finding.get("depth_bounds"), finding.get("depth")
-    if bounds is None:
-        if figure is not None or finding.get("depth") is not None:
-            raise Rejected("a depth without its bounds")
+    bounds = _bounds_of_depth(finding)
+    if bounds is None or "depth" not in certificate:
         return False
-    if not isinstance(bounds, list) or len(bounds) != 2:
-        raise Rejected("depth_bounds are two numbers")
-    low, high = number(bounds[0]), number(bounds[1])
-    if not 0 <= low <= high or number(figure) != high:
-        raise Rejected("the depth is the upper end of its bounds")
-    if "depth" not in certificate:
-        return False
+    low, high = bounds
     if not pair.convex:
         raise Rejected("a depth is certified for convex bodies only")
     proof = certificate["depth"]
@@ -153,6 +199,20 @@ def _check_depth(finding: dict[str, Any], certificate: dict[str, Any], pair: Pai
     if not depth_at_most(axis(member(proof, "upper")), pair, high):
         raise Rejected("along the axis the bodies overlap by more than the depth")
     return True
+
+
+def _bounds_of_depth(finding: dict[str, Any]) -> tuple[Fraction, Fraction] | None:
+    bounds, figure = finding.get("depth_bounds"), finding.get("depth")
+    if bounds is None:
+        if figure is not None:
+            raise Rejected("a depth without its bounds")
+        return None
+    if not isinstance(bounds, list) or len(bounds) != 2:
+        raise Rejected("depth_bounds are two numbers")
+    low, high = number(bounds[0]), number(bounds[1])
+    if not 0 <= low <= high or number(figure) != high:
+        raise Rejected("the depth is the upper end of its bounds")
+    return low, high
 
 
 def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:

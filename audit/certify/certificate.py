@@ -26,8 +26,6 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
     """A certificate that the checker accepts, or why there is none."""
     if finding.exact_relation is None:
         return "the relation is not proven"
-    if pair.curved:
-        return "a curved shape: the checker knows meshes only"
     a, b = pair.a.checked(), pair.b.checked()
     asked = Asked(
         pair.asked.tolerance,
@@ -37,7 +35,12 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
         pair.asked.max_volume,
         pair.asked.severity,
     )
-    certificate = _Maker(pair, finding).make()
+    if pair.curved:
+        from satcheck.audit.certify.curved import make
+
+        certificate = make(pair, finding)
+    else:
+        certificate = _Maker(pair, finding).make()
     if isinstance(certificate, str):
         return certificate
     try:

@@ -16,34 +16,24 @@ from satcheck.scene.primitives import (
     Primitive,
     Sphere,
 )
+from satcheck.scene.shape_image import UNTURNED, ShapeImage, image_of
 
 Pose = tuple[float, ...]  # (tx, ty, tz, qx, qy, qz, qw)
 Vector = tuple[float, float, float]
-Columns = tuple[Vector, Vector, Vector]
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
-_UNTURNED: Columns = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-
-
-@frozen
-class Given:
-    """The body itself, exactly: the image of the primitive, y -> origin + y[0] columns[0] + ..."""
-
-    primitive: Primitive
-    columns: Columns
-    origin: Vector
 
 
 @frozen
 class CurvedShape:
     """shape: in its own frame; pose: rigid. slack: no point of the body is farther from where the
-    pose puts it than this, world units. primitive: the shape's sizes, scaling folded in. given:
+    pose puts it than this, world units. primitive: the shape's sizes, scaling folded in. image:
     what the pose and the sizes are rounded from."""
 
     primitive: Primitive
     shape: core.Shape
     pose: Pose
     slack: float
-    given: Given
+    image: ShapeImage
 
     @property
     def centre(self) -> Vector:
@@ -54,10 +44,10 @@ class CurvedShape:
         """No more than that of a ball about the centre within the shape, world units."""
         return _inner_radius(self.primitive) - self.slack
 
-    def at(self, by: Vector) -> Given:
+    def at(self, by: Vector) -> ShapeImage:
         """The body, moved as a pose is: each coordinate of its origin is rounded once."""
         x, y, z = self.moved(by)[:3]
-        return replace(self.given, origin=(x, y, z))
+        return replace(self.image, origin=(x, y, z))
 
     def moved(self, by: Vector) -> Pose:
         return (*(c + d for c, d in zip(self.centre, by, strict=True)), *self.pose[3:])
@@ -78,19 +68,11 @@ class CurvedShape:
 
 
 def curved_shape(primitive: Primitive, transform: tuple[float, ...] | None) -> CurvedShape:
-    """The shape placed by a row-major 4x4; ValueError when its image is no such shape.
-
-    The body is the exact image, but for one case: a sphere that is turned stays the sphere it was,
-    whatever was rounded in the rotation.
-    """
+    """The shape placed by a row-major 4x4; ValueError when its image is no such shape."""
+    image = image_of(primitive, transform)
+    columns, centre = image.columns, image.origin
     if transform is None:
-        given = Given(primitive, _UNTURNED, (0.0, 0.0, 0.0))
-        return CurvedShape(primitive, core_shape(primitive), (0.0, 0.0, 0.0, *_NO_TURN), 0.0, given)
-    x, y, z = (transform[k:12:4] for k in range(3))
-    columns: Columns = x, y, z  # type: ignore[assignment]
-    centre = (transform[3], transform[7], transform[11])
-    if isinstance(primitive, Sphere) and is_turn(columns):
-        columns = _UNTURNED
+        return CurvedShape(primitive, core_shape(primitive), (*centre, *_NO_TURN), 0.0, image)
     stretch = [math.hypot(*column) for column in columns]
     axes = [tuple(c / s for c in column) for column, s in zip(columns, stretch, strict=True)]
     skew = max(abs(sum(p * q for p, q in zip(axes[i], axes[j], strict=True))) for i, j in _PAIRS)
@@ -100,21 +82,10 @@ def curved_shape(primitive: Primitive, transform: tuple[float, ...] | None) -> C
         axes[0] = tuple(-c for c in axes[0])
     scaled = _scaled(primitive, stretch)
     turn = quaternion_of(axes[0], axes[1], axes[2])
-    is_exact = stretch == [1.0, 1.0, 1.0] and tuple(axes) == _UNTURNED
+    is_exact = stretch == [1.0, 1.0, 1.0] and tuple(axes) == UNTURNED
     rounding = CHAIN_ROUNDOFFS * UNIT_ROUNDOFF + 2 * ORTHOGONALITY * (skew > 0)
     slack = 0.0 if is_exact else rounding * _extent(scaled)
-    given = Given(primitive, columns, centre)
-    return CurvedShape(scaled, core_shape(scaled), (*centre, *turn), slack, given)
-
-
-def is_turn(columns: Columns) -> bool:
-    """Whether a matrix is a rotation, mirrored or not, up to the rounding of a chain of them."""
-    for i in range(3):
-        for j in range(i + 1):
-            (a, b, c), (x, y, z) = columns[i], columns[j]
-            if abs(a * x + b * y + c * z - (i == j)) > CHAIN_ROUNDOFFS * UNIT_ROUNDOFF:
-                return False
-    return True
+    return CurvedShape(scaled, core_shape(scaled), (*centre, *turn), slack, image)
 
 
 _PAIRS = ((0, 1), (0, 2), (1, 2))

@@ -20,8 +20,8 @@ from satcheck.audit.curved.exact.lattice import (
     shortened,
 )
 from satcheck.audit.curved.exact.reach import ROOT_BITS, Reach
-from satcheck.audit.curved.shape import Given
 from satcheck.scene.primitives import Capsule, Cone, Cylinder, Ellipsoid, Primitive, Sphere
+from satcheck.scene.shape_image import ShapeImage
 
 Sizes = tuple[int, int, int]  # radius, radius, half height; of an ellipsoid its radii
 
@@ -46,12 +46,12 @@ class CurvedBody:
 
     flat = False
 
-    def __init__(self, given: Given, bits: int, matrix_bits: int) -> None:
-        self.kind = type(given.primitive)
-        x, y, z = (_integers(column, matrix_bits) for column in given.columns)
+    def __init__(self, image: ShapeImage, bits: int, matrix_bits: int) -> None:
+        self.kind = type(image.primitive)
+        x, y, z = (_integers(column, matrix_bits) for column in image.columns)
         self.columns = x, y, z
-        self.origin: Vector = _integers(given.origin, bits)
-        a, b, c = (integer(s, bits - matrix_bits) for s in sizes_of(given.primitive))
+        self.origin: Vector = _integers(image.origin, bits)
+        a, b, c = (integer(s, bits - matrix_bits) for s in sizes_of(image.primitive))
         self.sizes = a, b, c
         # Rows of the inverse of M, times its determinant.
         self.inverse = cross(y, z), cross(z, x), cross(x, y)

@@ -15,10 +15,10 @@ from satcheck.audit.curved.exact.lattice import Point, Vector, bits_of, directio
 from satcheck.audit.curved.exact.polytope_body import Floats, PolytopeBody, Triangles
 from satcheck.audit.curved.exact.proof import Proof, prove
 from satcheck.audit.curved.exact.reach import root_bounds
-from satcheck.audit.curved.shape import Given
 from satcheck.audit.curved.signed import ORIGIN, Signed
 from satcheck.audit.report import Vector as Floating
 from satcheck.core.frozen import frozen, replace
+from satcheck.scene.shape_image import ShapeImage
 
 if TYPE_CHECKING:
     from satcheck.audit.placed_body import PlacedBody
@@ -32,22 +32,22 @@ class Faces:
     triangles: Triangles
 
 
-Side = Given | Faces
+Side = ShapeImage | Faces
 
 
 class Lattice:
     """bits: world coordinates times 2**bits are integers."""
 
     def __init__(self, sides: Sequence[Side]) -> None:
-        given = [side for side in sides if isinstance(side, Given)]
-        self.matrix_bits = max(bits_of(c for column in g.columns for c in column) for g in given)
-        sizes = max(bits_of(sizes_of(g.primitive)) for g in given)
-        origins = max(bits_of(g.origin) for g in given)
+        images = [side for side in sides if isinstance(side, ShapeImage)]
+        self.matrix_bits = max(bits_of(c for column in g.columns for c in column) for g in images)
+        sizes = max(bits_of(sizes_of(g.primitive)) for g in images)
+        origins = max(bits_of(g.origin) for g in images)
         corners = [bits_of_array(side.vertices) for side in sides if isinstance(side, Faces)]
         self.bits = max(origins, self.matrix_bits + sizes, *corners)
 
     def body(self, side: Side) -> CurvedBody | PolytopeBody:
-        if isinstance(side, Given):
+        if isinstance(side, ShapeImage):
             return CurvedBody(side, self.bits, self.matrix_bits)
         return PolytopeBody(side.vertices, side.triangles, self.bits)
 
@@ -65,13 +65,20 @@ def proven(
     a: PlacedBody, b: PlacedBody, found: Signed, move: Floating = ORIGIN
 ) -> tuple[Signed, str]:
     """The signed distance of A, moved, and B with what exact arithmetic adds to it, and how."""
+    proof, bits = proof_of(a, b, found, move)
+    if proof is None:
+        return found, "no exact axis was found"
+    return with_proof(found, proof, bits), words(proof)
+
+
+def proof_of(
+    a: PlacedBody, b: PlacedBody, found: Signed, move: Floating = ORIGIN
+) -> tuple[Proof | None, int]:
+    """And the bits of the lattice that it is on."""
     sides = side_of(a, move), side_of(b, ORIGIN)
     lattice = Lattice(sides)
     first, second = (lattice.body(side) for side in sides)
-    proof = prove(first, second, candidates(first, second, _toward(found, a, b)))
-    if proof is None:
-        return found, "no exact axis was found"
-    return with_proof(found, proof, lattice.bits), words(proof)
+    return prove(first, second, candidates(first, second, _toward(found, a, b))), lattice.bits
 
 
 def side_of(body: PlacedBody, move: Floating) -> Side:
@@ -118,7 +125,8 @@ def with_proof(found: Signed, proof: Proof, bits: int) -> Signed:
     along = length_below(proof.gap[0], proof.axis, bits)
     if proof.outcome == "separated":
         lower = max(found.lower, along)
-        upper = max(found.upper, lower)
+        upper = found.upper if proof.ends is None else min(found.upper, apart(proof.ends, bits))
+        upper = max(upper, lower)
         distance = min(max(found.distance, lower), upper)
         return replace(
             found, distance=distance, lower=lower, upper=upper, outcome="separated", exact=True
@@ -140,6 +148,16 @@ def length_below(gap: Fraction, axis: Vector, bits: int) -> float:
     exact = gap / (high if gap > 0 else low) / (1 << bits)
     nearest = float(exact)
     return nearest if Fraction(nearest) <= exact else math.nextafter(nearest, -math.inf)
+
+
+def apart(ends: tuple[Point, Point], bits: int) -> float:
+    """How far two points are apart, world units, rounded up."""
+    p, q = ends
+    w = p[3] * q[3]
+    square = sum((p[k] * q[3] - q[k] * p[3]) ** 2 for k in range(3))
+    exact = root_bounds(square)[1] / (w << bits)
+    nearest = float(exact)
+    return nearest if Fraction(nearest) >= exact else math.nextafter(nearest, math.inf)
 
 
 def rounded(p: Point, bits: int) -> Floating:

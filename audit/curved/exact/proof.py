@@ -22,6 +22,8 @@ Bounds = tuple[Fraction, Fraction]
 MOST_OVERLAPS = 4
 # Some roundoffs of a coordinate, relative to the size of the body.
 PULLS = tuple(Fraction(1, 1 << k) for k in (48, 52, 56, 60, 64))
+# Far beyond the bits of irrational roots that are left out.
+_NEXT_TO = Fraction(1, 1 << 100)
 NO_GAP: Bounds = (Fraction(0), Fraction(0))
 
 
@@ -29,12 +31,13 @@ NO_GAP: Bounds = (Fraction(0), Fraction(0))
 class Proof:
     """axis: from A to B; gap: bounds along it, in lattice units times its length, < 0 where they
     overlap, 0 also where they are beside each other. point: of both, on the lattice: inside A where
-    they penetrate, and inside B if it has an inside."""
+    they penetrate, and inside B if it has an inside. ends: a point of each, across the gap."""
 
     outcome: Outcome
     axis: Vector
     gap: Bounds
     point: Point | None = None
+    ends: tuple[Point, Point] | None = None
 
 
 def prove(
@@ -50,7 +53,8 @@ def prove(
         forth, back = a.reach(n), b.reach(negated(n))
         sign = sign_of_gap(forth, back)
         if sign > 0:
-            return Proof("separated", n, gap_bounds(forth, back))
+            gap = gap_bounds(forth, back)
+            return Proof("separated", n, gap, ends=_ends(a, b, n, gap))
         if sign == 0 and free is None:
             free = _contact(a, b, n) if contact else Proof("free", n, NO_GAP)
             if free.outcome != "free" or not contact:
@@ -77,6 +81,20 @@ def _contact(a: ExactBody, b: ExactBody, n: Vector) -> Proof:
             return Proof("touching", n, NO_GAP, p)
     both_discs = isinstance(f, Disc) and isinstance(g, Disc)
     return Proof("free" if both_discs else "separated", n, NO_GAP)
+
+
+def _ends(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> tuple[Point, Point] | None:
+    """Points of both that the axis joins, where there are some; if their coordinates are
+    irrational, points next to them."""
+    step = gap[0] / dot(n, n)
+    middles = a.middle, b.middle
+    for p in common_points(a.face(n), b.face(negated(n)).moved(n, -step), n):
+        q = shifted(p, n, step)
+        for share in (Fraction(0), _NEXT_TO):
+            ends = between(p, middles[0], share), between(q, middles[1], share)
+            if a.side(ends[0]) >= 0 and b.side(ends[1]) >= 0:
+                return ends
+    return None
 
 
 def _point_inside(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> Point | None:

@@ -13,18 +13,18 @@ from satcheck.audit.curved.exact.lattice import Vector, direction_of
 from satcheck.audit.curved.exact.pair import Faces, Lattice, with_proof
 from satcheck.audit.curved.exact.polytope_body import Floats, PolytopeBody
 from satcheck.audit.curved.exact.proof import prove
-from satcheck.audit.curved.shape import Given
 from satcheck.audit.curved.signed import Signed
+from satcheck.scene.shape_image import ShapeImage
 
 _ALONE = np.array([[0, 1, 2]], dtype=np.uint32)
 # Of the triangles that a face stands on a few points of contact are enough.
 MOST_CONTACTS = 8
 
 
-def refined(given: Given, corners: Floats, found: Sequence[Signed]) -> list[Signed]:
+def refined(image: ShapeImage, corners: Floats, found: Sequence[Signed]) -> list[Signed]:
     """corners: (n, 3, 3), world, of the triangles that `found` is about, the shape being A."""
-    lattice = Lattice((given, Faces(corners.reshape(-1, 3), _ALONE)))
-    shape = CurvedBody(given, lattice.bits, lattice.matrix_bits)
+    lattice = Lattice((image, Faces(corners.reshape(-1, 3), _ALONE)))
+    shape = CurvedBody(image, lattice.bits, lattice.matrix_bits)
     known: list[Vector] = []  # one of them is the axis of most others
     touched, done = 0, []
     for points, one in zip(corners, found, strict=True):

@@ -117,6 +117,6 @@ def test_a_turned_sphere_is_the_sphere() -> None:
     degrees = [k * 7.3 for k in range(50)]
     turned = [curved_shape(Sphere(1.5), tilted(d, 0.1, 0.2, 0.3)) for d in degrees]
     assert {(one.primitive, one.slack) for one in turned} == {(Sphere(1.5), 0.0)}
-    assert len({one.given for one in turned}) == 1
+    assert len({one.image for one in turned}) == 1
     scaled = (3.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-    assert curved_shape(Sphere(1.5), scaled).given.columns[0] == (3.0, 0.0, 0.0)
+    assert curved_shape(Sphere(1.5), scaled).image.columns[0] == (3.0, 0.0, 0.0)

@@ -60,7 +60,7 @@ def test_bounds_hold_for_all_triangles() -> None:
         corners = np.asarray(mesh.vertices)[mesh.triangles]
         left = [k for k, one in enumerate(known) if not one.exact]
         if left:
-            of_left = refined(curved.given, corners[left], [known[k] for k in left])
+            of_left = refined(curved.image, corners[left], [known[k] for k in left])
             known = [of_left[left.index(k)] if k in left else one for k, one in enumerate(known)]
         nearest = against_triangles(curved, mesh, 0.1).nearest
         assert nearest is not None

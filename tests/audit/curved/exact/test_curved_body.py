@@ -13,8 +13,9 @@ from satcheck.audit.curved.exact.curved_body import CurvedBody
 from satcheck.audit.curved.exact.faces import Disc, Polygon
 from satcheck.audit.curved.exact.lattice import Point, Vector, dot
 from satcheck.audit.curved.exact.pair import Lattice
-from satcheck.audit.curved.shape import Given, support
+from satcheck.audit.curved.shape import support
 from satcheck.scene.primitives import Capsule, Cone, Cylinder, Ellipsoid, Primitive, Sphere
+from satcheck.scene.shape_image import ShapeImage
 
 SHAPES: tuple[Primitive, ...] = (
     Sphere(1.0),
@@ -25,14 +26,14 @@ SHAPES: tuple[Primitive, ...] = (
 )
 
 
-def placed(rng: np.random.Generator, shape: Primitive) -> tuple[Given, CurvedBody, int]:
+def placed(rng: np.random.Generator, shape: Primitive) -> tuple[ShapeImage, CurvedBody, int]:
     numbers = rng.normal(size=(4, 3)).tolist()
     columns = tuple(tuple(column) for column in numbers[:3])
-    given = Given(shape, columns, tuple(numbers[3]))  # type: ignore[arg-type]
-    lattice = Lattice((given,))
-    body = lattice.body(given)
+    image = ShapeImage(shape, columns, tuple(numbers[3]))  # type: ignore[arg-type]
+    lattice = Lattice((image,))
+    body = lattice.body(image)
     assert isinstance(body, CurvedBody)
-    return given, body, lattice.bits
+    return image, body, lattice.bits
 
 
 def directions(rng: np.random.Generator, body: CurvedBody) -> list[Vector]:
@@ -50,12 +51,12 @@ def at(p: Point, bits: int) -> list[float]:
 def test_reach_is_the_support_of_the_image(shape: Primitive) -> None:
     rng = np.random.default_rng(1)
     for _ in range(20):
-        given, body, bits = placed(rng, shape)
+        image, body, bits = placed(rng, shape)
         for n in directions(rng, body):
             reach = body.reach(n)
             unit = np.array([c / max(map(abs, n)) for c in n])
-            local = tuple(float(np.dot(column, unit)) for column in given.columns)
-            expected = support(shape, local) + float(np.dot(given.origin, unit))  # type: ignore[arg-type]
+            local = tuple(float(np.dot(column, unit)) for column in image.columns)
+            expected = support(shape, local) + float(np.dot(image.origin, unit))  # type: ignore[arg-type]
             scale = max(map(abs, n)) << bits
             found = reach.q / scale + math.sqrt(Fraction(reach.p, scale * scale))
             assert found == pytest.approx(expected, abs=64 * 2.0**-50)
@@ -93,9 +94,9 @@ def test_sides_of_points_by_all_planes_around(shape: Primitive) -> None:
     rng = np.random.default_rng(3)
     seen = set()
     for _ in range(20):
-        given, body, bits = placed(rng, shape)
+        image, body, bits = placed(rng, shape)
         for p in rng.normal(size=(20, 3)) * 0.75:
-            world = given.origin + np.array(given.columns).T @ p
+            world = image.origin + np.array(image.columns).T @ p
             lattice = tuple(int(c * 2.0**60) << bits >> 60 for c in world.tolist())
             side = body.side((*lattice, 1))  # type: ignore[arg-type]
             lengths = [
@@ -112,7 +113,7 @@ def test_sides_of_points_by_all_planes_around(shape: Primitive) -> None:
 
 def test_the_tip_and_the_rim_of_a_cone() -> None:
     columns = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-    cone = CurvedBody(Given(Cone(3.0, 4.0), columns, (0.0, 0.0, 0.0)), 0, 0)
+    cone = CurvedBody(ShapeImage(Cone(3.0, 4.0), columns, (0.0, 0.0, 0.0)), 0, 0)
     sides = {
         (0, 0, 2, 1): 0,
         (0, 0, 5, 2): -1,

@@ -9,8 +9,8 @@ import numpy as np
 from satcheck.audit.curved.exact.curved_body import CurvedBody
 from satcheck.audit.curved.exact.faces import Disc, Polygon, common_points, outline
 from satcheck.audit.curved.exact.lattice import Point, Vector, cross, dot
-from satcheck.audit.curved.shape import Given
 from satcheck.scene.primitives import Cylinder
+from satcheck.scene.shape_image import ShapeImage
 from tests.oracles.exact_distance import exact_truth
 
 U, V = (1, 2, 2), (2, 1, -2)
@@ -62,7 +62,7 @@ def disc(radius: float, centre: tuple[float, float, float]) -> tuple[CurvedBody,
     """The lower end of a can, in the plane z = 0."""
     columns = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     x, y, z = centre
-    can = CurvedBody(Given(Cylinder(radius, 2.0), columns, (x, y, z + 1.0)), 8, 0)
+    can = CurvedBody(ShapeImage(Cylinder(radius, 2.0), columns, (x, y, z + 1.0)), 8, 0)
     face = can.face((0, 0, -1))
     assert isinstance(face, Disc)
     return can, face

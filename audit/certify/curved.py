@@ -1,0 +1,257 @@
+"""Certificates of two convex bodies of which one at least is a curved shape: axes and points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from satcheck.audit.certify.overlaps import as_json
+from satcheck.audit.curved.exact.pair import proof_of
+from satcheck.audit.curved.signed import Signed, convex_pair
+from satcheck.audit.pair import Pair
+from satcheck.audit.placed_body import PlacedBody
+from satcheck.audit.report import OVERLAPS, Finding
+from satcheck.verify import Rejected
+from satcheck.verify.curved import Curved
+from satcheck.verify.curved_pair import CurvedPair, reach
+from satcheck.verify.evidence import vector
+from satcheck.verify.exact import Point, cross, dot
+from satcheck.verify.findings import curved_pair_of
+from satcheck.verify.roots import sign_of
+from satcheck.verify.world import Exact
+
+Json = dict[str, Any]
+Move = tuple[float, float, float]
+
+# A point is pulled this far towards the middle of its body to be found inside, in turn.
+PULLS = tuple(Fraction(1, 1 << k) for k in (128, 64, 40))
+
+
+def make(pair: Pair, finding: Finding) -> Json | str:
+    """A certificate, or why there is none."""
+    try:
+        maker = _Maker(pair, finding)
+    except Rejected as why:
+        return str(why)
+    relation = maker.relation()
+    if relation is None:
+        return f"no evidence was found for {finding.exact_relation!r}"
+    certificate: Json = {"relation": relation}
+    if finding.mtv_verified and finding.mtv is not None:
+        free = maker.free(finding.mtv)
+        if free is None:
+            return "no axis was found that shows that the translation ends the overlap"
+        certificate["mtv"] = free
+    if finding.relation != finding.exact_relation:
+        certificate |= maker.band()
+    return certificate
+
+
+class _Maker:
+    def __init__(self, pair: Pair, finding: Finding) -> None:
+        self.pair, self.finding = pair, finding
+        self.checked = pair.a.checked(), pair.b.checked()
+        self.placed = curved_pair_of(*self.checked)
+        found = convex_pair(pair.a, pair.b)
+        if found is None:
+            raise Rejected("the bounds of a curved shape did not close")
+        self.found: Signed = found
+        self.proof, self.bits = proof_of(pair.a, pair.b, found)
+
+    def relation(self) -> Json | None:
+        exact = self.finding.exact_relation
+        if exact in ("contains", "inside"):
+            return {"kind": "nested"}
+        if exact == "separated":
+            return self._apart()
+        if exact == "touching":
+            if self.proof is None or self.proof.point is None:
+                return None
+            contact = self._shared(_rational(self.proof.point, self.bits))
+            return contact and {"kind": "axis", "axis": _text(self.proof.axis), "contact": contact}
+        return self._overlap() if exact == "penetrating" else None
+
+    def _axes(self, *hints: Any) -> Iterator[list[Any]]:
+        """The simplest first."""
+        for axis in range(3):
+            for side in (1, -1):
+                yield [side if k == axis else 0 for k in range(3)]
+        for hint in (self.finding.normal, self.found.normal, *hints):
+            if hint is not None and any(hint):
+                yield list(hint)
+        if self.proof is not None:
+            yield _text(self.proof.axis)
+
+    def _apart(self) -> Json | None:
+        """As wide as asked about."""
+        beyond = least = Fraction(0)
+        if self.finding.relation == "separated":
+            beyond = Fraction(self.pair.tolerance)
+            least = Fraction(self.pair.asked.clearance or 0.0)
+        for axis in self._axes():
+            n = vector(axis)
+            if _at_least(self.placed, n, beyond, 1) and _at_least(self.placed, n, least, 0):
+                return {"kind": "axis", "axis": axis}
+        return None
+
+    def _overlap(self) -> Json | None:
+        both = next(filter(None, map(self._inside_both, self._inner_points())), None)
+        if both is None:
+            return None
+        leads: Json = {}
+        for axis in self._axes(*_own_axes(self.placed.a), *_own_axes(self.placed.b)):
+            n = vector(axis)
+            mine, other = reach(self.placed.a, n), reach(self.placed.b, n)
+            lead = sign_of(mine.q - other.q, [other.p], [mine.p])
+            leads.setdefault(
+                "even" if lead == 0 else "a_reaches" if lead > 0 else "b_reaches", axis
+            )
+        even = leads.pop("even", None)
+        if even is not None and leads:
+            leads = {"a_reaches": even, "b_reaches": even} | leads
+        return {"kind": "point", "both": both, **leads} if len(leads) == 2 else None
+
+    def _inner_points(self) -> Iterator[Point]:
+        if self.proof is not None and self.proof.outcome == "penetrating" and self.proof.point:
+            yield _rational(self.proof.point, self.bits)
+        a, b = self.found.witness_a, self.found.witness_b
+        if a is not None and b is not None:
+            for share in (Fraction(1, 2), Fraction(1, 4), Fraction(3, 4)):
+                yield _between(_exact(a), _exact(b), share)
+        for body in (self.placed.a, self.placed.b):
+            if isinstance(body, Curved):
+                yield _exact(body.image.origin)
+
+    def _inside_both(self, p: Point) -> Json | None:
+        curved = [x for x in (self.placed.a, self.placed.b) if isinstance(x, Curved)]
+        inner, closed = [x.side(p) > 0 for x in curved], [x.side(p) >= 0 for x in curved]
+        return self._shared(p) if any(inner) and all(closed) else None
+
+    def _shared(self, p: Point) -> Json | None:
+        """A point as one of both bodies."""
+        ends = {"a": self._on(p, "a"), "b": self._on(p, "b")}
+        return None if None in ends.values() else ends
+
+    def _on(self, p: Point, key: str) -> Json | None:
+        """A point of one of them, as certificates have it."""
+        sides = {"a": (self.placed.a, self.pair.a), "b": (self.placed.b, self.pair.b)}
+        body, placed = sides[key]
+        if isinstance(body, Exact):
+            return in_hull(p, body, placed)
+        return {"point": [as_json(c) for c in p]}
+
+    def free(self, move: Move) -> Json | None:
+        """That A, moved, has no common interior with B."""
+        placed = curved_pair_of(self.checked[0].moved(list(move)), self.checked[1])
+        for axis in self._axes([-c for c in move]):
+            if _at_least(placed, vector(axis), Fraction(0), 0):
+                return {"kind": "axis", "axis": axis}
+        proof, _ = proof_of(self.pair.a, self.pair.b, self.found, move)
+        return None if proof is None else {"kind": "axis", "axis": _text(proof.axis)}
+
+    def band(self) -> Json:
+        """Why the relation is another than the exact one."""
+        finding, tolerance = self.finding, Fraction(self.pair.tolerance)
+        if finding.exact_relation in OVERLAPS:
+            for axis in self._axes():
+                if _at_least(self.placed, vector(axis), -tolerance, 0):
+                    return {"band": {"axis": axis}}
+        elif self.proof is not None and self.proof.ends is not None:
+            p, q = (_rational(end, self.bits) for end in self.proof.ends)
+            points = {"a": self._on(p, "a"), "b": self._on(q, "b")}
+            if None not in points.values():
+                return {"gap": points}
+        elif self.found.witness_a is not None and self.found.witness_b is not None:
+            ends = zip(
+                ("a", "b"),
+                (self.placed.a, self.placed.b),
+                (self.pair.a, self.pair.b),
+                (self.found.witness_a, self.found.witness_b),
+                strict=True,
+            )
+            points = {key: _pulled_in(_exact(p), body, placed) for key, body, placed, p in ends}
+            if None not in points.values():
+                return {"gap": points}
+        return {}
+
+
+def _at_least(placed: CurvedPair, n: Point, length: Fraction, sign: int) -> bool:
+    try:
+        return placed.gap(n, length) >= sign
+    except Rejected:
+        return False
+
+
+def _own_axes(body: Curved | Exact) -> list[list[Any]]:
+    """Along and against the columns of its matrix."""
+    columns = body.image.columns if isinstance(body, Curved) else ()
+    return [[way * c for c in column] for column in columns for way in (1, -1)]
+
+
+def _pulled_in(p: Point, body: Curved | Exact, placed: PlacedBody) -> Json | None:
+    """A point of the body next to a rounded one."""
+    if isinstance(body, Exact):
+        low, high = (np.asarray(end) for end in placed.bounds)
+        middle = _exact(tuple((low + high).tolist()))
+        middle = (middle[0] / 2, middle[1] / 2, middle[2] / 2)
+    else:
+        middle = _exact(body.image.origin)
+    for share in (Fraction(0), *PULLS):
+        q = _between(p, middle, share)
+        on = {"point": [as_json(c) for c in q]}
+        if isinstance(body, Exact):
+            weights = in_hull(q, body, placed)
+            if weights is not None:
+                return weights
+        elif body.side(q) >= 0:
+            return on
+    return None
+
+
+def in_hull(p: Point, body: Exact, placed: PlacedBody) -> Json | None:
+    """The point by weights on four vertices: one of the hull, and those of a face that it sees."""
+    hull = placed.hull()
+    rows = {tuple(v): k for k, v in enumerate((body.world.vertices + 0.0).tolist())}
+    index = [rows.get(tuple(v)) for v in (np.asarray(hull.vertices) + 0.0).tolist()]
+    if None in index:
+        return None
+    scale = 1 << body.k
+    apex = body.points[index[0]]  # type: ignore[index]
+    q = tuple(c * scale - o for c, o in zip(p, apex, strict=True))
+    for face in hull.triangles.tolist():
+        if 0 in face:
+            continue
+        u, v, w = (
+            tuple(c - o for c, o in zip(body.points[index[k]], apex, strict=True)) for k in face
+        )
+        volume = dot(u, cross(v, w))
+        if volume == 0:
+            continue
+        shares = [Fraction(dot(q, cross(s, t))) / volume for s, t in ((v, w), (w, u), (u, v))]
+        weights = [1 - sum(shares, Fraction(0)), *shares]
+        if min(weights) >= 0:
+            ends = [(index[k], x) for k, x in zip((0, *face), weights, strict=True) if x]
+            return {"vertices": [k for k, _ in ends], "weights": [as_json(x) for _, x in ends]}
+    return None
+
+
+def _rational(p: tuple[int, int, int, int], bits: int) -> Point:
+    x, y, z = (Fraction(c, p[3] << bits) for c in p[:3])
+    return x, y, z
+
+
+def _between(p: Point, q: Point, share: Fraction) -> Point:
+    x, y, z = (c + share * (d - c) for c, d in zip(p, q, strict=True))
+    return x, y, z
+
+
+def _exact(v: tuple[float, ...]) -> Point:
+    x, y, z = map(Fraction, v)
+    return x, y, z
+
+
+def _text(v: Any) -> list[str]:
+    return [str(c) for c in v]
