@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 
@@ -99,5 +101,24 @@ def test_overlap_query_stops_at_the_first_separating_axis() -> None:
     overlap = check_pair(a, b, None, (3.0, 1.0, 0.0), query="overlap")
     distance = check_pair(a, b, None, (3.0, 1.0, 0.0), query="distance")
     assert overlap.outcome == distance.outcome == "separated"
-    assert overlap.gjk_iterations <= distance.gjk_iterations
+    # No point is farther than 1 from its origin: the line between the origins separates.
+    assert overlap.gjk_iterations == 0 < distance.gjk_iterations
     assert overlap.distance is None
+
+
+def test_many_queries_change_no_bit() -> None:
+    """A hull of many vertices that is asked often finds its supports another way."""
+    rng = np.random.default_rng(10)
+    a, b = Hull(random_hull(rng, 200)), Hull(random_hull(rng, 90))
+    offsets = [tuple(random_direction(rng) * length) for length in rng.uniform(0.2, 2.5, 300)]
+    queries: tuple[Literal["overlap", "depth", "distance"], ...] = ("overlap", "depth", "distance")
+
+    def answers(offset: tuple[float, ...]) -> list[str]:
+        results = [check_pair(a, b, None, offset, query=q) for q in queries]
+        fields = ("outcome", "distance", "lower", "upper", "normal", "witness_a", "witness_b")
+        return [repr([getattr(result, field) for field in fields]) for result in results]
+
+    first = [answers(offset) for offset in offsets[:20]]
+    for offset in offsets:
+        check_pair(a, b, None, offset, query="overlap")
+    assert [answers(offset) for offset in offsets[:20]] == first

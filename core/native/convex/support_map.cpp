@@ -47,7 +47,8 @@ Vec3 folded(double u, double v) {
 }
 
 // Of `from` those that the one farthest along `middle` does not beat by more than `margin` at all corners.
-SATCHECK_WIDE void keep_unbeaten(const Candidates& from, Vec3 middle, const Vec3 corner[4], double margin, Candidates& to) {
+SATCHECK_WIDE void keep_unbeaten(const Candidates& from, Vec3 middle, const Vec3 corner[4], double margin,
+                                 Candidates& to) {
   const double *x = from.x.data(), *y = from.y.data(), *z = from.z.data();
   const Vec3 top = from.point(support_index(x, y, z, from.padded, middle));
   const LaneDirection d0(corner[0]), d1(corner[1]), d2(corner[2]), d3(corner[3]);

@@ -48,7 +48,8 @@ class SupportMap {
   SATCHECK_INLINE Best highest(const std::uint32_t* i, Vec3 direction) const {
     const Vec3* p = points_.data();
     const LaneDirection d(direction);
-    const Lanes low = d.heights(p[i[0]], p[i[1]], p[i[2]], p[i[3]]), high = d.heights(p[i[4]], p[i[5]], p[i[6]], p[i[7]]);
+    const Lanes low = d.heights(p[i[0]], p[i[1]], p[i[2]], p[i[3]]);
+    const Lanes high = d.heights(p[i[4]], p[i[5]], p[i[6]], p[i[7]]);
     Lanes best = larger(low, high);
     best = larger(best, shuffle<2, 3, 0, 1>(best));
     best = larger(best, shuffle<1, 0, 3, 2>(best));
