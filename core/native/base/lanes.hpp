@@ -30,6 +30,10 @@ SATCHECK_INLINE Lanes load_lanes(const double* from) {
   typedef double Unaligned __attribute__((vector_size(32), aligned(8), may_alias));
   return *reinterpret_cast<const Unaligned*>(from);
 }
+SATCHECK_INLINE void store_lanes(double* to, Lanes v) {
+  typedef double Unaligned __attribute__((vector_size(32), aligned(8), may_alias));
+  *reinterpret_cast<Unaligned*>(to) = v;
+}
 // In bits: `mask ? a : b` is taken apart, lane by lane, where registers are narrower.
 SATCHECK_INLINE Lanes select(LaneMask mask, Lanes a, Lanes b) {
   return (Lanes)((mask & (LaneMask)a) | (~mask & (LaneMask)b));
@@ -125,6 +129,9 @@ inline Lanes with_sign_of(Lanes sign, Lanes size) {
   return each_lane([&](int l) { return std::copysign(size[l], sign[l]); });
 }
 inline Lanes load_lanes(const double* from) { return {{from[0], from[1], from[2], from[3]}}; }
+inline void store_lanes(double* to, Lanes v) {
+  for (int l = 0; l < 4; ++l) to[l] = v[l];
+}
 inline Lanes select(LaneMask mask, Lanes a, Lanes b) {
   return each_lane([&](int l) { return mask.lane[l] ? a[l] : b[l]; });
 }
