@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.audit import Settings, check
-from tests.audit.shapes import box, bracket, scene_of, unit_box
+from tests.audit.shapes import box, bracket, moved, scene_of, unit_box
 
 
 def only(report):
@@ -108,3 +108,19 @@ def test_a_wall_without_thickness_is_no_end_of_a_gap(tmp_path):
     assert "no thickness" in finding.reason
     through = scene_of(tmp_path, a=pocket, b=box((2, 2, 3), (3, 3, 7)))
     assert only(check(through, Settings())).relation == "separated"
+
+
+@pytest.mark.parametrize("tip", [(0.5, -1.0, 0.5), (0.0, -2.0, 0.0)])
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("order", ["ab", "ba"])
+def test_a_wall_without_thickness_hides_no_body_as_near(tmp_path, tip, turned, order):
+    """A fin, one triangle and its reverse, at the edge of a box that is nearest to the other."""
+    points, faces = unit_box()
+    fin = (1, 5, len(points))
+    meshes = {"a": ([*points, tip], [*faces, fin, fin[::-1]]), "b": moved(bracket(), 2, -6, -1)}
+    if turned:  # half a turn about z: the trees meet the triangles in another order
+        meshes = {k: ([(-x, -y, z) for x, y, z in v], f) for k, (v, f) in meshes.items()}
+    scene = scene_of(tmp_path, **{name: meshes[name] for name in order})
+    finding = only(check(scene, Settings(clearance=1.5)))
+    assert (finding.relation, finding.distance) == ("near", 1.0)
+    assert only(check(scene, Settings(tolerance=1.5))).relation == "touching"

@@ -307,7 +307,7 @@ void bind_mesh_distance(nb::module_& m) {
       .def_prop_ro("witness_b", [](const MeshDistance& d) { return to_tuple(d.witness_b); })
       .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
-  m.def("mesh_distance", &mesh_distance, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
+  m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) { return mesh_distance(a, b, limit); }, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
         R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
 another is at a distance from its surface all the same: ask mesh_relation first.)");
   m.def("deviation",

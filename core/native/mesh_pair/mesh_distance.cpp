@@ -17,8 +17,8 @@ struct NodePair {
 
 class DistanceSearch {
  public:
-  DistanceSearch(const Surface& a, const Surface& b, double limit)
-      : a_(a), b_(b), bound_(limit * limit) {}
+  DistanceSearch(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts)
+      : a_(a), b_(b), counts_(counts), bound_(limit * limit) {}
 
   MeshDistance run() {
     if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return result_;
@@ -65,7 +65,7 @@ class DistanceSearch {
         const Witnesses w = triangle_distance(ca, corners(b_.mesh, tb));
         const bool improves = w.distance_squared < bound_ ||
                               (w.distance_squared == bound_ && result_.triangle_a == kNoTriangle);
-        if (!improves) continue;
+        if (!improves || (counts_ && !counts_(ta, tb))) continue;
         bound_ = w.distance_squared;
         result_ = {std::sqrt(w.distance_squared), w.a, w.b, ta, tb};
       }
@@ -74,6 +74,7 @@ class DistanceSearch {
 
   const Surface& a_;
   const Surface& b_;
+  const TrianglePairTest& counts_;
   double bound_;
   MeshDistance result_;
   std::vector<NodePair> stack_;
@@ -81,9 +82,9 @@ class DistanceSearch {
 
 }  // namespace
 
-MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit) {
+MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts) {
   if (!(limit >= 0)) throw std::invalid_argument("the distance limit must not be negative");
-  return DistanceSearch(a, b, limit).run();
+  return DistanceSearch(a, b, limit, counts).run();
 }
 
 }  // namespace satcheck

@@ -1,6 +1,7 @@
 // Distances of surfaces, by branch and bound over box trees, in float64.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "mesh/surface.hpp"
@@ -14,7 +15,11 @@ struct MeshDistance {
   std::uint32_t triangle_a = kNoTriangle, triangle_b = kNoTriangle;
 };
 
-// Distance of the two surfaces, 0 when they meet; what is inside a solid makes no difference.
-MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit);
+// Of a triangle of each surface.
+using TrianglePairTest = std::function<bool(std::uint32_t, std::uint32_t)>;
+
+// Distance of the two surfaces, 0 when they meet; what is inside a solid makes no difference. counts: only pairs
+// that pass are measured; empty: all.
+MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts = {});
 
 }  // namespace satcheck

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <map>
 #include <thread>
 
 #include "base/parallel.hpp"
+#include "base/tolerances.hpp"
 #include "convex/hulls_apart.hpp"
 #include "mesh_pair/boundary_contact.hpp"
 #include "scene/broad_phase.hpp"
@@ -49,6 +51,22 @@ double share_within(const Aabb& box, const Aabb& other) {
   }
   return share;
 }
+
+// The triangles of a surface that bound no material, at least in part.
+class Voids {
+ public:
+  explicit Voids(const Surface& surface) : surface_(surface) {}
+
+  bool include(std::uint32_t triangle) {
+    const auto [entry, is_new] = known_.try_emplace(triangle, false);
+    if (is_new) entry->second = has_void(surface_, triangle);
+    return entry->second;
+  }
+
+ private:
+  const Surface& surface_;
+  std::map<std::uint32_t, bool> known_;
+};
 
 class Climber {
  public:
@@ -219,9 +237,15 @@ class Climber {
     if (q_.asked_gap == 0) return false;
     if (!a_) make_whole_surfaces();
     found_.gap = mesh_distance(*a_, *b_, q_.wants_distance ? INFINITY : q_.tolerance);
-    if (std::isfinite(found_.gap->distance)) {
-      found_.gap_is_void = has_void(*a_, found_.gap->triangle_a) || has_void(*b_, found_.gap->triangle_b);
-    }
+    if (!std::isfinite(found_.gap->distance)) return true;
+    Voids of_a(*a_), of_b(*b_);
+    const auto bounds_material = [&](std::uint32_t t, std::uint32_t u) { return !of_a.include(t) && !of_b.include(u); };
+    if (bounds_material(found_.gap->triangle_a, found_.gap->triangle_b)) return true;
+    // A wall of the body can be as near, and which of them is met first depends on the trees.
+    const double as_near = found_.gap->distance + chain_rounding(largest_coordinate());
+    const MeshDistance gap = mesh_distance(*a_, *b_, as_near, bounds_material);
+    found_.gap_is_void = !std::isfinite(gap.distance);
+    if (!found_.gap_is_void) found_.gap = gap;
     return true;
   }
 
