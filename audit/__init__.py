@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check
-from satcheck.audit.contact_report import Contacts, ContactTotals, Curve, Patch
-from satcheck.audit.report import (
+from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
+from satcheck.audit.report.report import (
     BodyReport,
     Finding,
     Issue,
@@ -16,7 +17,6 @@ from satcheck.audit.report import (
     Tool,
     Witness,
 )
-from satcheck.audit.settings import Settings
 
 __all__ = [
     "BodyReport",

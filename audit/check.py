@@ -7,17 +7,17 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from satcheck.audit.broad_phase import close_pairs
-from satcheck.audit.climb import leaves_work, start_climbs
-from satcheck.audit.effects import effects_of
+from satcheck.audit.asked.effects import effects_of
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import Asked, Planner
+from satcheck.audit.asked.settings import LIST_PRUNED_BODIES, Settings
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.roster import Known, Roster, place
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
-from satcheck.audit.pair import Pair
+from satcheck.audit.ladder.broad_phase import close_pairs
+from satcheck.audit.ladder.climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import InTurn, Steps
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import Asked, Planner
-from satcheck.audit.report import INTERNAL_ERROR, Finding, Issue, Report
-from satcheck.audit.roster import Known, Roster, place
-from satcheck.audit.settings import LIST_PRUNED_BODIES, Settings
+from satcheck.audit.report.report import INTERNAL_ERROR, Finding, Issue, Report
 from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen, replace

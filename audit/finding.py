@@ -9,19 +9,19 @@ from __future__ import annotations
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
-from satcheck.audit.contact_report import Contacts
-from satcheck.audit.gap import Gap, measure_gap
-from satcheck.audit.ladder import Contact, boxes_apart, settle
-from satcheck.audit.pair import Pair
-from satcheck.audit.plan import Plan
-from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Vector
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.figures.gap import Gap, measure_gap
+from satcheck.audit.figures.touch_band import estimate_is_within, move_within
+from satcheck.audit.figures.unseen import unseen_inside, unseen_way_out
+from satcheck.audit.ladder.ladder import Contact, boxes_apart, settle
+from satcheck.audit.report.contact_report import Contacts
+from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 from satcheck.audit.severity import judged, keeps
 from satcheck.audit.tolerances import EXACT_WIDTH
-from satcheck.audit.touch_band import estimate_is_within, move_within
-from satcheck.audit.unseen import unseen_inside, unseen_way_out
 
 if TYPE_CHECKING:
-    from satcheck.audit.depth import Depth
+    from satcheck.audit.figures.depth import Depth
     from satcheck.core import Climb
 
 ID_DIGITS = 12
@@ -82,13 +82,13 @@ def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan)
         return
     asked = pair.asked.by
     if "volume" in asked:
-        from satcheck.audit.volume import common_volume
+        from satcheck.audit.figures.volume import common_volume
 
         volume = common_volume(pair, contact, plan)
         known["volume"], known["volume_error"] = volume.volume, volume.error
         known["reason"] = known["reason"] or volume.refusal
     if "contacts" in asked:
-        from satcheck.audit.contacts import find_contacts
+        from satcheck.audit.figures.contacts import find_contacts
 
         known["contacts"] = find_contacts(pair, contact, plan)
     if pair.peers is not None:
@@ -164,7 +164,7 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any]:
 def _depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Depth | None:
     if not pair.asked.wants("depth"):
         return None
-    from satcheck.audit.depth import measure_depth
+    from satcheck.audit.figures.depth import measure_depth
 
     return measure_depth(pair, contact, move, plan)
 

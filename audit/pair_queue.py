@@ -14,7 +14,7 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
-from satcheck.audit.pair import Pair
+from satcheck.audit.bodies.pair import Pair
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:

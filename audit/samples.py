@@ -7,9 +7,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
-from satcheck.audit import report_values
+from satcheck.audit.asked.rule_book import RuleBook
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.roster import Known
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.report import (
+from satcheck.audit.report import report_values
+from satcheck.audit.report.report import (
     OVERLAPS,
     BodyReport,
     Exempt,
@@ -19,9 +22,6 @@ from satcheck.audit.report import (
     Tool,
     Verdict,
 )
-from satcheck.audit.roster import Known
-from satcheck.audit.rule_book import RuleBook
-from satcheck.audit.settings import Settings
 from satcheck.core.frozen import as_dict, frozen, replace
 
 if TYPE_CHECKING:

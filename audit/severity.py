@@ -11,9 +11,9 @@ from collections.abc import Iterator, Mapping
 from math import inf
 from typing import Any
 
-from satcheck.audit.pair import Pair
-from satcheck.audit.planner import Asked
-from satcheck.audit.report import OVERLAPS, SEVERITIES, Relation, Severity, Undecided
+from satcheck.audit.asked.planner import Asked
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Relation, Severity, Undecided
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.frozen import frozen, replace
 

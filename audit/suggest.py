@@ -8,14 +8,14 @@ from collections.abc import Callable, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
+from satcheck.audit.bodies.roster import Known
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
-from satcheck.audit.roster import Known
+from satcheck.audit.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
 from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
+    from satcheck.audit.asked.settings import Settings
     from satcheck.audit.samples import PairTally, Samples
-    from satcheck.audit.settings import Settings
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose
 

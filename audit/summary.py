@@ -8,8 +8,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from satcheck._version import __version__
-from satcheck.audit.placed_body import PlacedBody
-from satcheck.audit.report import (
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.bodies.roster import Lost, Roster
+from satcheck.audit.report.report import (
     SEVERITIES,
     BodyReport,
     Exempt,
@@ -22,12 +23,11 @@ from satcheck.audit.report import (
     Tool,
     Verdict,
 )
-from satcheck.audit.roster import Lost, Roster
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import fields
 
 if TYPE_CHECKING:
-    from satcheck.audit.settings import FailOn
+    from satcheck.audit.asked.settings import FailOn
     from satcheck.scene import Scene
     from satcheck.scene.health import MeshHealth
     from satcheck.scene.primitives import Primitive

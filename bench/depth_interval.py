@@ -23,14 +23,14 @@ from typing import Any
 
 from satcheck import core
 from satcheck.audit import Settings
-from satcheck.audit.cheap_bounds import way_out_of_hulls
-from satcheck.audit.concave_depth import WORK_PER_SECOND
-from satcheck.audit.ladder import settle
-from satcheck.audit.pair import Pair
-from satcheck.audit.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import asked_by
-from satcheck.audit.report import OVERLAPS
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
+from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
+from satcheck.audit.ladder.ladder import settle
+from satcheck.audit.report.report import OVERLAPS
 from satcheck.scene import load_scene
 
 # A best known way out was verified by others, with coordinates rounded once more.

@@ -14,7 +14,7 @@ from satcheck.cli.refusals import failure, wrong_usage
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import Report
+    from satcheck.audit.report.report import Report
     from satcheck.cli.output import Page
     from satcheck.cli.posing import Posing
     from satcheck.scene import Scene

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import Issue, Report, Verdict
+    from satcheck.audit.report.report import Issue, Report, Verdict
 
 CLEAN = 0  # everything asked was checked, and nothing was found
 FINDINGS = 1  # bodies overlap, or are closer than the clearance

@@ -8,11 +8,11 @@ from fractions import Fraction
 from typing import Any
 
 from satcheck import core
-from satcheck.audit import report_values
+from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
-from satcheck.audit.pair import Pair
-from satcheck.audit.report import OVERLAPS, Finding
+from satcheck.audit.report import report_values
+from satcheck.audit.report.report import OVERLAPS, Finding
 from satcheck.verify import Rejected
 from satcheck.verify.evidence import exceeds, gap_along, vector
 from satcheck.verify.findings import check_finding, depth_at_most, pair_of
@@ -222,9 +222,9 @@ class _Maker:
                 found_ = expanded(self.placed, Fraction(self.pair.tolerance) * 2)
                 if found_ is not None:
                     return {"band": {"axis": _text(shortened(found_.axis))}}
-            from satcheck.audit.ladder import Contact
-            from satcheck.audit.plan import Plan
-            from satcheck.audit.touch_band import move_within
+            from satcheck.audit.asked.plan import Plan
+            from satcheck.audit.figures.touch_band import move_within
+            from satcheck.audit.ladder.ladder import Contact
 
             contact = Contact(finding.exact_relation, True, crossing=self._hint())
             move = move_within(self.pair, contact, Plan())

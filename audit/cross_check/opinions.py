@@ -12,11 +12,11 @@ from __future__ import annotations
 from typing import Literal
 
 from satcheck import core
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.cross_check.peers import Peers
-from satcheck.audit.ladder import Contact
-from satcheck.audit.pair import Pair
-from satcheck.audit.plan import Plan
-from satcheck.audit.report import CROSS_CHECK, OVERLAPS
+from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.report.report import CROSS_CHECK, OVERLAPS
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.boxes import holds as box_holds
+from satcheck.audit.bodies.boxes import holds as box_holds
 from satcheck.audit.curved.signed import convex_pair
-from satcheck.audit.ladder import Contact
+from satcheck.audit.ladder.ladder import Contact
 
 if TYPE_CHECKING:
+    from satcheck.audit.asked.plan import Plan
+    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.bodies.placed_body import PlacedBody
     from satcheck.audit.curved.signed import Signed
-    from satcheck.audit.pair import Pair
-    from satcheck.audit.placed_body import PlacedBody
-    from satcheck.audit.plan import Plan
-    from satcheck.audit.report import Effect, Relation, Vector
+    from satcheck.audit.report.report import Effect, Relation, Vector
 
 STAGE = "curved"
 PROOF = "curved-exact"

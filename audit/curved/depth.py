@@ -3,15 +3,15 @@ around it. What frees the outer mesh frees the shape, and no less than frees the
 
 from __future__ import annotations
 
-from satcheck.audit.concave_depth import depth_of_move
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.curved.around import mesh_around
 from satcheck.audit.curved.in_mesh import move_off
-from satcheck.audit.depth import Depth, measure_depth
-from satcheck.audit.ladder import settle
-from satcheck.audit.pair import Pair
-from satcheck.audit.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.plan import Plan
-from satcheck.audit.report import OVERLAPS, Vector
+from satcheck.audit.figures.concave_depth import depth_of_move
+from satcheck.audit.figures.depth import Depth, measure_depth
+from satcheck.audit.ladder.ladder import settle
+from satcheck.audit.report.report import OVERLAPS, Vector
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.core import Mesh
 from satcheck.core.frozen import replace

@@ -5,21 +5,21 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from satcheck.audit.boxes import holds as box_holds
+from satcheck.audit.bodies.boxes import holds as box_holds
 from satcheck.audit.curved.contact import CLOSE_CONTACT, PROOF, STAGE, TOO_CLOSE
 from satcheck.audit.curved.nesting import holds
 from satcheck.audit.curved.signed import ORIGIN, Signed
 from satcheck.audit.curved.triangles import Nearest, against_triangles, cancelling
-from satcheck.audit.ladder import Contact
+from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, scaled
 
 if TYPE_CHECKING:
+    from satcheck.audit.asked.plan import Plan
+    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.bodies.placed_body import PlacedBody
     from satcheck.audit.curved.shape import CurvedShape
-    from satcheck.audit.pair import Pair
-    from satcheck.audit.placed_body import PlacedBody
-    from satcheck.audit.plan import Plan
-    from satcheck.audit.report import Relation, Vector
+    from satcheck.audit.report.report import Relation, Vector
 
 # Points of the unit ball, the middle first: where that lies on the surface another one may not.
 _TRIED: tuple[Vector, ...] = (

@@ -15,7 +15,7 @@ from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.scene.primitives import Capsule, Cone, Cylinder, Ellipsoid, Primitive, Sphere
 
 if TYPE_CHECKING:
-    from satcheck.audit.placed_body import PlacedBody
+    from satcheck.audit.bodies.placed_body import PlacedBody
 
 Floats = npt.NDArray[np.float64]
 

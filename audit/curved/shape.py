@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.boxes import Box
+from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, ORTHOGONALITY, UNIT_ROUNDOFF
 from satcheck.core.frozen import frozen, replace
 from satcheck.scene.primitives import (

@@ -13,7 +13,7 @@ from satcheck import core
 from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
-    from satcheck.audit.placed_body import PlacedBody
+    from satcheck.audit.bodies.placed_body import PlacedBody
 
 Vector = tuple[float, float, float]
 AT_ORIGIN = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)

@@ -15,11 +15,11 @@ from __future__ import annotations
 
 import math
 
+from satcheck.audit.figures.verify import FREE
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.nudges import Nudges
-from satcheck.audit.report import OVERLAPS, Finding
-from satcheck.audit.verify import FREE
+from satcheck.audit.report.report import OVERLAPS, Finding
 from satcheck.core.frozen import frozen
 
 

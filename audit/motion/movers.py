@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from satcheck.audit.boxes import Box
+from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.motion.swept import swept_box
 from satcheck.audit.motion.track import track_of
-from satcheck.audit.report import Issue
+from satcheck.audit.report.report import Issue
 from satcheck.core.frozen import as_dict, frozen
 from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation
 

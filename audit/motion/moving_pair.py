@@ -6,22 +6,22 @@ import math
 from typing import TYPE_CHECKING
 
 from satcheck import core
-from satcheck.audit.boxes import diagonal
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import ALWAYS, Asked
+from satcheck.audit.bodies.boxes import diagonal
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.curved.shape import rows_of
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
-from satcheck.audit.pair import Pair
-from satcheck.audit.placed_body import PlacedBody
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import ALWAYS, Asked
 from satcheck.audit.tolerances import TOUCH_FRACTION, UNIT_ROUNDOFF
 from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.audit.report import Finding, Vector
+    from satcheck.audit.report.report import Finding, Vector
 
 
 class Unanswerable(Exception):

@@ -10,14 +10,14 @@ from collections.abc import Iterable, Iterator
 from itertools import combinations
 
 from satcheck import core
-from satcheck.audit.cheap_bounds import way_out_of_hulls
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.triangles import triangle_normal
+from satcheck.audit.figures.verify import FREE, relation_after
+from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.motion.limits import SHORTEST_STEP
 from satcheck.audit.motion.moving_pair import MovingPair
-from satcheck.audit.pair import Pair
-from satcheck.audit.report import Vector
-from satcheck.audit.triangles import triangle_normal
+from satcheck.audit.report.report import Vector
 from satcheck.audit.vectors import scaled, unit
-from satcheck.audit.verify import FREE, relation_after
 
 # A part in a corner has to leave three walls.
 WALLS = 3

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
+from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.impact import Impact, first_impact
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.track import STANDS, track_of
 from satcheck.audit.motion.worst import Worst, deepest_pose, least_distance
-from satcheck.audit.motion_report import Place, Relation, Sweep, WorstPose
-from satcheck.audit.pair import Pair
+from satcheck.audit.report.motion_report import Place, Relation, Sweep, WorstPose
 from satcheck.scene.motion import Path, Rotation, Translation
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from satcheck.audit.boxes import Box
+from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.motion.track import Piece, Track
 from satcheck.audit.motion.turn import applied
 

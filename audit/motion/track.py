@@ -12,7 +12,7 @@ from bisect import bisect_right
 from itertools import pairwise
 
 from satcheck import core
-from satcheck.audit.boxes import Box
+from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.motion.turn import (
     STILL,
     Matrix,

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import Asked
+from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.movers import Paths
 from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.motion_report import Sweep
-from satcheck.audit.pair import Pair
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import Asked
-from satcheck.audit.report import SEVERITIES, Finding
+from satcheck.audit.report.motion_report import Sweep
+from satcheck.audit.report.report import SEVERITIES, Finding
 from satcheck.audit.severity import Judgement, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.frozen import replace

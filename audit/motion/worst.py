@@ -13,12 +13,12 @@ import math
 from collections.abc import Callable
 from itertools import pairwise
 
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import ALWAYS
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import ALWAYS
-from satcheck.audit.report import OVERLAPS
+from satcheck.audit.report.report import OVERLAPS
 from satcheck.audit.severity import keeps
 from satcheck.core.frozen import frozen, replace
 

@@ -12,11 +12,11 @@ import math
 import numpy as np
 
 from satcheck import core
-from satcheck.audit.concave_depth import WORK_PER_SECOND
-from satcheck.audit.placed_body import PlacedBody
-from satcheck.audit.report import Vector
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
+from satcheck.audit.figures.verify import FREE
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
-from satcheck.audit.verify import FREE
 from satcheck.core.conventions import axis_across
 
 # More triangles than this around a body, and it is not tried.

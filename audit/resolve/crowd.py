@@ -8,17 +8,17 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 from satcheck import core
-from satcheck.audit.boxes import Box
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import Planner
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.bodies.roster import place
 from satcheck.audit.finding import examine
-from satcheck.audit.pair import Pair
-from satcheck.audit.placed_body import PlacedBody
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import Planner
-from satcheck.audit.report import Vector
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.opinion import Opinion, is_objected, is_overlap_excused, opinion_of
 from satcheck.audit.resolve.wall import BodyPair
-from satcheck.audit.roster import place
-from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.frozen import replace
 from satcheck.scene.bodies import IDENTITY

@@ -16,8 +16,8 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from satcheck.audit.placed_body import PlacedBody
-from satcheck.audit.report import Vector
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import rounding_pad
 
 Array = npt.NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from satcheck import core
-from satcheck.audit.report import Vector
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.wall import Wall
 from satcheck.audit.vectors import added, dot, scaled
 from satcheck.core.frozen import frozen

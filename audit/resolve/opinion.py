@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Literal
 
-from satcheck.audit.pair import Pair
-from satcheck.audit.report import OVERLAPS, SEVERITIES, Finding, Vector
+from satcheck.audit.asked.settings import FailOn
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Vector
 from satcheck.audit.resolve.separation import longer, nudge, way_outside
-from satcheck.audit.settings import FailOn
 from satcheck.audit.vectors import scaled
 from satcheck.core.frozen import frozen
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
-from satcheck.audit.boxes import Box, largest_coordinate
-from satcheck.audit.report import Vector
+from satcheck.audit.bodies.boxes import Box, largest_coordinate
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.wall import BodyPair
 

@@ -12,10 +12,10 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
-from satcheck.audit.boxes import Box, largest_coordinate
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.finding import examine
-from satcheck.audit.plan import Plan
-from satcheck.audit.report import Vector
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.islands import islands
 from satcheck.audit.resolve.least_motion import least_motion

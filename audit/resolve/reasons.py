@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from satcheck.audit.report import Report
+from satcheck.audit.report.report import Report
 from satcheck.audit.resolve.crowd import Crowd
 from satcheck.audit.resolve.resolution import Left, objected
 from satcheck.audit.resolve.wall import BodyPair

@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Any, Literal, cast
 
-from satcheck.audit import report_values
-from satcheck.audit.report import OVERLAPS, Finding, Relation, Report, Vector
+from satcheck.audit.asked.settings import FailOn
+from satcheck.audit.report import report_values
+from satcheck.audit.report.report import OVERLAPS, Finding, Relation, Report, Vector
 from satcheck.audit.resolve.opinion import is_objected
-from satcheck.audit.settings import FailOn
 from satcheck.core.frozen import frozen
 
 SCHEMA = "satcheck.resolution/1"

@@ -7,8 +7,9 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import ExitStack
 
+from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check, volume_meter
-from satcheck.audit.report import Vector
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
 from satcheck.audit.resolve.plain_numbers import write_plainly
 from satcheck.audit.resolve.pull_back import pull_back
@@ -16,7 +17,6 @@ from satcheck.audit.resolve.reasons import left_pairs, reasons
 from satcheck.audit.resolve.resolution import Move, Resolution
 from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
-from satcheck.audit.settings import Settings
 from satcheck.audit.vectors import dot
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import replace

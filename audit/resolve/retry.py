@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable
 
-from satcheck.audit.report import Vector
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.alone import way_alone
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.pull_back import pull_back, swept

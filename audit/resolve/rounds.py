@@ -17,9 +17,10 @@ import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 
-from satcheck.audit.boxes import largest_coordinate
-from satcheck.audit.pair import Pair
-from satcheck.audit.report import Vector
+from satcheck.audit.bodies.boxes import largest_coordinate
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.figures.verify import FREE, relation_after
+from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.crowd import ORIGIN, Crowd
 from satcheck.audit.resolve.free_slot import Slots
 from satcheck.audit.resolve.islands import islands
@@ -30,7 +31,6 @@ from satcheck.audit.resolve.separation import longer, out_of_hull
 from satcheck.audit.resolve.wall import BodyPair, Wall
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, dot, scaled, unit
-from satcheck.audit.verify import FREE, relation_after
 
 # After so many rounds in which a pair overlaps, one wall between its hulls takes the place of all,
 # if the way out of these is not much longer. After so many, one of its bodies is taken out.

@@ -6,12 +6,12 @@ import math
 from itertools import product
 
 from satcheck import core
-from satcheck.audit.boxes import diagonal
-from satcheck.audit.cheap_bounds import way_out_of_hulls
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.boxes import diagonal
+from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import examine
-from satcheck.audit.pair import Pair
-from satcheck.audit.plan import Plan
-from satcheck.audit.report import Vector
+from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
+from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import scaled, unit
 

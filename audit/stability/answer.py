@@ -5,14 +5,22 @@ from __future__ import annotations
 import math
 
 from satcheck import core
+from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
+from satcheck.audit.bodies.triangles import crossing_depth
 from satcheck.audit.check import check
-from satcheck.audit.pair import Pair
-from satcheck.audit.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.planner import asked_by
-from satcheck.audit.report import OVERLAPS, Finding, Quality, Relation, Report, Vector, Witness
-from satcheck.audit.settings import Settings
+from satcheck.audit.report.report import (
+    OVERLAPS,
+    Finding,
+    Quality,
+    Relation,
+    Report,
+    Vector,
+    Witness,
+)
 from satcheck.audit.stability.variant import Rows, Variant
-from satcheck.audit.triangles import crossing_depth
 from satcheck.core.frozen import frozen, replace
 from satcheck.scene import Body, Scene
 

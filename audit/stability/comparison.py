@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.audit.report import OVERLAPS
+from satcheck.audit.report.report import OVERLAPS
 from satcheck.audit.stability.answer import NESTED, Answer
 from satcheck.audit.stability.bounds import rounding_of_figures
 from satcheck.audit.stability.variant import Variant

@@ -9,7 +9,7 @@ from itertools import permutations, product
 import numpy as np
 from numpy.random import Generator
 
-from satcheck.audit.report import Vector
+from satcheck.audit.report.report import Vector
 from satcheck.audit.stability.bounds import rounded_once, stretch
 from satcheck.audit.stability.variant import Points, Question, Rows, Variant, body
 from satcheck.core.transform import of_quaternion

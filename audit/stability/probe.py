@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.random import Generator
 
+from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import Progress
-from satcheck.audit.settings import Settings
 from satcheck.audit.stability.answer import ask
 from satcheck.audit.stability.comparison import compare
 from satcheck.audit.stability.meshings import noisy, reordered, retessellated

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from satcheck.audit.report import Relation, Vector
+from satcheck.audit.report.report import Relation, Vector
 from satcheck.audit.stability.answer import Answer
 from satcheck.audit.stability.comparison import Comparison, Judgement
 from satcheck.audit.stability.variant import Family

@@ -5,14 +5,14 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.roster import Known
 from satcheck.audit.finding import examine
-from satcheck.audit.ladder import Contact, settle
-from satcheck.audit.pair import Pair
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import asked_by
-from satcheck.audit.report import Finding
-from satcheck.audit.roster import Known
-from satcheck.audit.settings import Settings
+from satcheck.audit.ladder.ladder import Contact, settle
+from satcheck.audit.report.report import Finding
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.tradeoff.cpu import CpuClock
 from satcheck.audit.tradeoff.memory import ChildMemory
@@ -129,7 +129,7 @@ def ask_volume(bodies: Bodies, settings: Settings) -> Measured | str:
 
 
 def _volume(pair: Pair) -> tuple[float, float] | str:
-    from satcheck.audit.volume import common_volume
+    from satcheck.audit.figures.volume import common_volume
 
     if pair.curved:
         return "a curved shape has no triangles"

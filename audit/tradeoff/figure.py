@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import math
 
-from satcheck.audit.ladder import Contact
-from satcheck.audit.report import OVERLAPS, Finding, Relation
+from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.report.report import OVERLAPS, Finding, Relation
 from satcheck.core.frozen import frozen
 
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 
-from satcheck.audit.report import OVERLAPS, Stage
-from satcheck.audit.settings import Settings
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.report.report import OVERLAPS, Stage
 from satcheck.audit.tradeoff.asking import Asked, Bodies, Measured, ask, ask_parts, ask_volume
 from satcheck.audit.tradeoff.figure import Truth, figure_of, plain, truth_of
 from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, State, Times, with_front

@@ -5,7 +5,7 @@ from __future__ import annotations
 from statistics import median
 from typing import Any, Literal
 
-from satcheck.audit.report import OVERLAPS, Relation, Tool
+from satcheck.audit.report.report import OVERLAPS, Relation, Tool
 from satcheck.audit.tradeoff.figure import Figure, Truth
 from satcheck.audit.tradeoff.pareto import front
 from satcheck.audit.tradeoff.rungs import Rung

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.audit.settings import Accuracy
+from satcheck.audit.asked.settings import Accuracy
 from satcheck.core.frozen import frozen
 
 

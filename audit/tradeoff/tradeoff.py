@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from satcheck import core
-from satcheck.audit.broad_phase import close_pairs
+from satcheck.audit.asked.planner import Planner
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.roster import place
 from satcheck.audit.check import Progress
-from satcheck.audit.planner import Planner
-from satcheck.audit.roster import place
-from satcheck.audit.settings import Settings
+from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.summary import tool
 from satcheck.audit.tradeoff.asking import Bodies
 from satcheck.audit.tradeoff.measure import Budget, measure_pair

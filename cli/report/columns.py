@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 
 from rich.cells import cell_len, chop_cells
 
-from satcheck.audit.report import OVERLAPS
+from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import duration, number, vector
 from satcheck.cli.report.words import contacts, depth, in_motion
 from satcheck.core.frozen import frozen
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import Finding
+    from satcheck.audit.report.report import Finding
 
 # Narrower than this a name is not broken: the terminal may fold the row.
 NARROWEST_NAME = 6

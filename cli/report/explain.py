@@ -13,7 +13,7 @@ from satcheck.cli.report.numbers import at_most, duration, number
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import BodyReport, EffectReport, Finding, Report
+    from satcheck.audit.report.report import BodyReport, EffectReport, Finding, Report
 
 
 # Of those who ask for an effect.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from satcheck.cli._json import text
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import Report
+    from satcheck.audit.report.report import Report
 
 
 def render(report: Report, *, timings: bool) -> list[str]:

@@ -12,7 +12,7 @@ from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import by_surfaces, counted, issue_line, place
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import BodyReport, Finding, Report
+    from satcheck.audit.report.report import BodyReport, Finding, Report
 
 _ISSUE_COLOURS = {"warning": "yellow", "note": ""}
 

@@ -10,14 +10,14 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from satcheck.audit.report import OVERLAPS
+from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.words import counted, depth, in_motion, issue_line
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.audit.report import Finding
+    from satcheck.audit.report.report import Finding
     from satcheck.audit.samples import PairTally, Sample, Samples
     from satcheck.cli.output import Page
 

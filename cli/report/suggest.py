@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
-from satcheck.audit.report import OVERLAPS
+from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import number
 from satcheck.cli.report.words import counted
 from satcheck.scene.rules import Selector

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report import CROSS_CHECK, INTERNAL_ERROR, OVERLAPS, RELATIONS
+from satcheck.audit.report.report import CROSS_CHECK, INTERNAL_ERROR, OVERLAPS, RELATIONS
 from satcheck.cli.report.words import by_surfaces, counted, depth
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report import Finding, Report
+    from satcheck.audit.report.report import Finding, Report
 
 _WORDS = {"contains": "containing"}
 

@@ -15,7 +15,7 @@ from satcheck.cli.report.words import by_surfaces, counted
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.audit.report import Finding, Report
+    from satcheck.audit.report.report import Finding, Report
     from satcheck.cli.output import Page
 
 # More rows than this, and separated pairs are counted instead of listed.

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.roster import place
 from satcheck.audit.cross_check.opinions import DISAGREEMENT, say
 from satcheck.audit.cross_check.peers import MISSING, Peers
-from satcheck.audit.ladder import settle
-from satcheck.audit.pair import Pair
-from satcheck.audit.plan import Plan
-from satcheck.audit.planner import asked_by
-from satcheck.audit.roster import place
+from satcheck.audit.ladder.ladder import settle
 from satcheck.cli.report.summary import summary_line
 from satcheck.core import Mesh
 from satcheck.core.errors import SatcheckError

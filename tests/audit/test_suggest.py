@@ -9,7 +9,7 @@ import pytest
 
 from satcheck.audit import check
 from satcheck.audit.finding import examine
-from satcheck.audit.report import INTERNAL_ERROR
+from satcheck.audit.report.report import INTERNAL_ERROR
 from satcheck.audit.suggest import Suggestions, suggest
 from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Selector, load_scene

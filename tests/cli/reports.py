@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from satcheck.audit.contact_report import Contacts, ContactTotals, Curve, Patch
-from satcheck.audit.motion_report import Sweep
-from satcheck.audit.report import (
+from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
+from satcheck.audit.report.motion_report import Sweep
+from satcheck.audit.report.report import (
     BodyReport,
     Finding,
     Issue,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from satcheck.audit import Settings, settings
+from satcheck.audit.asked import settings
+from satcheck.audit.asked.settings import Settings
 from satcheck.cli import choices
 from satcheck.core import conventions
 

@@ -51,7 +51,8 @@ def test_two_small_convex_meshes(form: str) -> None:
 @pytest.mark.parametrize("option", ["--contacts", "--volume"])
 def test_what_was_not_asked_for_is_not_there(option: str) -> None:
     """Nor does asking load manifold3d or numpy here: they work in the child."""
-    stages = {"--contacts": "satcheck.audit.contacts", "--volume": "satcheck.audit.volume"}
+    figures = "satcheck.audit.figures"
+    stages = {"--contacts": f"{figures}.contacts", "--volume": f"{figures}.volume"}
     arguments = ("--format", "json", "box.obj", "box_pushed.stl")
     without, asked = imported(*arguments, code=1), imported(option, *arguments, code=1)
     assert without & set(stages.values()) == set()
@@ -60,7 +61,7 @@ def test_what_was_not_asked_for_is_not_there(option: str) -> None:
 
 
 def test_without_a_depth_its_search_is_not_even_imported() -> None:
-    search = {"satcheck.audit.depth", "satcheck.audit.concave_depth"}
+    search = {"satcheck.audit.figures.depth", "satcheck.audit.figures.concave_depth"}
     arguments = ("--format", "json", "l_bracket.obj", "peg_in_arm.ply")
     assert imported("--no-depth", *arguments, code=1) & search == set()
     assert search <= imported("--depth", *arguments, code=1)

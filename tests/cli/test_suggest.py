@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.audit.report import Tool
+from satcheck.audit.report.report import Tool
 from satcheck.audit.suggest import Suggestion, Suggestions
 from satcheck.cli.report.schema import text
 from satcheck.cli.report.suggest import srdf, toml

@@ -7,8 +7,8 @@ import re
 import pytest
 
 from satcheck.audit import Contacts
-from satcheck.audit.motion_report import Sweep
-from satcheck.audit.report import INTERNAL_ERROR, Issue
+from satcheck.audit.report.motion_report import Sweep
+from satcheck.audit.report.report import INTERNAL_ERROR, Issue
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import ROWS, render

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.rule_book import RuleBook, Subject
+from satcheck.audit.asked.rule_book import RuleBook, Subject
 from satcheck.core.frozen import replace
 from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.primitives import Box

@@ -12,7 +12,7 @@ from satcheck.audit.curved.exact.reach import sign_of_difference
 from satcheck.audit.curved.signed import ORIGIN
 
 if TYPE_CHECKING:
-    from satcheck.audit.placed_body import PlacedBody
+    from satcheck.audit.bodies.placed_body import PlacedBody
 
 ExactPair = tuple[CurvedBody | PolytopeBody, CurvedBody | PolytopeBody]
 

@@ -16,12 +16,12 @@ from satcheck.audit.curved.exact.polytope_body import Floats, PolytopeBody, Tria
 from satcheck.audit.curved.exact.proof import Proof, prove
 from satcheck.audit.curved.exact.reach import root_bounds
 from satcheck.audit.curved.signed import ORIGIN, Signed
-from satcheck.audit.report import Vector as Floating
+from satcheck.audit.report.report import Vector as Floating
 from satcheck.core.frozen import frozen, replace
 from satcheck.scene.shape_image import ShapeImage
 
 if TYPE_CHECKING:
-    from satcheck.audit.placed_body import PlacedBody
+    from satcheck.audit.bodies.placed_body import PlacedBody
 
 
 @frozen

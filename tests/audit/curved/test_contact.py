@@ -11,11 +11,11 @@ import pytest
 
 from satcheck import core
 from satcheck.audit import Settings
+from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.curved import contact
 from satcheck.audit.curved.nesting import holds, is_within_hull
 from satcheck.audit.curved.shape import curved_shape
 from satcheck.audit.curved.signed import convex_pair
-from satcheck.audit.placed_body import PlacedBody, SharedMesh
 from satcheck.core import Mesh
 from satcheck.core.frozen import replace
 from satcheck.scene import Body

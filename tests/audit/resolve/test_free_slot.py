@@ -8,8 +8,8 @@ import random
 import pytest
 
 from satcheck.audit import Settings
+from satcheck.audit.bodies.roster import place
 from satcheck.audit.resolve.free_slot import Slots
-from satcheck.audit.roster import place
 from tests.audit.resolve.boxes import boxes_scene, unit_at
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.curved.exact.pair import proven
 from satcheck.audit.curved.signed import convex_pair
-from satcheck.audit.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.settings import Settings
 from satcheck.scene import Body
 from tests.audit.curved.bodies import ask
 from tests.audit.curved.exact.contacts import all_contacts, bodies, turn

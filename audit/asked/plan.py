@@ -1,0 +1,35 @@
+"""The record of what was done about one pair, and of what could not be."""
+
+from __future__ import annotations
+
+from time import perf_counter_ns
+
+from satcheck.audit.report.report import Issue, Stage
+
+NANOSECONDS_PER_MICROSECOND = 1000.0
+
+
+class Plan:
+    """Stages in the order they ran, each with the time since the one before."""
+
+    __slots__ = ("_since", "issues", "stages")
+
+    def __init__(self) -> None:
+        self.stages: list[Stage] = []
+        self.issues: list[Issue] = []
+        self._since = perf_counter_ns()
+
+    def record(self, stage: str, result: str, detail: str = "") -> None:
+        now = perf_counter_ns()
+        elapsed = (now - self._since) / NANOSECONDS_PER_MICROSECOND
+        self.stages.append(Stage(stage, result, elapsed, detail))
+        self._since = now
+
+    def add(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
+        """A stage that ran elsewhere."""
+        elapsed = nanoseconds / NANOSECONDS_PER_MICROSECOND
+        self.stages.append(Stage(stage, result, elapsed, detail))
+
+    def complain(self, code: str, body: str | None, message: str) -> None:
+        """A warning about this pair; the same one from several pairs is reported once."""
+        self.issues.append(Issue(code, "warning", body, None, message))

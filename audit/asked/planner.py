@@ -1,0 +1,178 @@
+"""Who asks what about a pair: from the flags of a check and the rules of its scene to `Asked`.
+
+The stages look here, and nowhere else, whether they are called for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from satcheck.audit.asked.rule_book import NO_TERMS, RuleBook, Terms
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.report.report import Effect
+from satcheck.core.frozen import frozen, replace
+from satcheck.scene.rules import Rule, Severity
+
+# The key by which a rule asks for an effect.
+ASKING_KEYS: dict[Effect, str] = {
+    "depth": "max_depth",
+    "distance": "clearance",
+    "volume": "max_volume",
+}
+ALWAYS = "always"
+MOTIONS = "the motions of the scene"
+FOR_MESHES = "by default, for mesh files alone"
+
+
+@frozen
+class Asked:
+    """What is asked about one pair. Lengths and volumes in the units of the scene.
+
+    by: effect -> who asked for it, a flag or the name of a rule; no entry: nobody did.
+    clearance: None where there is none to keep. tolerance: None: the input precision.
+    max_depth, max_volume: what an overlap is allowed; severity: of the errors of the pair; None:
+    as ever. rules: key -> the name of the rule that set it.
+    """
+
+    by: Mapping[Effect, str]
+    clearance: float | None = None
+    tolerance: float | None = None
+    max_depth: float | None = None
+    max_volume: float | None = None
+    severity: Severity | None = None
+    rules: Mapping[str, str] | None = None
+
+    def wants(self, effect: Effect) -> bool:
+        return effect in self.by
+
+    def swept(self) -> Asked:
+        """The same of a pair of which one body moves against the other."""
+        return replace(self, by={**self.by, "sweep": MOTIONS})
+
+    @property
+    def limited(self) -> bool:
+        """The pair may overlap, within limits."""
+        return self.max_depth is not None or self.max_volume is not None
+
+    def rule(self, key: str) -> str | None:
+        """The name of the rule that set this key."""
+        return None if self.rules is None else self.rules.get(key)
+
+
+class Planner:
+    """What is asked about the pairs of a scene.
+
+    composed: the scene places its bodies, in a file of its own. Depth is then no default: a scene
+    has many pairs, and rules to ask for the depth of some. moving: some of its bodies move.
+    """
+
+    def __init__(
+        self, settings: Settings, book: RuleBook, composed: bool = False, moving: bool = False
+    ) -> None:
+        self.settings = settings
+        self.moving = moving
+        self._book = book
+        self._composed = composed
+        self._asked: dict[tuple[int, ...], Asked] = {}
+
+    def asked(self, i: int, j: int) -> Asked:
+        key = self._book.key(i, j)
+        if key not in self._asked:
+            terms = self._book.terms(i, j)
+            self._asked[key] = asked_by(self.settings, terms, composed=self._composed)
+        return self._asked[key]
+
+    def who_asks(self, effect: Effect) -> tuple[str, ...]:
+        """The flag, and the rules that ask for the effect; empty: nobody does."""
+        if effect == "sweep":
+            return (MOTIONS,) if self.moving else ()
+        flag = asked_by(self.settings, composed=self._composed).by.get(effect)
+        key = ASKING_KEYS.get(effect)
+        rules = (rule.name for rule in self._book.rules if key and _asks(rule, key))
+        return tuple(dict.fromkeys(([flag] if flag else []) + list(rules)))
+
+    @property
+    def depth(self) -> bool:
+        """Whether the depth of every overlap is asked for."""
+        return not self._composed if self.settings.depth is None else self.settings.depth
+
+    @property
+    def lengths_differ(self) -> bool:
+        """Whether rules give some pairs a clearance or a tolerance of their own."""
+        return self._book.sets("clearance") or self._book.sets("tolerance")
+
+    def asked_gap(self, i: int, j: int, resolution: float) -> float:
+        """A gap of this pair beyond this is not asked about. resolution: of both together."""
+        asked = self.asked(i, j)
+        band = resolution if asked.tolerance is None else asked.tolerance
+        return max(band, asked.clearance or 0.0)
+
+    def reach(self, resolutions: Mapping[int, float]) -> list[float]:
+        """Of each of these bodies a length, so that two of them are together no less than any gap
+        that is asked about."""
+        settings = self.settings
+        own = [self._book.longest(key) for key in ("clearance", "tolerance")]
+        clearance = settings.clearance or 0.0
+        return [
+            max(
+                resolution if settings.tolerance is None else 0.5 * settings.tolerance,
+                0.5 * max(clearance, *(lengths[body] for lengths in own)),
+            )
+            for body, resolution in resolutions.items()
+        ]
+
+
+def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Asked:
+    """What flags and rules ask together. A rule that sets a key stands above the flag, and a pair
+    that may overlap within limits has no clearance to keep."""
+    limits = {"max_depth": terms.max_depth, "max_volume": terms.max_volume}
+    limited = any(limits.values())
+    clearance = None if limited else settings.clearance
+    if terms.clearance is not None and not limited:
+        clearance = terms.clearance.clearance or None
+    deciding = {
+        **limits,
+        "clearance": None if limited else terms.clearance,
+        "tolerance": terms.tolerance,
+        "severity": terms.severity,
+    }
+    by: dict[Effect, str | None] = {
+        "overlap": ALWAYS,
+        "depth": _who_wants_depth(settings, terms.max_depth, composed),
+        "distance": None if clearance is None else _name(terms.clearance) or "--clearance",
+        "volume": "--volume" if settings.volume else _name(terms.max_volume),
+        "contacts": "--contacts" if settings.contacts else None,
+        "cross-check": "--cross-check" if settings.cross_check else None,
+        "certificate": "--certificate" if settings.certificate else None,
+    }
+    return Asked(
+        by={effect: who for effect, who in by.items() if who},
+        clearance=clearance,
+        tolerance=_value(terms.tolerance, "tolerance", settings.tolerance),
+        max_depth=_value(terms.max_depth, "max_depth", None),
+        max_volume=_value(terms.max_volume, "max_volume", None),
+        severity=None if terms.severity is None else terms.severity.severity,
+        rules={key: rule.name for key, rule in deciding.items() if rule is not None} or None,
+    )
+
+
+def _who_wants_depth(settings: Settings, rule: Rule | None, composed: bool) -> str | None:
+    if settings.depth:
+        return "--depth"
+    if rule is not None:
+        return rule.name
+    return FOR_MESHES if settings.depth is None and not composed else None
+
+
+def _asks(rule: Rule, key: str) -> bool:
+    """A clearance of 0 is none; a limit of 0 is one."""
+    value = getattr(rule, key)
+    return bool(value) if key == "clearance" else value is not None
+
+
+def _name(rule: Rule | None) -> str | None:
+    return None if rule is None else rule.name
+
+
+def _value(rule: Rule | None, key: str, default: float | None) -> float | None:
+    return default if rule is None else getattr(rule, key)

@@ -1,0 +1,43 @@
+"""Axis-aligned world boxes: the shortest way out, whether one holds the other."""
+
+from __future__ import annotations
+
+import math
+
+from satcheck.audit.report.report import Vector
+from satcheck.audit.tolerances import UNIT_ROUNDOFF
+
+Box = tuple[Vector, Vector]
+
+
+def largest_coordinate(*boxes: Box) -> float:
+    return max(abs(c) for box in boxes for corner in box for c in corner)
+
+
+def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
+    return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
+
+
+def holds(outer: Box, inner: Box) -> bool:
+    """Whether the closed outer box contains the inner one: what containment of bodies needs."""
+    return all(
+        outer[0][axis] <= inner[0][axis] and inner[1][axis] <= outer[1][axis] for axis in range(3)
+    )
+
+
+def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
+    """The shortest translation of A after which the boxes have no common interior.
+
+    Returns its length (rounded outward; 0.0 when they have none now) and the unit normal from A to
+    B, so that the translation is -length * normal. Ties go to the first axis, negative side first.
+    """
+    best, normal = math.inf, (1.0, 0.0, 0.0)
+    for axis in range(3):
+        for sign, reach in (
+            (1.0, a[1][axis] - b[0][axis]),
+            (-1.0, b[1][axis] - a[0][axis]),
+        ):
+            if reach < best:
+                best = reach
+                normal = tuple(sign if k == axis else 0.0 for k in range(3))  # type: ignore[assignment]
+    return max(best, 0.0) * (1 + 2 * UNIT_ROUNDOFF), normal

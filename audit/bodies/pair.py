@@ -1,0 +1,96 @@
+"""A question about two bodies: what is asked, how far to climb the ladder, with what tools."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.audit.asked.planner import Asked
+from satcheck.audit.asked.settings import ACCURACIES, Accuracy, Settings
+from satcheck.audit.bodies.boxes import diagonal, largest_coordinate
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.tolerances import TOUCH_FRACTION
+from satcheck.core.conventions import axes_of
+from satcheck.core.frozen import derived, frozen
+
+if TYPE_CHECKING:
+    from satcheck.audit.cross_check.peers import Peers
+    from satcheck.audit.motion.movers import Paths
+    from satcheck.core.overlap_volume import VolumeMeter
+
+
+_RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
+
+
+@frozen
+class Pair:
+    """tolerance: half width of the touch band, world units.
+
+    By default either surface may be off by its own input precision, so the sum of both; but
+    coordinates without decimals, far from the origin, must not swallow a whole body. Never less
+    than what polygons may be off the curves that they stand for.
+    paths: how the bodies move against each other; None: they do not. alone: no other pair, of this
+    check or another, asks for anything of these bodies.
+    """
+
+    a: PlacedBody
+    b: PlacedBody
+    settings: Settings
+    asked: Asked
+    meter: VolumeMeter | None = None
+    peers: Peers | None = None
+    paths: Paths | None = None
+    alone: bool = False
+    tolerance: float = derived()
+
+    def __post_init__(self) -> None:
+        tolerance = self.asked.tolerance
+        if tolerance is None:
+            tolerance = self._precision()
+        object.__setattr__(self, "tolerance", tolerance)
+
+    def _precision(self) -> float:
+        plane = self.settings.planar
+        if plane is None:
+            size = min(self.a.diagonal, self.b.diagonal)
+        else:
+            axes = axes_of(plane)
+            size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
+        written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
+        return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
+
+    def may(self, rung: Accuracy) -> bool:
+        """Whether --accuracy lets this pair climb to the rung."""
+        return _RANK[rung] <= _RANK[self.settings.accuracy]
+
+    @property
+    def asked_gap(self) -> float:
+        """A gap beyond this needs no figure: it is neither near nor in the touch band."""
+        return max(self.asked.clearance or 0.0, self.tolerance)
+
+    @property
+    def largest_coordinate(self) -> float:
+        return largest_coordinate(self.a.bounds, self.b.bounds)
+
+    @property
+    def curved(self) -> bool:
+        """One body at least is a curved shape, of which the mesh is only within it."""
+        return self.a.curved is not None or self.b.curved is not None
+
+    @property
+    def triangles(self) -> int:
+        """Of both, in their files."""
+        return self.a.shared.triangles + self.b.shared.triangles
+
+    @property
+    def outlined(self) -> bool:
+        """In a check in a plane: both are convex polygons."""
+        return self.a.body.file.outline is not None and self.b.body.file.outline is not None
+
+    @property
+    def both_solid(self) -> bool:
+        return self.a.solid and self.b.solid
+
+    @property
+    def both_convex(self) -> bool:
+        """The convex answer is the whole answer."""
+        return self.a.convex and self.b.convex

@@ -1,0 +1,89 @@
+"""Convex parts of a body in the world frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck import core
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.core.frozen import frozen
+
+if TYPE_CHECKING:
+    from satcheck.decompose import Decomposition
+
+
+@frozen
+class Part:
+    """A convex body in the world frame, with its box."""
+
+    shape: core.Shape
+    bounds: Box
+
+
+@frozen
+class Covering:
+    """Convex parts that stand for a mesh: they stick out of it by at most `outside`, and it out of
+    them by at most `missing`; world units."""
+
+    parts: list[Part]
+    outside: float
+    missing: float
+
+
+def decomposition(body: PlacedBody, plan: Plan) -> Decomposition | None:
+    """The convex parts of the body's file, in file coordinates; None, and a warning, on failure."""
+    from satcheck.decompose import DecompositionError
+
+    found = body.shared.decomposition()
+    if isinstance(found, DecompositionError):
+        plan.complain(found.code, body.id, f"no convex parts: {found.message}")
+        return None
+    return found
+
+
+def split_together(pair: Pair) -> None:
+    """Decomposes both bodies side by side: each is a process of its own that takes seconds.
+
+    What is found, or that nothing was, is remembered by the bodies' files.
+    """
+    waiting = [body.shared for body in (pair.a, pair.b) if not body.convex]
+    if len(waiting) < 2 or waiting[0] is waiting[1] or pair.settings.jobs == 1:
+        return
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(len(waiting)) as pool:
+        list(pool.map(lambda shared: shared.decomposition(), waiting))
+
+
+def inner_parts(body: PlacedBody, plan: Plan) -> list[Part]:
+    """Parts proven to lie inside the body's mesh, up to the rounding of the pose; may be empty."""
+    if body.convex:
+        return [Part(body.hull_shape(), body.bounds)]
+    found = decomposition(body, plan)
+    return (
+        [] if found is None else [_placed(part, body) for part in found.inner if part is not None]
+    )
+
+
+def covering(body: PlacedBody, plan: Plan) -> Covering | None:
+    if body.convex:
+        return Covering([Part(body.hull_shape(), body.bounds)], 0.0, 0.0)
+    found = decomposition(body, plan)
+    if found is None:
+        return None
+    stretch = body.largest_stretch
+    return Covering(
+        [_placed(part, body) for part in found.parts],
+        found.outside * stretch,
+        found.missing * stretch,
+    )
+
+
+def _placed(part: core.Polytope, body: PlacedBody) -> Part:
+    mesh = part.to_mesh()
+    if body.body.transform is not None:
+        mesh = mesh.transformed(body.body.transform)
+    return Part(core.Hull(mesh.convex_hull()), mesh.bounds)

@@ -1,0 +1,246 @@
+"""A body in the world, with everything that can be derived from it built once, when asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from threading import Lock, RLock
+from typing import TYPE_CHECKING, Generic, TypeVar
+
+from satcheck import core
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.boxes import Box, diagonal, largest_coordinate
+from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
+from satcheck.core.frozen import frozen
+from satcheck.scene.bodies import resolution_in_world
+
+if TYPE_CHECKING:
+    from satcheck.audit.curved.shape import CurvedShape
+    from satcheck.decompose import Decomposition, DecompositionError
+    from satcheck.scene import Body, MeshFile
+    from satcheck.verify.bodies import Placed, Shape
+
+T = TypeVar("T")
+MeshKey = tuple[str, str, str | None]
+
+# Held while a body gets its geometry, which makes nothing yet.
+_MAKING = Lock()
+
+
+class Once(Generic[T]):
+    """A value made by the first thread that asks; `known` is None until then."""
+
+    __slots__ = ("_lock", "_make", "known")
+
+    def __init__(self, make: Callable[[], T]) -> None:
+        self._make = make
+        self._lock = RLock()
+        self.known: T | None = None
+
+    def __call__(self) -> T:
+        with self._lock:
+            if self.known is None:
+                self.known = self._make()
+            return self.known
+
+
+def mesh_key(file: MeshFile) -> MeshKey:
+    """The same for the same mesh. Not the sha256 alone: files of the same bytes can refer to
+    neighbours that differ."""
+    return file.path, file.sha256, file.part
+
+
+@frozen
+class Work:
+    """What was done for the bodies of one file, counted.
+
+    hierarchies: built; refits: fitted again to placed vertices; decompositions: asked for.
+    """
+
+    hierarchies: int
+    refits: int
+    decompositions: int
+
+
+class SharedMesh:
+    """What all bodies made of one mesh share, in file coordinates.
+
+    geometry: its tree, its hull, whether it is convex. largest: coordinate, in size. covers_once():
+    a solid that covers no point twice, so that its volume is that of its mesh.
+    """
+
+    __slots__ = (
+        "_decompositions",
+        "covers_once",
+        "decomposition",
+        "file",
+        "geometry",
+        "largest",
+        "shape",
+        "triangles",
+    )
+
+    def __init__(self, file: MeshFile, settings: Settings) -> None:
+        self.file = file
+        self.triangles = file.mesh.triangle_count
+        self.largest = largest_coordinate(file.mesh.bounds)
+        self.geometry = core.Geometry(file.mesh, file.health.solid, file.topology.plain_solid)
+        self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
+        self.decomposition = Once(lambda: self._decomposition(settings))
+        self.shape = Once(self._shape)
+        self._decompositions = 0
+
+    @property
+    def work(self) -> Work:
+        geometry = self.geometry
+        return Work(geometry.hierarchies, geometry.refits, self._decompositions)
+
+    def _shape(self) -> Shape:
+        """As the checker of certificates sees it."""
+        from satcheck.verify.bodies import shape_of
+
+        return shape_of(self.file)
+
+    def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
+        """A failure is an answer too: it is not tried again for the next pair."""
+        from satcheck.decompose import Cache, DecompositionError, decompose
+
+        self._decompositions += 1
+        directory = settings.cache_directory
+        cache = Cache(None if directory is None else Path(directory)) if settings.cache else None
+        try:
+            return decompose(
+                self.file.mesh,
+                threshold=settings.part_threshold,
+                seed=settings.part_seed,
+                seconds=settings.part_seconds,
+                megabytes=settings.part_megabytes,
+                cache=cache,
+            )
+        except DecompositionError as error:
+            return error
+
+
+def _curved(body: Body) -> CurvedShape | None:
+    """ValueError when the transform makes no such shape of it."""
+    if body.shape is None:
+        return None
+    from satcheck.scene.primitives import is_curved
+
+    if not is_curved(body.shape):
+        return None
+    from satcheck.audit.curved.shape import curved_shape
+
+    return curved_shape(body.shape, body.transform)
+
+
+def _checked(body: Body, shared: SharedMesh) -> Placed:
+    from satcheck.scene.primitives import is_curved
+    from satcheck.verify.bodies import curved_of, place_shape
+
+    primitive = body.shape
+    curved = primitive is not None and is_curved(primitive)
+    shape = curved_of(body.file, primitive) if curved and primitive else shared.shape()
+    return place_shape(body.id, body.groups, shape, body.transform)
+
+
+class PlacedBody:
+    """World frame. bounds: ((x, y, z), (x, y, z)), and their diagonal; resolution: the input
+    precision, world units.
+
+    curved: the shape, where the body is one; its mesh is then only within it, its bounds around it.
+    A scene has many bodies and most are far from each other: what is more than this is made when it
+    is asked for, and can be let go again.
+    """
+
+    __slots__ = (
+        "_checked",
+        "_geometry",
+        "body",
+        "bounds",
+        "curved",
+        "diagonal",
+        "id",
+        "resolution",
+        "shared",
+        "solid",
+    )
+
+    def __init__(self, body: Body, shared: SharedMesh, bounds: Box | None = None) -> None:
+        """bounds: of the mesh, where known. ValueError, OverflowError when it cannot be placed."""
+        self.body = body
+        self.shared = shared
+        self.id = body.id
+        self.bounds: Box = body.world_mesh().bounds if bounds is None else bounds
+        self.curved = _curved(body)
+        if self.curved is not None:
+            self.bounds = self.curved.bounds()
+        self.diagonal = diagonal(self.bounds)
+        self.resolution = resolution_in_world(body.file, body.transform, shared.largest)
+        self.solid = body.file.health.solid
+        self._geometry: core.PlacedGeometry | None = None
+        self._checked: Placed | None = None
+
+    @property
+    def geometry(self) -> core.PlacedGeometry:
+        """What the core makes of the body in the world, once a pair asks for it."""
+        geometry = self._geometry
+        if geometry is None:
+            with _MAKING:
+                geometry = self._geometry = self._geometry or core.PlacedGeometry(
+                    self.shared.geometry, self.body.transform, self.bounds, self.resolution
+                )
+        return geometry
+
+    def let_go(self) -> None:
+        """Forget what was made; it is made again should somebody ask."""
+        self._geometry = self._checked = None
+
+    @property
+    def mesh(self) -> core.Mesh:
+        return self.geometry.mesh
+
+    def surface(self) -> core.Surface:
+        return self.geometry.surface()
+
+    def hull(self) -> core.Polytope:
+        return self.geometry.hull()
+
+    def hull_shape(self) -> core.Shape:
+        return self.geometry.hull_shape()
+
+    def checked(self) -> Placed:
+        """The body as the checker of certificates sees it."""
+        checked = self._checked
+        if checked is None:
+            checked = self._checked = _checked(self.body, self.shared)
+        return checked
+
+    @property
+    def convex(self) -> bool:
+        return self.shared.geometry.convex
+
+    @property
+    def largest_stretch(self) -> float:
+        """An upper bound of how much longer the transform makes a length, tight for rigid ones:
+        the largest singular value of M squared is at most the largest row sum of |M^T M|."""
+        transform = self.body.transform
+        if transform is None:
+            return 1.0
+        columns = [[transform[4 * row + axis] for row in range(3)] for axis in range(3)]
+        rows = [
+            math.fsum(
+                abs(math.fsum(p * q for p, q in zip(one, other, strict=True))) for other in columns
+            )
+            for one in columns
+        ]
+        return math.sqrt(max(rows)) * (1 + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF)
+
+
+def world_bounds(bodies: Sequence[Body], threads: int) -> list[Box | None]:
+    """Of all bodies at once, without placing a mesh; None for one that cannot be placed."""
+    moved = [(body.file.mesh, body.transform) for body in bodies if body.transform is not None]
+    meshes, matrices = [mesh for mesh, _ in moved], [matrix for _, matrix in moved]
+    placed = iter(core.placed_bounds(meshes, matrices, threads))
+    return [body.file.mesh.bounds if body.transform is None else next(placed) for body in bodies]

@@ -1,0 +1,133 @@
+"""Who takes part, and which pairs are asked about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from satcheck.audit.asked.rule_book import RuleBook, Subject
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.placed_body import (
+    MeshKey,
+    PlacedBody,
+    SharedMesh,
+    mesh_key,
+    world_bounds,
+)
+from satcheck.audit.report.report import Issue
+from satcheck.core.frozen import frozen
+from satcheck.scene import Body
+
+if TYPE_CHECKING:
+    from satcheck.scene import Scene
+    from satcheck.scene.rules import Rule
+
+
+@frozen
+class Lost:
+    """A body that takes part in pairs, none of which can be decided."""
+
+    id: str
+    file: str
+    reason: str
+    groups: tuple[str, ...] = ()
+    path: str | None = None
+    static: bool = False
+
+
+@frozen
+class Roster:
+    """Bodies by index, in the order given: each is either placed or lost. ids follow it, and so
+    does the book of rules."""
+
+    placed: dict[int, PlacedBody]
+    lost: dict[int, Lost]
+    ids: tuple[str, ...]
+    book: RuleBook
+    issues: tuple[Issue, ...]
+
+    def unreadable_pairs(self) -> Iterator[tuple[int, int, str]]:
+        """Asked pairs of which one body is lost, with the reason."""
+        for k, body in self.lost.items():
+            for other in range(len(self.ids)):
+                if other in self.lost and other >= k:
+                    continue
+                if self.book.is_asked(k, other):
+                    yield min(k, other), max(k, other), body.reason
+
+
+class Known:
+    """What a check leaves for others with the same settings, of the same bodies elsewhere.
+
+    meshes: what depends on a mesh alone. placed: by their ids, those that stayed where they are
+    need nothing new. book: what the scene says of its pairs; None: not yet.
+    """
+
+    __slots__ = ("book", "meshes", "placed")
+
+    def __init__(self) -> None:
+        self.meshes: dict[MeshKey, SharedMesh] = {}
+        self.placed: dict[str, PlacedBody] = {}
+        self.book: RuleBook | None = None
+
+    def place(self, body: Body, settings: Settings, bounds: Box | None) -> PlacedBody:
+        """bounds: of its mesh in the world, where known. Raises ValueError or OverflowError where
+        its pose leaves the number range."""
+        earlier = self.placed.get(body.id)
+        if earlier is not None and earlier.body is body:
+            return earlier
+        key = mesh_key(body.file)
+        if key not in self.meshes:
+            self.meshes[key] = SharedMesh(body.file, settings)
+        self.placed[body.id] = PlacedBody(body, self.meshes[key], bounds)
+        return self.placed[body.id]
+
+
+def place(scene: Scene, settings: Settings, known: Known | None = None) -> Roster:
+    """Put every body into the world; one whose pose leaves the number range is lost.
+
+    known: from earlier checks of these bodies; what is new here is added.
+    """
+    known = known or Known()
+    if settings.planar is not None:
+        known.meshes.clear()  # an outline is that of one placement
+    placed: dict[int, PlacedBody] = {}
+    lost: dict[int, Lost] = {}
+    issues: list[Issue] = []
+    members = scene.in_order()
+    readable = [body for body in members if isinstance(body, Body)]
+    bounds = iter(world_bounds(readable, settings.jobs))
+    for index, body in enumerate(members):
+        if not isinstance(body, Body):
+            reason = f"unreadable {body.file}: {body.issue.code}"
+            lost[index] = Lost(body.id, body.file, reason, body.groups, body.path, body.static)
+            continue
+        try:
+            placed[index] = known.place(body, settings, next(bounds))
+        except (ValueError, OverflowError) as error:
+            reason = f"cannot be placed: {error}"
+            lost[index] = Lost(body.id, body.file.path, reason, body.groups, body.path, body.static)
+            issues.append(_unplaceable(body, error))
+    known.book = known.book or RuleBook(
+        [Subject(body.id, body.groups, body.static) for body in members],
+        scene.rules,
+        scene.ignore_within_groups,
+        scene.check_static,
+    )
+    return Roster(
+        placed=placed,
+        lost=lost,
+        ids=tuple(body.id for body in members),
+        book=known.book,
+        issues=(*map(_unused, known.book.unused()), *issues),
+    )
+
+
+def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:
+    return Issue("unplaceable", "error", body.id, body.file.path, str(error))
+
+
+def _unused(rule: Rule) -> Issue:
+    message = f"{rule.name}: the rule is about no pair of bodies"
+    return Issue("unused-rule", "warning", None, None, message)

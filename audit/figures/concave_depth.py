@@ -1,0 +1,143 @@
+"""The depth of a pair of which one body at least is not convex: a proven interval.
+
+The hulls of the whole meshes are an upper bound, and so is every translation that was found to free
+the meshes. A crossing pair of triangles on which both bodies end is a lower bound, because a free A
+has none, and so is the gap around a body inside another. Between the two the translations
+themselves are searched (core.search_depth), with convex regions inside the meshes, grown where they
+are needed, as the proof that a translation leaves an overlap. A ladder that ends below the meshes
+has convex parts for that.
+"""
+
+from __future__ import annotations
+
+import math
+
+from satcheck import core
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.triangles import crossing_depth
+from satcheck.audit.figures.depth import Depth
+from satcheck.audit.figures.verify import Escape, verified_escape
+from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
+from satcheck.audit.ladder.inner_bodies import depth_of_parts
+from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.report.report import Vector
+from satcheck.audit.tolerances import EXACT_WIDTH, UNIT_ROUNDOFF
+from satcheck.core.conventions import axis_across
+
+# Work units of the search in a second of `depth_budget`: what a slow machine of today gets done, so
+# that the budget is not exceeded there. A number and not a clock: the same input, the same answer.
+WORK_PER_SECOND = 100_000_000
+# An interval on both sides of a limit is narrowed again, each time by this factor.
+NARROWER = 8
+
+
+def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
+    """The depth of an overlapping pair of which the hulls do not say everything."""
+    hulls = way_out_of_hulls(pair)
+    plan.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
+    lower = _cheap_lower_bound(pair, contact, plan)
+    way_out = None
+    if pair.may("exact"):
+        lower, way_out = _searched(pair, lower, hulls.upper, plan)
+    elif contact.proven and pair.may("parts"):
+        lower = max(lower, depth_of_parts(pair, plan))
+    if way_out is not None:
+        length, normal = _length_and_normal(way_out)
+        escape = verified_escape(pair, length, normal, plan)
+        if escape.verified:
+            return Depth(min(lower, escape.bound), escape.bound, normal, escape)
+    escape = verified_escape(pair, hulls.length, hulls.normal, plan)
+    upper = min(hulls.upper, escape.bound)
+    return Depth(min(lower, upper), upper, hulls.normal, escape)
+
+
+def _searched(pair: Pair, lower: float, upper: float, plan: Plan) -> tuple[float, Vector | None]:
+    """The lower bound and the way out that are narrow enough: also to say on which side of a limit
+    the depth is, as far as the budget goes."""
+    work, width = _budget(pair), pair.settings.depth_width
+    found = search(pair, lower, upper, plan)
+    way_out = found.way_out
+    while found.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, found):
+        width, work = width / NARROWER, work - found.work
+        if work <= 0:
+            break
+        found = search(pair, found.lower, found.upper, plan, width=width, work=work)
+        way_out = found.way_out or way_out
+    return found.lower, way_out
+
+
+def _straddles(pair: Pair, found: core.DepthInterval) -> bool:
+    limit = pair.asked.max_depth
+    return limit is not None and found.lower <= limit < found.upper
+
+
+def _budget(pair: Pair) -> int:
+    return math.ceil(pair.settings.depth_budget * WORK_PER_SECOND)
+
+
+def search(
+    pair: Pair,
+    lower: float,
+    upper: float,
+    plan: Plan,
+    *,
+    width: float | None = None,
+    work: int | None = None,
+) -> core.DepthInterval:
+    """The interval between known bounds narrowed, by translations of A that free the meshes and by
+    proofs that others do not. width, work: those of the settings."""
+    found = core.search_depth(
+        pair.a.surface(),
+        pair.b.surface(),
+        upper=upper,
+        lower=min(lower, upper),
+        width=pair.settings.depth_width if width is None else width,
+        work=_budget(pair) if work is None else work,
+        across=-1 if (plane := pair.settings.planar) is None else axis_across(plane),
+    )
+    reason = "" if found.stop == "narrow" else "; the budget ended the search"
+    plan.record(
+        "search",
+        "narrow" if found.stop == "narrow" else "budget spent",
+        f"from {found.lower:.6g} to {found.upper:.6g} by {found.boxes} boxes of translations, "
+        f"{found.sets} convex sets of them, {found.mesh_tests} tests of the meshes{reason}",
+    )
+    return found
+
+
+def _cheap_lower_bound(pair: Pair, contact: Contact, plan: Plan) -> float:
+    if not contact.proven:
+        return 0.0
+    gap = gap_around(pair, contact)
+    if gap > 0:
+        plan.record("depth", "lower bound", f"at least {gap:.6g} by the gap around the inner body")
+    return max(gap, crossing_depth(pair, contact.crossing))
+
+
+def depth_by_move(pair: Pair, contact: Contact, move: Vector, plan: Plan) -> Depth:
+    """The depth of a pair that a verified translation of A within the touch band frees.
+
+    A band that somebody asked for is not allowed to make the figures coarser: a shorter move is
+    then searched, as without a band. Within the input precision there is nothing to refine.
+    """
+    if pair.asked.tolerance is None:
+        return depth_of_move(pair, move, crossing_depth(pair, contact.crossing))
+    depth = concave_depth(pair, contact, plan)
+    if depth.escape.verified and depth.upper <= math.hypot(*move):
+        return depth
+    return depth_of_move(pair, move, depth.lower)
+
+
+def depth_of_move(pair: Pair, move: Vector, lower: float) -> Depth:
+    """Of a pair that a verified translation of A frees."""
+    length, normal = _length_and_normal(move)
+    upper = length + 2 * UNIT_ROUNDOFF * pair.largest_coordinate
+    return Depth(min(lower, upper), upper, normal, Escape(move, True, upper))
+
+
+def _length_and_normal(translation: Vector) -> tuple[float, Vector]:
+    """Its length and the direction against it; both exact along an axis."""
+    length = math.hypot(*translation)
+    x, y, z = (0.0 - c / length for c in translation)
+    return length, (x, y, z)

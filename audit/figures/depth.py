@@ -1,0 +1,63 @@
+"""How deep two bodies with a common interior overlap, and the way out for A."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck import core
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.figures.verify import Escape, verified_escape
+from satcheck.audit.report.report import Vector, Witness
+from satcheck.core.frozen import frozen
+
+if TYPE_CHECKING:
+    from satcheck.audit.curved.signed import Signed
+    from satcheck.audit.ladder.ladder import Contact
+
+
+@frozen
+class Depth:
+    """World units: lower <= true depth <= upper.
+
+    normal: unit, from A to B, along which A retreats; escape: the translation that was verified,
+    which may be longer than the depth by what verification asked for. witness: with
+    witness_b - witness_a = -upper * normal to rounding, known for convex pairs.
+    """
+
+    lower: float
+    upper: float
+    normal: Vector
+    escape: Escape
+    witness: Witness | None = None
+
+
+def measure_depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Depth:
+    """The depth of an overlapping pair: exact for convex ones, an interval for the others.
+
+    move: a translation of A within the touch band that is known to free it.
+    """
+    if contact.convex is not None:
+        return _convex_depth(pair, contact.convex, plan)
+    if pair.curved:
+        from satcheck.audit.curved.depth import sandwiched_depth
+
+        return sandwiched_depth(pair, move, plan)
+    from satcheck.audit.figures.concave_depth import concave_depth, depth_by_move
+
+    if move is not None:
+        return depth_by_move(pair, contact, move, plan)
+    return concave_depth(pair, contact, plan)
+
+
+def _convex_depth(pair: Pair, result: core.PairResult | Signed, plan: Plan) -> Depth:
+    if result.distance is None or result.normal is None:
+        raise AssertionError("a penetrating pair has a signed distance and a normal")
+    value = max(-result.distance, 0.0)
+    escape = verified_escape(pair, value, result.normal, plan)
+    lower = value if result.upper is None else min(max(0.0, -result.upper), value)
+    upper = escape.bound if result.lower is None else min(-result.lower, escape.bound)
+    witness = None
+    if result.witness_a is not None and result.witness_b is not None:
+        witness = Witness(result.witness_a, result.witness_b)
+    return Depth(lower, max(upper, value), result.normal, escape, witness)

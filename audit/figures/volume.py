@@ -1,0 +1,77 @@
+"""The stage `volume`: what two solids have in common, for those who ask."""
+
+from __future__ import annotations
+
+import math
+
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.tolerances import UNIT_ROUNDOFF, VOLUME_ROUNDOFFS
+from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
+
+
+@frozen
+class CommonVolume:
+    """volume and error: None where refused; refusal: why."""
+
+    volume: float | None = None
+    error: float | None = None
+    refusal: str | None = None
+
+
+NOTHING = CommonVolume(0.0, 0.0)
+
+
+def common_volume(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
+    """Of the exact relation, whatever the touch band: a relation that says it all costs nothing."""
+    nothing = contact.proven and contact.relation in ("separated", "touching")
+    if nothing and (pair.both_solid or contact.gap_lower > 0):
+        return NOTHING
+    if not pair.may("exact"):
+        refusal = f"found on triangles: not at --accuracy {pair.settings.accuracy}"
+        plan.record("volume", "not measured", refusal)
+        return CommonVolume(refusal=f"no volume: {refusal}")
+    try:
+        for body in (pair.a, pair.b):
+            _require_measurable(body)
+        return _measured(pair, contact, plan)
+    except SatcheckError as refused:
+        plan.record("volume", "refused", refused.message)
+        where = "" if refused.body else f"{pair.a.id} and {pair.b.id}: "
+        plan.complain(refused.code, refused.body, where + refused.message)
+        return CommonVolume(refusal=f"no volume: {refused}")
+
+
+def _require_measurable(body: PlacedBody) -> None:
+    if not body.solid:
+        raise SatcheckError("volume-of-no-solid", "is no solid and has no volume", body=body.id)
+    if not body.shared.covers_once():
+        raise SatcheckError(
+            "volume-of-self-overlap",
+            "may overlap itself, so that its volume is not that of its mesh",
+            body=body.id,
+        )
+
+
+def _measured(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
+    inner = {"contains": pair.b, "inside": pair.a, "coincident": pair.a}.get(contact.relation)
+    if inner is not None:
+        found = _own_volume(inner)
+        plan.record("volume", "of the mesh", f"{inner.id} lies within the other")
+        return found
+    assert pair.meter is not None
+    common = pair.meter.measure(pair.a.mesh, pair.b.mesh)
+    detail = f"by manifold3d in a child process, off by about {common.error:.1g} at most"
+    plan.record("volume", "measured", detail)
+    return CommonVolume(max(common.volume, 0.0), common.error)
+
+
+def _own_volume(body: PlacedBody) -> CommonVolume:
+    volume = body.mesh.topology().volume
+    if not math.isfinite(volume):
+        raise SatcheckError("volume-out-of-range", "its volume is no float64", body=body.id)
+    box = math.prod(high - low for low, high in zip(*body.bounds, strict=True))
+    return CommonVolume(volume, VOLUME_ROUNDOFFS * UNIT_ROUNDOFF * body.mesh.triangle_count * box)

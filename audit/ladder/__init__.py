@@ -1,0 +1,1 @@
+"""The ladder: from boxes to triangles, each rung settles what it can prove."""

@@ -1,0 +1,61 @@
+"""Which asked pairs have world boxes close enough to be looked at.
+
+The search is that of the core; here its question is put: how far each body reaches, and what the
+scene exempts, so that exempt pairs are not made where that can be told beforehand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from satcheck import core
+from satcheck.audit.asked.planner import Planner
+from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.roster import Roster
+
+if TYPE_CHECKING:
+    from satcheck.audit.motion.movers import Movers
+
+IndexPair = tuple[int, int]
+
+
+def close_pairs(roster: Roster, planner: Planner, movers: Movers | None = None) -> list[IndexPair]:
+    """Asked pairs of placed bodies, sorted, no further apart by their boxes than is asked about.
+
+    movers: boxes are then those of whole motions.
+    """
+    index, book = tuple(roster.placed), roster.book
+    place = {body: k for k, body in enumerate(index)}
+    boxes = {k: body.bounds for k, body in roster.placed.items()}
+    if movers is not None:
+        boxes = {k: movers.bounds(roster.ids[k], box) for k, box in boxes.items()}
+    close = core.close_pairs(
+        list(boxes.values()),
+        planner.reach({k: body.resolution for k, body in roster.placed.items()}),
+        [book.kind_of[i] for i in index],
+        book.exempt_kinds(),
+        _among(book.exempt_named(), place),
+    )
+    found = close if len(index) == len(roster.ids) else [(index[i], index[j]) for i, j in close]
+    if not book.rules:
+        return found
+    asked = [pair for pair in found if book.is_asked(*pair)]
+    return _within_own_gaps(roster, boxes, planner, asked) if planner.lengths_differ else asked
+
+
+def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]:
+    return [(place[i], place[j]) for i, j in pairs if i in place and j in place]
+
+
+def _within_own_gaps(
+    roster: Roster, boxes: Mapping[int, Box], planner: Planner, pairs: list[IndexPair]
+) -> list[IndexPair]:
+    """A body reaches as far as the furthest that any rule asks of it; each pair is asked less."""
+    placed = roster.placed
+    return [
+        (i, j)
+        for i, j in pairs
+        if core.box_gap(boxes[i], boxes[j])
+        <= planner.asked_gap(i, j, placed[i].resolution + placed[j].resolution)
+    ]

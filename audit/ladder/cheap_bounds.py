@@ -1,0 +1,45 @@
+"""Bounds of the depth of an overlapping pair that need no search."""
+
+from __future__ import annotations
+
+from satcheck import core
+from satcheck.audit.bodies.boxes import box_escape
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.report.report import Vector
+from satcheck.core.frozen import frozen
+
+
+@frozen
+class WayOut:
+    """length: of the nominal translation along -normal; upper: that length rounded outward; by:
+    the shapes that it frees."""
+
+    length: float
+    upper: float
+    normal: Vector
+    by: str
+
+
+def way_out_of_hulls(pair: Pair) -> WayOut:
+    """What frees A for certain: out of B's hull, or out of its box where the ladder ends there."""
+    length, normal = box_escape(pair.a.bounds, pair.b.bounds)
+    boxes = WayOut(length, length, normal, "world boxes")
+    if not pair.may("hull"):
+        return boxes
+    found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
+    if found.distance is None or found.lower is None or found.normal is None:
+        return boxes
+    if found.outcome == "touching":
+        return WayOut(0.0, 0.0, found.normal, "hulls of the whole meshes")
+    if found.outcome != "penetrating":
+        return boxes
+    return WayOut(-found.distance, -found.lower, found.normal, "hulls of the whole meshes")
+
+
+def gap_around(pair: Pair, contact: Contact) -> float:
+    """A lower bound of the depth of nested bodies: the inner one stays inside at least until the
+    surfaces meet. 0.0 for other pairs."""
+    if contact.relation not in ("contains", "inside"):
+        return 0.0
+    return core.nested_depth(pair.a.geometry, pair.b.geometry)

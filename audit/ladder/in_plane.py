@@ -1,0 +1,63 @@
+"""Checks in a plane, where bodies are prisms that reach beyond all that matters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck import core
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.report.report import OVERLAPS, Relation
+from satcheck.core.conventions import Plane, axes_of, axis_across
+from satcheck.core.frozen import replace
+
+if TYPE_CHECKING:
+    from satcheck.audit.ladder.ladder import Contact
+
+
+def refine_nesting(pair: Pair, contact: Contact, plane: Plane, plan: Plan) -> Contact:
+    """`contains`, `inside` and `coincident` as the outlines are.
+
+    The prisms themselves end at different heights, which no outline has: one made to reach beyond
+    the other says whether it holds it, two of one height whether they are the same.
+    """
+    if contact.relation not in OVERLAPS:
+        return contact
+    relation = _nesting(pair.a, pair.b, plane)
+    if relation != "penetrating":
+        plan.record("containment", relation, "the outlines, as prisms of heights that suit")
+    return replace(contact, relation=relation)
+
+
+def _nesting(a: PlacedBody, b: PlacedBody, plane: Plane) -> Relation:
+    holds_b, holds_a = _holds(a.bounds, b.bounds, plane), _holds(b.bounds, a.bounds, plane)
+    height = max(body.bounds[1][axis_across(plane)] for body in (a, b))
+    if holds_a and holds_b and _related(a, height, b, height, plane) == "coincident":
+        return "coincident"
+    if holds_b and _related(a, 2 * height, b, height, plane) == "contains":
+        return "contains"
+    if holds_a and _related(a, height, b, 2 * height, plane) == "inside":
+        return "inside"
+    return "penetrating"
+
+
+def _related(a: PlacedBody, height_a: float, b: PlacedBody, height_b: float, plane: Plane) -> str:
+    return core.mesh_relation(_reaching(a, height_a, plane), _reaching(b, height_b, plane)).relation
+
+
+def _holds(outer: Box, inner: Box, plane: Plane) -> bool:
+    return all(
+        outer[0][axis] <= inner[0][axis] and inner[1][axis] <= outer[1][axis]
+        for axis in axes_of(plane)
+    )
+
+
+def _reaching(body: PlacedBody, height: float, plane: Plane) -> core.Surface:
+    """The prism of another height."""
+    import numpy as np
+
+    vertices, axis = np.array(body.mesh.vertices), axis_across(plane)
+    vertices[:, axis] = np.copysign(height, vertices[:, axis])
+    return core.Surface(core.Mesh(vertices, body.mesh.triangles), body.solid)

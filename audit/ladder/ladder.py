@@ -1,0 +1,220 @@
+"""The ladder: each rung settles what it can prove and leaves the rest to the next.
+
+aabb -> obb -> hull -> triangles, or -> parts where --accuracy stops there. A rung that proves the
+bodies apart by more than was asked about ends the climb. The highest allowed rung answers in any
+case: what it could not prove is then an estimate, and it can only err towards "penetrating".
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, TypeVar
+
+from satcheck import core
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.ladder.climb import climb
+from satcheck.audit.report.report import Relation, Vector
+from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.frozen import frozen
+
+if TYPE_CHECKING:
+    from satcheck.audit.curved.signed import Signed
+
+T = TypeVar("T")
+
+# The words of the core for a relation.
+RELATION_NAMED: dict[str, Relation] = {
+    "separated": "separated",
+    "touching": "touching",
+    "penetrating": "penetrating",
+    "contains": "contains",
+    "inside": "inside",
+    "coincident": "coincident",
+}
+# Result and detail of the stage.
+WORDS_OF_ORIENTED_BOXES: dict[str, tuple[str, str]] = {
+    "apart": ("separated", ""),
+    "meet": ("meet", ""),
+    "sheared": ("skipped", "a transform shears: the carried box is no box"),
+    "unturned": ("skipped", "neither body is turned: its oriented box is its world box"),
+}
+# Nanoseconds of a climb, and the places of its rungs in them.
+Costs = tuple[int, ...]
+BOXES, ORIENTED, HULLS, NESTING, TRIANGLES, BAND = range(6)
+
+
+@frozen
+class Contact:
+    """How two bodies relate, without a touch band.
+
+    proven: False where a capped ladder or a degenerate contact left it open.
+    gap_lower: a proven lower bound of their distance, 0.0 where none is known.
+    convex: the signed distance, where both bodies are convex and it therefore says everything.
+    crossing: indices of one triangle of each body that meet; point: a common point, rounded.
+    reason: why it is not proven, where that is no matter of --accuracy. climb: what the rungs of
+    the core found, where it came so far.
+    """
+
+    relation: Relation
+    proven: bool
+    gap_lower: float = 0.0
+    convex: core.PairResult | Signed | None = None
+    crossing: tuple[int, int] | None = None
+    point: Vector | None = None
+    reason: str | None = None
+    climb: core.Climb | None = None
+
+
+def settle(pair: Pair, plan: Plan, found: core.Climb | None = None) -> Contact:
+    """The relation of the pair by the lowest rung that settles what is asked.
+
+    found: its climb, where it has been made; the rungs are then only put into words.
+    """
+    contact = _settled(pair, plan, climb(pair) if found is None else found)
+    plane = pair.settings.planar
+    if plane is None:
+        return contact
+    from satcheck.audit.ladder.in_plane import refine_nesting
+
+    return refine_nesting(pair, contact, plane, plan)
+
+
+def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
+    cost = found.nanoseconds
+    gap = _boxes(plan, found, cost)
+    if gap > pair.asked_gap or not pair.may("obb"):
+        return _apart_or_guess(gap)
+    if pair.curved:
+        from satcheck.audit.curved.contact import settle_curved
+
+        return settle_curved(pair, plan) if pair.may("hull") else _apart_or_guess(gap)
+    if _oriented_boxes_apart(plan, found, cost):
+        return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
+    if not pair.may("hull"):
+        return _apart_or_guess(gap)
+    if pair.outlined:
+        if _outlines_apart(pair, plan):
+            return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
+        found = climb(pair, "hull")
+        cost = found.nanoseconds
+    contact = _convex(plan, found, cost) if found.both_convex else _hulls(plan, found, cost, gap)
+    if contact is not None:
+        return contact
+    if pair.may("exact"):
+        return _triangles(plan, found, cost)
+    if pair.may("parts"):
+        from satcheck.audit.ladder.parts_only import settle_by_parts
+
+        return settle_by_parts(pair, plan)
+    return Contact("penetrating", False)
+
+
+def _apart_or_guess(gap: float) -> Contact:
+    return Contact("separated", True, gap) if gap > 0 else Contact("penetrating", False)
+
+
+def boxes_apart(pair: Pair, plan: Plan) -> float:
+    """Rung 0 alone: a lower bound of the gap of the world boxes, 0.0 when they meet."""
+    gap = core.box_gap(pair.a.bounds, pair.b.bounds)
+    plan.record("aabb", *_words_of_boxes(gap))
+    return gap
+
+
+def _boxes(plan: Plan, found: core.Climb, cost: Costs) -> float:
+    gap = found.box_gap
+    plan.add("aabb", *_words_of_boxes(gap), cost[BOXES])
+    return gap
+
+
+def _words_of_boxes(gap: float) -> tuple[str, str]:
+    if gap > 0:
+        return "separated", f"world boxes apart by at least {gap:.6g}"
+    return "meet", "world boxes meet"
+
+
+def _oriented_boxes_apart(plan: Plan, found: core.Climb, cost: Costs) -> bool:
+    """Whether the files' own boxes, placed, are apart by more than was asked about."""
+    boxes = found.boxes
+    result, detail = WORDS_OF_ORIENTED_BOXES[boxes]
+    apart = boxes == "apart"
+    plan.add("obb", result, found.box_feature if apart else detail, cost[ORIENTED])
+    return apart
+
+
+def _outlines_apart(pair: Pair, plan: Plan) -> bool:
+    """Whether, in a check in a plane, an edge of two convex outlines proves what is asked."""
+    a, b = pair.a.body.file.outline, pair.b.body.file.outline
+    if a is None or b is None:
+        return False
+    import numpy as np
+
+    found = core.sat_polygons(np.array(a), np.array(b))
+    # The widest gap along an edge normal, less what its rounding can make of it.
+    gap = -found.penetration - rounding_pad(pair.largest_coordinate)
+    plan.record("sat", found.outcome, _edge_of(found))
+    return found.outcome == "separated" and gap > pair.asked_gap
+
+
+def _edge_of(found: core.PolygonResult) -> str:
+    body, edge = ("A", found.edge_a) if found.edge_a >= 0 else ("B", found.edge_b)
+    return f"outlines, edge {edge} of {body}"
+
+
+def _asked(result: T | None) -> T:
+    """Of a rung that the climb got to."""
+    assert result is not None
+    return result
+
+
+def _convex(plan: Plan, found: core.Climb, cost: Costs) -> Contact | None:
+    """Everything about two convex bodies; None when the solver could not decide."""
+    result = _asked(found.hulls)
+    detail = f"both convex: {result.method} {result.feature}".rstrip()
+    plan.add("hull", result.outcome, detail, cost[HULLS])
+    if result.outcome == "undecided":
+        return None
+    relation = RELATION_NAMED[result.outcome]
+    if found.nesting is not None:
+        detail = "one world box holds the other"
+        plan.add("containment", found.nesting, detail, cost[NESTING])
+        # The surfaces differ from the hulls by the rounding of the pose: a relation without a
+        # common interior can then only mean a graze, which the hulls have already settled.
+        if found.nesting in ("contains", "inside", "coincident"):
+            relation = RELATION_NAMED[found.nesting]
+    return Contact(relation, True, max(result.lower or 0.0, 0.0), result, climb=found)
+
+
+def _hulls(plan: Plan, found: core.Climb, cost: Costs, box_lower: float) -> Contact | None:
+    """Apart, if the hulls of the whole meshes are; None otherwise."""
+    result = _asked(found.hulls)
+    if result.outcome != "separated":
+        outcome = "undecided" if result.outcome == "undecided" else "meet"
+        detail = "not both convex: hulls prove only separation"
+        plan.add("hull", outcome, detail, cost[HULLS])
+        return None
+    lower = max(result.lower or 0.0, box_lower)
+    detail = f"hulls apart by at least {lower:.6g}"
+    plan.add("hull", "separated", detail, cost[HULLS])
+    return Contact("separated", True, lower, climb=found)
+
+
+def _triangles(plan: Plan, found: core.Climb, cost: Costs) -> Contact:
+    surfaces = _asked(found.triangles)
+    detail = f"{surfaces.box_tests} box tests, {surfaces.triangle_tests} triangle tests"
+    crossing = None
+    in_a, in_b = surfaces.triangle_a, surfaces.triangle_b
+    if in_a >= 0 and in_b >= 0:
+        crossing = (in_a, in_b)
+        detail += f", triangles {in_a} and {in_b} meet"
+    proven, relation = surfaces.proven, RELATION_NAMED[surfaces.relation]
+    if not proven:
+        detail += ", sampled in a degenerate contact"
+    plan.add("triangles", relation, detail, cost[TRIANGLES])
+    return Contact(
+        relation,
+        proven,
+        crossing=crossing,
+        point=surfaces.point,
+        climb=found,
+    )

@@ -1,0 +1,63 @@
+"""The rung for people who want convex parts and nothing finer: --accuracy parts.
+
+Parts over- and under-cover a mesh by a measured error. What lies deeper than that error is proven,
+the rest is an estimate.
+"""
+
+from __future__ import annotations
+
+import math
+
+from satcheck import core
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.bodies.boxes import largest_coordinate
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.parts import Covering, covering, inner_parts, split_together
+from satcheck.audit.ladder.inner_bodies import deepest_pair
+from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.report.report import Relation
+from satcheck.audit.tolerances import rounding_pad
+
+
+def settle_by_parts(pair: Pair, plan: Plan) -> Contact:
+    """Proven where the measured error of the parts allows it; else "penetrating" or "separated",
+    as the parts say, unproven."""
+    if not pair.both_solid:
+        plan.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
+        return Contact("penetrating", False)
+    split_together(pair)
+    covers = [covering(body, plan) for body in (pair.a, pair.b)]
+    if covers[0] is None or covers[1] is None:
+        plan.record("parts", "failed", "see the issues")
+        return Contact("penetrating", False)
+    gap = _gap(covers[0], covers[1])
+    proven_gap = gap - covers[0].missing - covers[1].missing
+    count = f"{len(covers[0].parts)} and {len(covers[1].parts)} parts"
+    if proven_gap > 0:
+        plan.record("parts", "separated", f"{count}, apart by more than their error")
+        return Contact("separated", True, proven_gap)
+    if deepest_pair(inner_parts(pair.a, plan), inner_parts(pair.b, plan)) > 0:
+        plan.record("parts", "penetrating", f"{count}, of which two inside the meshes overlap")
+        return Contact("penetrating", True)
+    relation: Relation = "separated" if gap > 0 else "penetrating"
+    plan.record("parts", relation, f"{count}, within their error")
+    return Contact(relation, False)
+
+
+def _gap(a: Covering, b: Covering) -> float:
+    """A lower bound of the distance of the nearest two parts, a rounding below it."""
+    bounds = sorted(
+        (core.box_gap(part_a.bounds, part_b.bounds), i, j)
+        for i, part_a in enumerate(a.parts)
+        for j, part_b in enumerate(b.parts)
+    )
+    nearest = math.inf
+    for least, i, j in bounds:
+        if least >= nearest:
+            break
+        result = core.check_pair(a.parts[i].shape, b.parts[j].shape, query="distance")
+        if result.outcome != "separated" or result.lower is None:
+            return 0.0
+        nearest = min(nearest, result.lower)
+    boxes = [part.bounds for part in (*a.parts, *b.parts)]
+    return max(nearest - rounding_pad(largest_coordinate(*boxes)), 0.0)

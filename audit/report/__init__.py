@@ -1,0 +1,1 @@
+"""The report: plain data, and its way into JSON values."""

@@ -1,0 +1,280 @@
+"""The report: plain frozen data, `satcheck.report/1`, and its one way into JSON values.
+
+World frame, right-handed, lengths in the units of the files. `normal` is a unit vector from A to
+B; `distance` is a gap > 0; `depth` is how far A has to move, without rotation, until A and B have
+no common interior; `mtv` is the translation to add to A. What was not asked for is None, never 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+from satcheck.audit.report.contact_report import Contacts
+from satcheck.audit.report.contact_report import Vector as Vector
+from satcheck.core.frozen import frozen
+from satcheck.scene.rules import SEVERITIES as SEVERITIES
+from satcheck.scene.rules import Rule
+from satcheck.scene.rules import Severity as Severity
+
+if TYPE_CHECKING:
+    from satcheck.audit.report.motion_report import Sweep
+
+SCHEMA = "satcheck.report/1"
+
+Relation = Literal[
+    "separated",
+    "near",
+    "touching",
+    "penetrating",
+    "contains",
+    "inside",
+    "coincident",
+    "indeterminate",
+]
+Quality = Literal["exact", "bounded", "estimate"]
+# What was asked of a pair and could not be decided: how the bodies relate, whether one lies in the
+# other, whether an overlap is within its limits or a gap keeps its clearance, whether they hit on
+# the way.
+Undecided = Literal["relation", "inside", "limit", "motion"]
+Verdict = Literal["pass", "fail", "incomplete"]
+Effect = Literal[
+    "overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate", "sweep"
+]
+EFFECTS: tuple[Effect, ...] = get_args(Effect)
+RELATIONS: tuple[Relation, ...] = get_args(Relation)
+# The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
+CROSS_CHECK = "cross-check"
+# The code of an issue about a pair that failed by a fault of satcheck itself.
+INTERNAL_ERROR = "internal-error"
+# Relations with a common interior, the ones that have a depth.
+OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
+
+
+@frozen
+class Tool:
+    name: str
+    version: str
+
+
+@frozen
+class PairCounts:
+    """total = pruned + decided + allowed + indeterminate.
+
+    Pruned: the world boxes are apart by more than was asked about. Allowed: the scene permits
+    contact, nothing was computed. Pairs within one ignored group are not asked and not counted.
+    """
+
+    total: int
+    pruned: int
+    decided: int
+    allowed: int
+    indeterminate: int
+
+
+@frozen
+class Summary:
+    """by_relation counts every pair that is not allowed; pruned pairs count as separated.
+
+    surfaces_only: of those, the decided pairs of which one body may lie inside the other, but the
+    other has no inside to check (none with Settings.allow_open). limits_undecided: those of which
+    it could not be decided whether an overlap is within the limits of its rules, or a gap keeps
+    its clearance, at rest or on the way.
+    sweeps_undecided: the pairs of which it could not be decided whether they hit while they move.
+    """
+
+    verdict: Verdict
+    pairs: PairCounts
+    by_relation: Mapping[Relation, int]
+    surfaces_only: int = 0
+    limits_undecided: int = 0
+    sweeps_undecided: int = 0
+
+
+@frozen
+class PartError:
+    """Proven upper bounds, world units: how far parts stick out of the mesh, and it out of them."""
+
+    outside: float
+    missing: float
+
+
+@frozen
+class BodyReport:
+    """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
+
+    An unreadable body has None everywhere but id, name and file. `convex` is None where no pair
+    had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
+    input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
+    None: as in the file. `groups`, `static`: as the scene says. `shape`: the primitive that the
+    file states, as a scene file does; None: a mesh file.
+    """
+
+    id: str
+    name: str
+    file: str
+    sha256: str | None
+    path: str | None
+    transform: tuple[float, ...] | None
+    groups: tuple[str, ...]
+    static: bool
+    triangles: int | None
+    health: Mapping[str, bool | int | float | str | None] | None
+    resolution: float | None
+    convex: bool | None
+    parts: int | None
+    part_error: PartError | None
+    shape: Mapping[str, Any] | None = None
+
+
+@frozen
+class Stage:
+    """One step of a pair's plan: what ran, what it found, what it cost, why it settled nothing."""
+
+    stage: str
+    result: str
+    microseconds: float
+    detail: str
+
+
+@frozen
+class Witness:
+    """World points, one per body: where the gap is smallest, or a common point."""
+
+    a: Vector
+    b: Vector
+
+
+@frozen(kw_only=True)
+class Finding:
+    """One pair.
+
+    relation: with the touch band; exact_relation: without it (None where a capped ladder left it
+    open). tolerance: the touch band of this pair.
+    quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
+    is proven, the depth is a proven interval; estimate: not proven.
+    rule: what decided the severity, where it was no matter of course: "clearance", or the name of a
+    rule. undecided: what was asked and could not be decided; the severity is then a warning at
+    least.
+    volume: what both have in common; volume_error: about how far off that is, not proven (0.0: the
+    volume is exactly 0.0). Neither weakens the quality.
+    depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
+    as it had to be for the moved mesh to be verified free. certificate: JSON values that prove it
+    (Settings.certificate), see the schema. motion: None where neither body moves against the other,
+    or their boxes stay apart; severity and undecided count it, everything else is as placed.
+    """
+
+    id: str
+    a: str
+    b: str
+    rule: str | None = None
+    severity: Severity
+    undecided: Undecided | None = None
+    relation: Relation
+    exact_relation: Relation | None = None
+    tolerance: float | None = None
+    distance: float | None = None
+    depth: float | None = None
+    depth_bounds: tuple[float, float] | None = None
+    quality: Quality | None = None
+    normal: Vector | None = None
+    mtv: Vector | None = None
+    mtv_moves: Literal["a"] | None = None
+    mtv_verified: bool | None = None
+    witness: Witness | None = None
+    volume: float | None = None
+    volume_error: float | None = None
+    contacts: Contacts | None = None
+    motion: Sweep | None = None
+    certificate: Mapping[str, Any] | None = None
+    reason: str | None = None
+    plan: tuple[Stage, ...]
+    baseline_state: None = None
+
+
+@frozen
+class EffectReport:
+    """What a check computes beyond reading files, over all pairs.
+
+    asked_by: flags, and the rules that ask; empty: nobody does. pairs: on how many it ran; not_run:
+    why -> on how many it did not; together all pairs. microseconds: of its stages.
+    """
+
+    effect: Effect
+    asked_by: tuple[str, ...]
+    pairs: int
+    not_run: Mapping[str, int]
+    microseconds: float
+
+
+@frozen
+class Issue:
+    """Something about the input or the run, with a stable code."""
+
+    code: str
+    severity: Literal["error", "warning", "note"]
+    body: str | None
+    file: str | None
+    message: str
+
+
+@frozen
+class Exempt:
+    """What the scene does not ask about, and does not count: pairs within these groups, and pairs
+    of static bodies."""
+
+    groups: tuple[str, ...] = ()
+    static_pairs: bool = False
+
+
+@frozen
+class Report:
+    """pose: of the robots, joint -> value; None without robots. motions: those of
+    the scene, as JSON values.
+
+    `tracebacks` is for --debug and never leaves the program in a document.
+    """
+
+    tool: Tool
+    units: str | None
+    settings: Mapping[str, object]
+    summary: Summary
+    bodies: tuple[BodyReport, ...]
+    findings: tuple[Finding, ...]
+    issues: tuple[Issue, ...]
+    exempt: Exempt = Exempt()
+    rules: tuple[Rule, ...] = ()
+    effects: tuple[EffectReport, ...] = ()
+    pose: Mapping[str, float | list[float]] | None = None
+    motions: tuple[Mapping[str, Any], ...] = ()
+    truncated: None = None
+    tracebacks: tuple[str, ...] = ()
+
+    def to_dict(self, timings: bool = True) -> dict[str, Any]:
+        """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
+        return {
+            key: list(value) if isinstance(value, Iterator) else value
+            for key, value in self.members(timings)
+        }
+
+    def members(self, timings: bool = True) -> Iterator[tuple[str, Any]]:
+        """The same key by key; of bodies and findings, which can be many, iterators."""
+        from satcheck.audit.report import report_values as values
+
+        yield "schema", SCHEMA
+        yield "tool", {"name": self.tool.name, "version": self.tool.version}
+        yield "units", self.units
+        yield "settings", dict(self.settings)
+        yield "summary", values.summary(self.summary)
+        if self.pose is not None:
+            yield "pose", dict(self.pose)
+        if self.motions:
+            yield "motions", [dict(motion) for motion in self.motions]
+        yield "bodies", (values.body(body) for body in self.bodies)
+        exempt = {"groups": list(self.exempt.groups), "static_pairs": self.exempt.static_pairs}
+        yield "exempt", exempt
+        yield "rules", [values.rule(rule) for rule in self.rules]
+        yield "effects", [values.effect(effect, timings) for effect in self.effects]
+        yield "findings", (values.finding(finding, timings) for finding in self.findings)
+        yield "issues", [values.issue(issue) for issue in self.issues]
+        yield "truncated", self.truncated

@@ -1,0 +1,121 @@
+"""What flags and rules ask of a pair, and who asked."""
+
+from __future__ import annotations
+
+import pytest
+
+from satcheck.audit.asked.planner import ALWAYS, FOR_MESHES, Planner, asked_by
+from satcheck.audit.asked.rule_book import RuleBook, Subject, Terms
+from satcheck.audit.asked.settings import Settings
+from satcheck.scene import Rule, Selector
+
+
+def rule(a: str = "*", b: str = "*", **keys) -> Rule:
+    return Rule(a=Selector(a), b=Selector(b), **keys)
+
+
+def terms(**keys) -> Terms:
+    """Each key by a rule of its own, named after it."""
+    return Terms(**{key: rule(where=key, **{key: value}) for key, value in keys.items()})
+
+
+def test_only_the_overlap_is_a_matter_of_course_in_a_scene() -> None:
+    assert asked_by(Settings(), composed=True).by == {"overlap": ALWAYS}
+
+
+def test_the_depth_of_mesh_files_is_asked_by_default() -> None:
+    assert asked_by(Settings()).by == {"overlap": ALWAYS, "depth": FOR_MESHES}
+    assert not asked_by(Settings(depth=False)).wants("depth")
+
+
+@pytest.mark.parametrize(
+    ("settings", "effect", "flag"),
+    [
+        ({"depth": True}, "depth", "--depth"),
+        ({"clearance": 1.0}, "distance", "--clearance"),
+        ({"volume": True}, "volume", "--volume"),
+        ({"contacts": True}, "contacts", "--contacts"),
+        ({"cross_check": True}, "cross-check", "--cross-check"),
+        ({"certificate": True}, "certificate", "--certificate"),
+    ],
+)
+def test_a_flag_asks_for_its_effect_alone(settings, effect, flag) -> None:
+    asked = asked_by(Settings(**settings), composed=True)
+    assert asked.by == {"overlap": ALWAYS, effect: flag}
+
+
+@pytest.mark.parametrize(
+    ("keys", "effect"),
+    [
+        ({"max_depth": 0.1}, "depth"),
+        ({"max_volume": 0.1}, "volume"),
+        ({"clearance": 1}, "distance"),
+    ],
+)
+def test_a_rule_asks_for_what_it_needs(keys, effect) -> None:
+    asked = asked_by(Settings(), terms(**keys), composed=True)
+    assert asked.by == {"overlap": ALWAYS, effect: next(iter(keys))}
+
+
+def test_a_depth_rule_asks_whatever_the_flags_say() -> None:
+    assert asked_by(Settings(depth=False), terms(max_depth=0.1)).wants("depth")
+
+
+def test_a_rule_stands_above_the_flags() -> None:
+    settings = Settings(clearance=1.0, tolerance=0.1)
+    asked = asked_by(settings, terms(clearance=2.0, tolerance=0.2, severity="warning"))
+    assert (asked.clearance, asked.tolerance, asked.severity) == (2.0, 0.2, "warning")
+    assert asked.rule("severity") == "severity"
+    assert asked_by(settings).rule("severity") is None
+
+
+def test_a_clearance_of_nothing_is_none() -> None:
+    asked = asked_by(Settings(clearance=1.0), terms(clearance=0.0))
+    assert asked.clearance is None
+    assert not asked.wants("distance")
+
+
+@pytest.mark.parametrize("limit", ["max_depth", "max_volume"])
+def test_what_may_overlap_keeps_no_clearance(limit) -> None:
+    asked = asked_by(Settings(clearance=1.0), terms(clearance=2.0, **{limit: 0.1}))
+    assert asked.limited
+    assert not asked.wants("distance")
+    assert asked.clearance is None
+
+
+def test_pairs_of_one_kind_share_what_is_asked() -> None:
+    book = RuleBook([Subject(f"b{k}") for k in range(4)], [rule("b0", "b*", max_depth=1.0)])
+    planner = Planner(Settings(), book, composed=True)
+    assert planner.asked(0, 1) is planner.asked(0, 3)
+    assert planner.asked(0, 1).wants("depth")
+    assert not planner.asked(1, 2).wants("depth")
+    assert not planner.depth
+
+
+def test_no_pair_is_asked_further_than_its_reach() -> None:
+    rules = [
+        rule("b0", "b1", clearance=4.0),
+        rule("b1", "b2", tolerance=6.0),
+        rule("b1", "b*", clearance=1.0),
+    ]
+    book = RuleBook([Subject(f"b{k}") for k in range(4)], rules)
+    for settings in (Settings(), Settings(clearance=3.0), Settings(tolerance=0.5)):
+        planner = Planner(settings, book)
+        resolution = [0.1, 0.2, 0.3, 0.4]
+        reach = planner.reach(dict(enumerate(resolution)))
+        for i in range(4):
+            for j in range(i):
+                gap = planner.asked_gap(i, j, resolution[i] + resolution[j])
+                assert gap <= reach[i] + reach[j] + 1e-15
+    assert Planner(Settings(), book).asked_gap(0, 1, 0.3) == 1.0  # the last rule decides
+
+
+@pytest.mark.parametrize(("effect", "key"), [("depth", "max_depth"), ("volume", "max_volume")])
+def test_a_limit_of_nothing_asks_too(effect: str, key: str) -> None:
+    """A clearance of 0 is none, but an overlap that must have no depth has one to be measured."""
+    none = rule(where="none", clearance=0.0)
+    book = RuleBook([Subject("a"), Subject("b")], [rule(where="zero", **{key: 0.0}), none])
+    planner = Planner(Settings(), book, composed=True)
+    assert planner.asked(0, 1).by[effect] == "zero"
+    assert planner.who_asks(effect) == ("zero",)
+    assert planner.who_asks("distance") == ()

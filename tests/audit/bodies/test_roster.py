@@ -1,0 +1,52 @@
+"""Which pairs a roster asks about, counted without going through them."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import pytest
+
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.roster import Known, place
+from satcheck.core.frozen import replace
+from satcheck.scene import Body, Scene, Unreadable
+from satcheck.scene.issue import issue
+from satcheck.scene.primitives import Box
+from satcheck.scene.shape_file import shape_file
+
+FILE = shape_file(Box((1.0, 1.0, 1.0)), "test.toml")
+GROUPS = [(), ("a",), ("a",), ("a", "b"), ("b",), ("b", "c"), ("c",), ("d",), ("d",), ("c", "a")]
+
+
+@pytest.mark.parametrize("ignored", ["", "a", "ab", "abc", "abcd", "x"])
+def test_a_pair_is_ignored_when_both_are_in_one_ignored_group(ignored):
+    bodies = tuple(Body(f"b{k}", "", FILE, groups=groups) for k, groups in enumerate(GROUPS))
+    scene = Scene("", None, bodies, ignore_within_groups=frozenset(ignored))
+    roster = place(scene, Settings())
+    asked = {
+        (i, j)
+        for i, j in combinations(range(len(GROUPS)), 2)
+        if not set(GROUPS[i]) & set(GROUPS[j]) & set(ignored)
+    }
+    assert set(roster.book.asked_pairs()) == asked
+    assert roster.book.count() == (len(asked), 0)
+
+
+def test_what_stays_where_it_is_is_placed_once():
+    body = Body("a", "", FILE, transform=(1.0, 0, 0, 3.0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0))
+    known = Known()
+    first = place(Scene("", None, (body,)), Settings(), known)
+    again = place(Scene("", None, (body,)), Settings(), known)
+    moved = place(Scene("", None, (replace(body, transform=None),)), Settings(), known)
+    assert again.placed[0] is first.placed[0]
+    assert moved.placed[0].bounds == ((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+    assert moved.placed[0].shared is first.placed[0].shared
+
+
+def test_an_unreadable_body_is_in_its_groups():
+    lost = Unreadable("lost", "gone.obj", issue("file-not-found", "gone"), ("a",))
+    bodies = tuple(Body(f"b{k}", "", FILE, groups=(group,)) for k, group in enumerate("ab"))
+    scene = Scene("", None, bodies, (lost,), frozenset("a"), order=("b0", "lost", "b1"))
+    roster = place(scene, Settings())
+    assert [(i, j) for i, j, _ in roster.unreadable_pairs()] == [(1, 2)]
+    assert roster.book.count() == (2, 0)
