@@ -18,7 +18,7 @@ from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
 from satcheck.verify.rules import Rules
-from tests.audit.test_rule_book import random_rules, subjects
+from tests.audit.asked.test_rule_book import random_rules, subjects
 from tests.cli.process import VALIDATOR
 from tests.verify.reports import Json, verified
 
