@@ -1,4 +1,4 @@
-// The test is that of sat_box.cpp, on fewer words: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree" (1996), 15 axes.
+// The test is that of box_axes.hpp, on fewer words: S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree" (1996), 15 axes.
 // The products of edges are not scaled to unit length: the rounding of a projection does not shrink with it.
 #include "scene/oriented_box.hpp"
 
