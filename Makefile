@@ -14,9 +14,9 @@ ACTIVATE := . $(VENV)/bin/activate
 endif
 
 ROOMS := cli audit verify scene decompose core
-SOURCES := pyproject.toml CMakeLists.txt $(foreach room,$(ROOMS),$(wildcard \
-	$(room)/*.py $(room)/*.pyi $(room)/*/*.py $(room)/*/*.json \
-	$(room)/native/*.cpp $(room)/native/*.hpp $(room)/native/CMakeLists.txt))
+LEVELS := $(foreach room,$(ROOMS),$(room)/* $(room)/*/* $(room)/*/*/*)
+SOURCES := pyproject.toml CMakeLists.txt \
+	$(wildcard $(foreach kind,.py .pyi .json .cpp .hpp /CMakeLists.txt,$(addsuffix $(kind),$(LEVELS))))
 
 .PHONY: demo test golden install clean
 
