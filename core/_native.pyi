@@ -546,3 +546,6 @@ def least_gap(
     pad: float,
     slack: float,
 ) -> MotionAnswer: ...
+def make_by_fields(
+    cls: type, given: tuple[str, ...], defaults: dict[str, Any], by_place: int
+) -> None: ...

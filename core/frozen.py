@@ -3,7 +3,8 @@
 `@frozen` makes of a class what `@dataclass(frozen=True, slots=True)` makes of it, in a twentieth of
 the time. A dataclass has eight methods compiled when its module is imported, and a check imports
 many more classes than it makes instances of: together they would be half of a start-up. Here all
-classes share their methods but for `__init__`, and that is compiled for the first instance.
+classes share their methods, and a call of one sets the slots without any `__init__`
+(`core/native/bindings/frozen.cpp`).
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from operator import attrgetter
 from typing import Any, Literal, NoReturn, TypeVar, cast, dataclass_transform, overload
+
+from satcheck.core._native import make_by_fields
 
 T = TypeVar("T")
 _DERIVED: Any = object()
@@ -82,30 +85,10 @@ def _frozen(cls: type[T], kw_only: bool) -> type[T]:
     if not kw_only:
         space["__match_args__"] = given
 
-    def first(self: Any, *arguments: Any, **named: Any) -> None:
-        made.__init__ = _initialiser(made, given, defaults, kw_only)
-        made.__init__(self, *arguments, **named)
-
-    space["__init__"] = first
     metaclass: Any = type(cls)
     made = metaclass(cls.__name__, cls.__bases__, space)
+    make_by_fields(made, given, defaults, 0 if kw_only else len(given))
     return cast("type[T]", made)
-
-
-def _initialiser(
-    cls: type, given: tuple[str, ...], defaults: dict[str, Any], kw_only: bool
-) -> Callable[..., None]:
-    known = {f"default_{name}": default for name, default in defaults.items()}
-    known |= {f"set_{name}": getattr(cls, name).__set__ for name in given}
-    names = [f"{name}=default_{name}" if name in defaults else name for name in given]
-    lines = [f"set_{name}(self, {name})" for name in given]
-    if hasattr(cls, "__post_init__"):
-        lines.append("self.__post_init__()")
-    marks = ["*"] if kw_only else []
-    exec(f"def __init__({', '.join(['self', *marks, *names])}): {'; '.join(lines)}", known)
-    made: Callable[..., None] = known["__init__"]
-    made.__qualname__ = f"{cls.__qualname__}.__init__"
-    return made
 
 
 def _equal(self: Any, other: Any) -> Any:

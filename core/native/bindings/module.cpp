@@ -24,6 +24,7 @@ void bind_climb(nb::module_& m);
 void bind_resolve(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
+void bind_frozen(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_motion(nb::module_& m);
 }
@@ -304,6 +305,7 @@ lower bound of the distance. normal: unit, A to B; edge_a or edge_b: the edge it
 NB_MODULE(_native, m) {
   // Shapes held by a module that lives until the interpreter ends are no leak, and no news for stderr.
   nb::set_leak_warnings(false);
+  bind_frozen(m);
   bind_mesh(m);
   bind_broad_phase(m);
   bind_resolve(m);
