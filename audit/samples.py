@@ -14,6 +14,7 @@ from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.report import report_values
 from satcheck.audit.report.report import (
     OVERLAPS,
+    TIME,
     BodyReport,
     Exempt,
     Finding,
@@ -219,7 +220,7 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
         "number": sample.number,
         "pose": sample.posture.pose(),
         "verdict": sample.verdict,
-        "findings": [report_values.finding(finding, timings) for finding in sample.findings],
+        "findings": report_values.plain(sample.findings, None if timings else TIME),
         "issues": [as_dict(issue) for issue in sample.issues],
     }
 

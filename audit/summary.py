@@ -116,7 +116,7 @@ def _lost_report(body: Lost) -> BodyReport:
 
 
 def _body_report(body: PlacedBody, health: Health) -> BodyReport:
-    file, shape = body.body.file, body.body.shape
+    file, shape, transform = body.body.file, body.body.shape, body.body.transform
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
     return BodyReport(
@@ -125,7 +125,7 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         file=file.path,
         sha256=file.sha256,
         path=body.body.path,
-        transform=body.body.transform,
+        transform=None if transform is None else tuple(map(float, transform)),
         groups=body.body.groups,
         static=body.body.static,
         triangles=file.mesh.triangle_count,

@@ -175,4 +175,5 @@ def _name(rule: Rule | None) -> str | None:
 
 
 def _value(rule: Rule | None, key: str, default: float | None) -> float | None:
-    return default if rule is None else getattr(rule, key)
+    value = default if rule is None else getattr(rule, key)
+    return None if value is None else float(value)  # who asks from Python may give an integer

@@ -11,8 +11,8 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
-from satcheck.audit.report import report_values
 from satcheck.audit.report.report import OVERLAPS, Finding
+from satcheck.audit.report.report_values import plain
 from satcheck.verify import Rejected
 from satcheck.verify.evidence import exceeds, gap_along, vector
 from satcheck.verify.findings import check_finding, depth_at_most, pair_of
@@ -44,7 +44,7 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
     if isinstance(certificate, str):
         return certificate
     try:
-        check_finding(report_values.finding(finding) | {"certificate": certificate}, a, b, asked)
+        check_finding(plain(finding) | {"certificate": certificate}, a, b, asked)
     except Rejected as why:
         return f"what was found does not prove it: {why}"
     return certificate

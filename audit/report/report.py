@@ -45,6 +45,8 @@ EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
 CROSS_CHECK = "cross-check"
+# The field that a document without timings lacks.
+TIME = "microseconds"
 # The code of an issue about a pair that failed by a fault of satcheck itself.
 INTERNAL_ERROR = "internal-error"
 # Relations with a common interior, the ones that have a depth.
@@ -99,7 +101,7 @@ class PartError:
     missing: float
 
 
-@frozen
+@frozen(kw_only=True)
 class BodyReport:
     """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
 
@@ -115,6 +117,7 @@ class BodyReport:
     file: str
     sha256: str | None
     path: str | None
+    shape: Mapping[str, Any] | None = None
     transform: tuple[float, ...] | None
     groups: tuple[str, ...]
     static: bool
@@ -124,7 +127,6 @@ class BodyReport:
     convex: bool | None
     parts: int | None
     part_error: PartError | None
-    shape: Mapping[str, Any] | None = None
 
 
 @frozen
@@ -163,6 +165,8 @@ class Finding:
     (Settings.certificate), see the schema. motion: None where neither body moves against the other,
     or their boxes stay apart; severity and undecided count it, everything else is as placed.
     """
+
+    SAID_IF_KNOWN = ("motion",)
 
     id: str
     a: str
@@ -252,17 +256,18 @@ class Report:
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
-        return {
-            key: list(value) if isinstance(value, Iterator) else value
-            for key, value in self.members(timings)
-        }
+        from satcheck.audit.report.report_values import plain
 
-    def members(self, timings: bool = True) -> Iterator[tuple[str, Any]]:
-        """The same key by key; of bodies and findings, which can be many, iterators."""
+        without = None if timings else TIME
+        return {key: plain(value, without) for key, value in self.members()}
+
+    def members(self) -> Iterator[tuple[str, Any]]:
+        """What a document has, key by key: JSON values, or frozen ones that stand for them
+        (report_values.plain)."""
         from satcheck.audit.report import report_values as values
 
         yield "schema", SCHEMA
-        yield "tool", {"name": self.tool.name, "version": self.tool.version}
+        yield "tool", self.tool
         yield "units", self.units
         yield "settings", dict(self.settings)
         yield "summary", values.summary(self.summary)
@@ -270,11 +275,10 @@ class Report:
             yield "pose", dict(self.pose)
         if self.motions:
             yield "motions", [dict(motion) for motion in self.motions]
-        yield "bodies", (values.body(body) for body in self.bodies)
-        exempt = {"groups": list(self.exempt.groups), "static_pairs": self.exempt.static_pairs}
-        yield "exempt", exempt
+        yield "bodies", self.bodies
+        yield "exempt", self.exempt
         yield "rules", [values.rule(rule) for rule in self.rules]
-        yield "effects", [values.effect(effect, timings) for effect in self.effects]
-        yield "findings", (values.finding(finding, timings) for finding in self.findings)
-        yield "issues", [values.issue(issue) for issue in self.issues]
+        yield "effects", self.effects
+        yield "findings", self.findings
+        yield "issues", self.issues
         yield "truncated", self.truncated

@@ -1,26 +1,46 @@
-"""The report as JSON values, each of its parts by the name it has there."""
+"""The report as JSON values, each of its parts by the name it has there.
+
+A frozen value is an object: its fields in their order, but for those that only some have
+(`SAID_IF_KNOWN` of its class). One with a `to_dict` says itself what it is, mappings are JSON
+values already. `satcheck.cli._json` writes text by the same rule.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
-from satcheck.audit.report.report import (
-    RELATIONS,
-    BodyReport,
-    EffectReport,
-    Finding,
-    Issue,
-    PairCounts,
-    Stage,
-    Summary,
-)
+from satcheck.audit.report.report import RELATIONS, Summary
+from satcheck.core.frozen import fields
 from satcheck.scene.rules import Rule
 
 
+def plain(value: Any, without: str | None = None) -> Any:
+    """JSON values of what a report holds; numbers are finite, and without a negative zero.
+
+    without: the name of a field that is left out wherever it stands.
+    """
+    if value is None or isinstance(value, str | int):
+        return value
+    if isinstance(value, float):
+        return _number(value)
+    if isinstance(value, Mapping):
+        return dict(value)
+    if isinstance(value, Sequence):
+        return [plain(member, without) for member in value]
+    if hasattr(value, "to_dict"):
+        return value.to_dict()
+    optional = getattr(value, "SAID_IF_KNOWN", ())
+    members = ((name, getattr(value, name)) for name in fields(value) if name != without)
+    return {
+        name: plain(member, without)
+        for name, member in members
+        if member is not None or name not in optional
+    }
+
+
 def _number(value: float | None) -> float | None:
-    """Finite, and without a negative zero."""
     if value is None:
         return None
     if not math.isfinite(value):
@@ -28,44 +48,15 @@ def _number(value: float | None) -> float | None:
     return value + 0.0
 
 
-def _numbers(values: Sequence[float] | None) -> list[float] | None:
-    """The same of each."""
-    if values is None:
-        return None
-    if not all(map(math.isfinite, values)):
-        raise ValueError(f"a report holds finite numbers only, not {values!r}")
-    return [value + 0.0 for value in values]
-
-
 def summary(one: Summary) -> dict[str, Any]:
     return {
         "verdict": one.verdict,
-        "pairs": pair_counts(one.pairs),
+        "pairs": plain(one.pairs),
         "by_relation": {name: one.by_relation.get(name, 0) for name in RELATIONS},
         "surfaces_only": one.surfaces_only,
         "limits_undecided": one.limits_undecided,
         **({"sweeps_undecided": undecided} if (undecided := one.sweeps_undecided) else {}),
     }
-
-
-def pair_counts(one: PairCounts) -> dict[str, int]:
-    return {
-        "total": one.total,
-        "pruned": one.pruned,
-        "decided": one.decided,
-        "allowed": one.allowed,
-        "indeterminate": one.indeterminate,
-    }
-
-
-def effect(one: EffectReport, timings: bool) -> dict[str, Any]:
-    plain: dict[str, Any] = {
-        "effect": one.effect,
-        "asked_by": list(one.asked_by),
-        "pairs": one.pairs,
-        "not_run": dict(one.not_run),
-    }
-    return plain | {"microseconds": _number(one.microseconds)} if timings else plain
 
 
 def rule(one: Rule) -> dict[str, Any]:
@@ -80,76 +71,4 @@ def rule(one: Rule) -> dict[str, Any]:
         "severity": one.severity,
         "reason": one.reason,
         "where": one.where,
-    }
-
-
-def body(one: BodyReport) -> dict[str, Any]:
-    error = one.part_error
-    return {
-        "id": one.id,
-        "name": one.name,
-        "file": one.file,
-        "sha256": one.sha256,
-        "path": one.path,
-        "shape": one.shape,
-        "transform": _numbers(one.transform),
-        "groups": list(one.groups),
-        "static": one.static,
-        "triangles": one.triangles,
-        "health": one.health,
-        "resolution": _number(one.resolution),
-        "convex": one.convex,
-        "parts": one.parts,
-        "part_error": error
-        and {"outside": _number(error.outside), "missing": _number(error.missing)},
-    }
-
-
-def finding(one: Finding, timings: bool = True) -> dict[str, Any]:
-    witness = one.witness
-    return {
-        "id": one.id,
-        "a": one.a,
-        "b": one.b,
-        "rule": one.rule,
-        "severity": one.severity,
-        "undecided": one.undecided,
-        "relation": one.relation,
-        "exact_relation": one.exact_relation,
-        "tolerance": _number(one.tolerance),
-        "distance": _number(one.distance),
-        "depth": _number(one.depth),
-        "depth_bounds": _numbers(one.depth_bounds),
-        "quality": one.quality,
-        "normal": _numbers(one.normal),
-        "mtv": _numbers(one.mtv),
-        "mtv_moves": one.mtv_moves,
-        "mtv_verified": one.mtv_verified,
-        "witness": witness and {"a": _numbers(witness.a), "b": _numbers(witness.b)},
-        "volume": _number(one.volume),
-        "volume_error": _number(one.volume_error),
-        "contacts": one.contacts and one.contacts.to_dict(),
-        **({} if one.motion is None else {"motion": one.motion.to_dict()}),
-        "certificate": one.certificate,
-        "reason": one.reason,
-        "plan": [_stage(stage, timings) for stage in one.plan],
-        "baseline_state": one.baseline_state,
-    }
-
-
-def _stage(stage: Stage, timings: bool) -> dict[str, Any]:
-    plain: dict[str, Any] = {"stage": stage.stage, "result": stage.result}
-    if timings:
-        plain["microseconds"] = _number(stage.microseconds)
-    plain["detail"] = stage.detail
-    return plain
-
-
-def issue(one: Issue) -> dict[str, Any]:
-    return {
-        "code": one.code,
-        "severity": one.severity,
-        "body": one.body,
-        "file": one.file,
-        "message": one.message,
     }

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import Any, Literal, cast
 
 from satcheck.audit.asked.settings import FailOn
-from satcheck.audit.report import report_values
 from satcheck.audit.report.report import OVERLAPS, Finding, Relation, Report, Vector
+from satcheck.audit.report.report_values import plain
 from satcheck.audit.resolve.opinion import is_objected
 from satcheck.core.frozen import frozen
 
@@ -123,10 +123,10 @@ class Resolution:
             ],
             "check": {
                 "verdict": report.summary.verdict,
-                "pairs": report_values.pair_counts(report.summary.pairs),
+                "pairs": plain(report.summary.pairs),
                 "by_relation": _counts(report.summary.by_relation),
             },
-            "issues": [report_values.issue(issue) for issue in report.issues],
+            "issues": plain(report.issues),
         }
 
 

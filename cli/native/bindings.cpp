@@ -1,9 +1,13 @@
 // JSON values -> text: `satcheck.cli._json`. The only file here that knows Python and nanobind.
 #include <nanobind/nanobind.h>
 
+#include <structmember.h>
+
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <vector>
 
 #include "json_text.hpp"
 
@@ -15,6 +19,48 @@ namespace {
 // Bytes of what is written at once, as a rule.
 constexpr std::size_t kUsual = 4096;
 constexpr std::size_t kStep = 2;  // blanks that a depth more takes
+
+// How the instances of a class of core/frozen.py are written: an object of their fields, or what their to_dict makes.
+struct Form {
+  struct Field {
+    Py_ssize_t offset;  // in bytes, in an instance
+    PyObject* name;
+    std::string key;  // of the text
+    bool said_if_known;
+  };
+  bool known = false;  // such a class it is
+  PyObject* to_dict = nullptr;
+  std::vector<Field> fields;
+};
+
+// Of a class as the last one says it; nothing of it is let go before the process ends.
+Form form_of(nb::handle cls) {
+  Form form;
+  form.known = nb::hasattr(cls, "_given");
+  if (!form.known) return form;
+  if (nb::hasattr(cls, "to_dict")) {
+    form.to_dict = nb::object(cls.attr("to_dict")).release().ptr();
+    return form;
+  }
+  const nb::object optional = nb::getattr(cls, "SAID_IF_KNOWN", nb::make_tuple());
+  for (const nb::handle name : cls.attr("__slots__")) {
+    const nb::object member = cls.attr(name);
+    if (!Py_IS_TYPE(member.ptr(), &PyMemberDescr_Type)) throw nb::type_error("a field without a slot");
+    const Py_ssize_t offset = reinterpret_cast<PyMemberDescrObject*>(member.ptr())->d_member->offset;
+    std::string key;
+    append_string(key, nb::cast<const char*>(name));
+    form.fields.push_back({offset, name.inc_ref().ptr(), key + ": ", PySequence_Contains(optional.ptr(), name.ptr()) == 1});
+  }
+  return form;
+}
+
+const Form& known_form(PyTypeObject* cls) {
+  static auto* const forms = new std::unordered_map<PyTypeObject*, Form>;
+  const auto found = forms->find(cls);
+  if (found != forms->end()) return found->second;
+  const nb::handle kept = nb::handle(reinterpret_cast<PyObject*>(cls)).inc_ref();
+  return forms->emplace(cls, form_of(kept)).first->second;
+}
 
 // Keeps values that hold themselves from ending the process.
 class Nesting {
@@ -34,16 +80,24 @@ bool is_scalar(PyObject* value) {
 
 class Writer {
  public:
-  Writer() { text_.reserve(kUsual); }
+  // without: the name of a field of frozen values that is left out, or None.
+  explicit Writer(const nb::object& without) {
+    PyObject* name = nb::object(without).release().ptr();
+    if (PyUnicode_CheckExact(name)) PyUnicode_InternInPlace(&name);  // as the names of fields are
+    without_ = nb::steal(name);
+    text_.reserve(kUsual);
+  }
 
   // depth: of the object or list that the value is a member of, plus 1.
   void value(PyObject* value, int depth) {
-    if (PyDict_Check(value)) {
+    if (is_scalar(value)) {
+      scalar(value);
+    } else if (PyDict_Check(value)) {
       object(value, depth);
     } else if (PyList_Check(value) || PyTuple_Check(value)) {
       list(value, depth);
     } else {
-      scalar(value);
+      frozen(value, depth);
     }
   }
 
@@ -65,6 +119,29 @@ class Writer {
       if (!PyUnicode_Check(key)) refuse("key", key);
       string(key);
       text_ += ": ";
+      value(member, depth + 1);
+    }
+    close(first, "{}", "}", depth);
+  }
+
+  void frozen(PyObject* instance, int depth) {
+    const Form& form = known_form(Py_TYPE(instance));
+    if (!form.known) refuse("value", instance);
+    if (form.to_dict != nullptr) {
+      const nb::object values = nb::steal(PyObject_CallOneArg(form.to_dict, instance));
+      if (!values.is_valid()) throw nb::python_error();
+      value(values.ptr(), depth);
+      return;
+    }
+    const Nesting nesting;
+    bool first = true;
+    for (const Form::Field& field : form.fields) {
+      PyObject* const member = *reinterpret_cast<PyObject**>(reinterpret_cast<char*>(instance) + field.offset);
+      if (member == nullptr || (field.said_if_known && member == Py_None) || field.name == without_.ptr()) continue;
+      text_ += first ? '{' : ',';
+      first = false;
+      line(depth + 1);
+      text_ += field.key;
       value(member, depth + 1);
     }
     close(first, "{}", "}", depth);
@@ -102,10 +179,8 @@ class Writer {
       text_ += "null";
     } else if (PyBool_Check(value)) {
       text_ += value == Py_True ? "true" : "false";
-    } else if (PyLong_CheckExact(value)) {
-      integer(value);
     } else {
-      refuse("value", value);
+      integer(value);
     }
   }
 
@@ -115,7 +190,7 @@ class Writer {
       PyErr_Format(PyExc_ValueError, "no JSON form for the number %R", value);
       throw nb::python_error();
     }
-    append_number(text_, number);
+    append_number(text_, number + 0.0);  // no negative zero
   }
 
   void integer(PyObject* value) {
@@ -168,6 +243,7 @@ class Writer {
     throw nb::python_error();
   }
 
+  nb::object without_;
   std::string text_;
 };
 
@@ -177,13 +253,15 @@ NB_MODULE(_json, m) {
   m.doc() = "JSON values -> text, in the one layout that all documents of the command have.";
   m.def(
       "text",
-      [](nb::handle value, int depth) {
-        Writer writer;
+      [](nb::handle value, int depth, const nb::object& without) {
+        Writer writer(without);
         writer.value(value.ptr(), depth);
         return writer.text();
       },
-      nb::arg("value").none(), nb::arg("depth") = 0, nb::sig("def text(value: object, depth: int = 0) -> str"),
-      "The text of a JSON value that stands within `depth` objects and lists.\n\n"
+      nb::arg("value").none(), nb::arg("depth") = 0, nb::arg("without").none() = nb::none(),
+      nb::sig("def text(value: object, depth: int = 0, without: str | None = None) -> str"),
+      "The text of a JSON value that stands within `depth` objects and lists, or of a frozen value that stands for one\n"
+      "(audit/report/report_values.py); without: the name of a field that is left out.\n\n"
       "Objects and lists of objects take a line per member, plain lists (vectors) one line; numbers have full "
-      "precision. TypeError for what is no JSON value, ValueError for a number that is not finite.");
+      "precision and no negative zero. TypeError for what is no JSON value, ValueError for a number that is not finite.");
 }

@@ -16,23 +16,25 @@ def render(report: Report, *, timings: bool) -> list[str]:
 
     Not as one text: the report of a scene can be larger than the scene in memory.
     """
+    from satcheck.audit.report.report import TIME
+
+    without = None if timings else TIME
     pieces = ["{"]
-    for number, (key, value) in enumerate(report.members(timings)):
+    for number, (key, value) in enumerate(report.members()):
         pieces.append(f"{',' if number else ''}\n  {text(key)}: ")
-        if isinstance(value, Iterator):
-            pieces += _list_pieces(value)
+        if isinstance(value, tuple) and value:
+            pieces += _list_pieces(value, without)
         else:
-            pieces.append(text(value, 1))
+            pieces.append(text(value, 1, without))
     pieces.append("\n}\n")
     return pieces
 
 
-def _list_pieces(members: Iterator[Any]) -> Iterator[str]:
+def _list_pieces(members: tuple[Any, ...], without: str | None) -> Iterator[str]:
     """Of a list at the top, objects all."""
-    number = -1
     for number, member in enumerate(members):
-        yield f"{',' if number else '['}\n    {text(member, 2)}"
-    yield "[]" if number < 0 else "\n  ]"
+        yield f"{',' if number else '['}\n    {text(member, 2, without)}"
+    yield "\n  ]"
 
 
 def document(values: dict[str, Any]) -> str:

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from satcheck.audit import Contacts, Report
+from satcheck.audit import Contacts, Report, Stage
+from satcheck.audit.report.report_values import plain
 from satcheck.cli._json import text
 from satcheck.cli.report import json as report_json
 from satcheck.cli.report.schema import text as schema_text
@@ -48,6 +49,23 @@ def test_numbers_are_written_as_python_shows_them() -> None:
     numbers += [rng.uniform(-1, 1) * 10.0 ** rng.randint(-8, 20) for _ in range(20_000)]
     numbers += [float(f"1e{exponent}") for exponent in range(-320, 309)]
     assert text(numbers) == f"[{', '.join(map(repr, numbers))}]"
+
+
+def test_there_is_no_negative_zero() -> None:
+    assert text([-0.0, {"a": -0.0}]) == '[\n  0.0,\n  {\n    "a": 0.0\n  }\n]'
+
+
+def test_a_frozen_value_is_an_object_of_its_fields() -> None:
+    stage = Stage("aabb", "meet", 1.5, "")
+    named = '{\n  "stage": "aabb",\n  "result": "meet",\n  "microseconds": 1.5,\n  "detail": ""\n}'
+    assert text(stage) == named == text(plain(stage))
+    assert text(stage, 0, "microseconds") == text(plain(stage, "microseconds"))
+    assert "microseconds" not in text([stage], 0, "microseconds")
+    assert ('"motion"' in text(reports.SWEPT), '"motion"' in text(reports.SEPARATED)) == (
+        True,
+        False,
+    )
+    assert text(reports.SWEPT) == text(plain(reports.SWEPT))
 
 
 def test_the_layout_of_values() -> None:
