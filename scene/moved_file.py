@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from satcheck.scene.bodies import IDENTITY, Scene
-from satcheck.scene.format import scene_1, simple
+from satcheck.scene.format.entries import SCENE_1, SIMPLE
 from satcheck.scene.format.reading import read_scene_file
 from satcheck.scene.format.text import is_toml, parsed, read_text
 from satcheck.scene.format.writing import moved
@@ -45,7 +45,7 @@ def scene_file_of(output: Path, scene: Scene, translations: Mapping[str, Transla
         if body.id in translations:
             entry["position"] = list(translations[body.id])
         entries.append(entry)
-    head = {"schema": scene_1.SCHEMA} | ({"units": scene.units} if scene.units else {})
+    head = {"schema": SCENE_1} | ({"units": scene.units} if scene.units else {})
     return (_toml if is_toml(output) else _json)(head, entries)
 
 
@@ -82,7 +82,7 @@ def stray_mesh(source: str | None, output: Path, scene: Scene) -> str | None:
 def _is_simple(source: str) -> bool:
     """A scene of the simple form names meshes anywhere."""
     document = parsed(source, Path(source), read_text(source, Path(source))).document
-    return bool(document["schema"] == simple.SCHEMA)
+    return bool(document["schema"] == SIMPLE)
 
 
 def _translated(placement: tuple[float, ...], by: Translation) -> tuple[float, ...]:

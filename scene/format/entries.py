@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from satcheck.core.frozen import frozen
-from satcheck.scene.bodies import Transform
-from satcheck.scene.issue import Issue
-from satcheck.scene.motion import Motion
-from satcheck.scene.primitives import Primitive
-from satcheck.scene.rules import Rule
+
+if TYPE_CHECKING:
+    from satcheck.scene.bodies import Transform
+    from satcheck.scene.issue import Issue
+    from satcheck.scene.motion import Motion
+    from satcheck.scene.primitives import Primitive
+    from satcheck.scene.rules import Rule
+
+# What a scene file of each form names as its schema.
+SCENE_1 = "satcheck.scene/1"
+SIMPLE = "satcheck-scene-1"
 
 
 @frozen

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.format import scene_1, simple
-from satcheck.scene.format.entries import SceneFile
+from satcheck.scene.format.entries import SCENE_1, SIMPLE, SceneFile
 from satcheck.scene.format.text import is_toml, parse
 from satcheck.scene.format.values import shown
 
@@ -20,10 +19,14 @@ def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -
     parsed = parse(path, location)
     document = parsed.document
     schema = document.get("schema") if isinstance(document, dict) else None
-    if schema == scene_1.SCHEMA:
+    if schema == SCENE_1:
+        from satcheck.scene.format import scene_1
+
         return scene_1.read_scene(parsed, allow_outside=allow_outside)
-    if schema == simple.SCHEMA and not is_toml(location):
+    if schema == SIMPLE and not is_toml(location):
+        from satcheck.scene.format import simple
+
         return simple.read_scene(parsed)
     told = "" if schema is None else f", but {shown(schema)}"
-    message = f'not a scene file: "schema" is not "{scene_1.SCHEMA}"{told}'
+    message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
     raise SceneFileError("bad-scene", message, file=path)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Any
 
 from satcheck.scene.format.entries import NO_MESH, BodyEntry, SceneFile
-from satcheck.scene.format.json_positions import JsonPositions
 from satcheck.scene.format.mesh_places import MeshPlaces
 from satcheck.scene.format.motion_keys import read_motion
 from satcheck.scene.format.placement import KEYS as PLACEMENT_KEYS
@@ -23,8 +22,6 @@ from satcheck.scene.format.values import boolean, list_of, shown, text
 from satcheck.scene.motion import Motion
 from satcheck.scene.primitives import PRIMITIVES, Primitive, primitive_of
 from satcheck.scene.rules import Rule
-
-SCHEMA = "satcheck.scene/1"
 
 _KEYS = frozenset(
     (
@@ -41,6 +38,8 @@ def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
     """Raises SceneFileError with all that is wrong in the file."""
     problems = Problems()
     if parsed.repeated_keys:
+        from satcheck.scene.format.json_positions import JsonPositions
+
         for keys in JsonPositions(parsed.text).duplicates():
             problems.add(keys, Wrong("a second value for this key"))
     scene = _Reader(parsed, problems, allow_outside).read()

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from satcheck.scene._readers import placement_of
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.mesh_places import MeshPlaces
@@ -25,8 +26,6 @@ from satcheck.scene.format.values import meant
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.rules import Rule, Selector
 
-SCHEMA = "satcheck-scene-1"
-
 _BODY_KEYS = frozenset(("id", "mesh", "transform", "group", "static"))
 _SCENE_KEYS = frozenset(
     ("schema", "name", "units", "bodies", "ignore_within_groups", "allowed_pairs")
@@ -35,6 +34,7 @@ _SCENE_KEYS = frozenset(
 _INFORMATION = frozenset(
     ("$schema", "author", "comment", "description", "licence", "license", "original", "source")
 )
+_NO_TEXT = "should be a non-empty text"
 
 
 def read_scene(parsed: Parsed) -> SceneFile:
@@ -109,21 +109,17 @@ class _Reader:
 
     def _string(self, value: Any, what: str, body: str | None = None) -> str:
         if not isinstance(value, str) or not value:
-            raise self._error("bad-scene", f"{what} should be a non-empty text", body)
+            raise self._error("bad-scene", f"{what} {_NO_TEXT}", body)
         return value
 
     def _body(self, entry: Any, index: int) -> BodyEntry:
         if not isinstance(entry, dict):
             raise self._error("bad-scene", f"body number {index + 1} is not an object")
-        unknown = next((key for key in entry if key not in _BODY_KEYS), None)
-        if unknown is not None:
-            named = entry.get("id")
-            known = isinstance(named, str) and named
-            where = "" if known else f" of body number {index + 1}"
-            hint = meant(unknown, _BODY_KEYS - entry.keys())
-            message = f"unknown key {unknown!r}{where}{hint}"
-            raise self._error("bad-scene", message, named if known else None)
-        id_ = self._string(entry.get("id"), f'"id" of body number {index + 1}')
+        if not _BODY_KEYS.issuperset(entry):
+            raise self._unknown_key(entry, index)
+        id_ = entry.get("id")
+        if not isinstance(id_, str) or not id_:
+            raise self._error("bad-scene", f'"id" of body number {index + 1} {_NO_TEXT}')
         mesh = self._string(entry.get("mesh"), '"mesh"', id_)
         static = entry.get("static", False)
         if not isinstance(static, bool):
@@ -141,9 +137,20 @@ class _Reader:
             static=static,
         )
 
+    def _unknown_key(self, entry: dict[str, Any], index: int) -> SceneFileError:
+        unknown = next(key for key in entry if key not in _BODY_KEYS)
+        named = entry.get("id")
+        known = isinstance(named, str) and named
+        where = "" if known else f" of body number {index + 1}"
+        hint = meant(unknown, _BODY_KEYS - entry.keys())
+        message = f"unknown key {unknown!r}{where}{hint}"
+        return self._error("bad-scene", message, named if known else None)
+
     def _transform(self, rows: Any, body: str) -> tuple[float, ...] | None:
         if rows is None:
             return None
+        if (plain := placement_of(rows)) is not None:
+            return plain
         if not is_4x4(rows):
             raise self._error("bad-scene", '"transform" should be 4 rows of 4 numbers', body)
         try:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
-import math
-import re
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from satcheck.core.errors import SatcheckError
+from satcheck.scene._readers import read_json
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.positions import Positions
 from satcheck.scene.loading.regular_file import size_of
@@ -81,6 +79,7 @@ def parsed(path: str, location: Path, text: str) -> Parsed:
 
 
 def _toml(path: str, text: str) -> Any:
+    import re
     import tomllib
 
     try:
@@ -97,6 +96,14 @@ def _toml(path: str, text: str) -> Any:
 
 def _json(path: str, text: str) -> tuple[Any, bool]:
     """(the document, whether an object of it has a key twice)."""
+    return read_json(text) or _json_with_reasons(path, text)
+
+
+def _json_with_reasons(path: str, text: str) -> tuple[Any, bool]:
+    """Of any text: what is wrong with it has a line."""
+    import json
+    import math
+
     repeated = False
 
     def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

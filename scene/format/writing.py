@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from satcheck.scene.bodies import IDENTITY, Transform
-from satcheck.scene.format import simple
+from satcheck.scene.format.entries import SIMPLE
 from satcheck.scene.format.placement import matrix, placement
 from satcheck.scene.format.positions import Keys, Place
 from satcheck.scene.format.problems import Problems
@@ -41,7 +41,7 @@ def moved(path: str, text: str, placements: Mapping[str, Transform]) -> str:
 
 def _edits(scene: Parsed, index: int, new: Transform) -> Iterator[Edit]:
     entry, keys = scene.document["bodies"][index], ("bodies", index)
-    is_simple = scene.document["schema"] == simple.SCHEMA
+    is_simple = scene.document["schema"] == SIMPLE
     old = _simple_placement(entry) if is_simple else _placement(entry)
     if any(a != b for k, (a, b) in enumerate(zip(old, new, strict=True)) if k not in (3, 7, 11)):
         raise ValueError(f"body {entry['id']!r} is turned or scaled, not just moved")

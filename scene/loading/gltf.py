@@ -8,13 +8,13 @@ cameras, animations are never touched. Sources: the Khronos glTF 2.0 specificati
 
 from __future__ import annotations
 
-import json
 import sys
 from array import array
 from typing import Any, NoReturn
 
 from satcheck.core.frozen import replace
 from satcheck.core.transform import of_quaternion, placed
+from satcheck.scene._readers import read_json
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_buffers import Accessors, integer, items, member, split_glb
@@ -47,26 +47,35 @@ def read_gltf(
     return _Scene(document, accessors).read()
 
 
-def _parse_json(text: memoryview) -> dict[str, Any]:
-    def refuse(token: str) -> NoReturn:
-        raise MeshFileError("bad-record", f"JSON: {token} is not a number of glTF")
-
+def _parse_json(data: memoryview) -> dict[str, Any]:
     try:
-        document = json.loads(str(text, "utf-8-sig"), parse_constant=refuse)
+        text = str(data, "utf-8-sig")
     except UnicodeDecodeError:
         raise MeshFileError("bad-encoding", "the JSON is not UTF-8") from None
-    except json.JSONDecodeError as error:
-        raise MeshFileError(
-            "bad-record", f"line {error.lineno}: not well-formed JSON: {error.msg}"
-        ) from None
-    except RecursionError:
-        raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
+    document, _ = read_json(text) or (_json_with_reasons(text), False)
     if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
         raise MeshFileError("not-this-format", "not a glTF file: no asset object")
     version = document["asset"].get("version")
     if not isinstance(version, str) or not version.startswith("2."):
         raise MeshFileError("unsupported-feature", f"glTF version {version!r}: 2.x is read")
     return document
+
+
+def _json_with_reasons(text: str) -> Any:
+    """Of any text: what is wrong with it has a line."""
+    import json
+
+    def refuse(token: str) -> NoReturn:
+        raise MeshFileError("bad-record", f"JSON: {token} is not a number of glTF")
+
+    try:
+        return json.loads(text, parse_constant=refuse)
+    except json.JSONDecodeError as error:
+        raise MeshFileError(
+            "bad-record", f"line {error.lineno}: not well-formed JSON: {error.msg}"
+        ) from None
+    except RecursionError:
+        raise MeshFileError("bad-record", "the JSON is nested too deeply") from None
 
 
 def _check_extensions(document: dict[str, Any]) -> None:
