@@ -8,7 +8,6 @@ put into words. What still takes time then, a depth for instance, goes to thread
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Generic, TypeVar
@@ -19,6 +18,8 @@ from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
+
+    from satcheck.audit.bodies.placed_body import PlacedBody
 
 C = TypeVar("C")
 T = TypeVar("T")
@@ -53,7 +54,7 @@ class InTurn:
     def each(self, pairs: Sequence[Pair], steps: Steps[C, T]) -> Iterator[tuple[int, T]]:
         """(k, examine(pairs[k])) of every pair, near ones after each other."""
         order = _along_curve(pairs)
-        left = Counter(id(body) for pair in pairs for body in (pair.a, pair.b))
+        leaving = {} if self.keep else _leaving(pairs, order)
         threads = self._threads(len(pairs))
         with ExitStack() as stack:
             workers = _Workers(threads, stack)
@@ -61,10 +62,8 @@ class InTurn:
             for batch, climbs in _climbed(pairs, batches, steps, threads):
                 done = workers.do([pairs[k] for k in batch], climbs, steps)
                 for k, one in zip(batch, done, strict=True):
-                    for body in (pairs[k].a, pairs[k].b):
-                        left[id(body)] -= 1
-                        if not (left[id(body)] or self.keep):
-                            body.let_go()
+                    for body in leaving.get(k, ()):
+                        body.let_go()
                     yield k, one
 
     def _threads(self, pairs: int) -> int:
@@ -76,10 +75,25 @@ class InTurn:
 def _along_curve(pairs: Sequence[Pair]) -> list[int]:
     bodies = {id(body): body for pair in pairs for body in (pair.a, pair.b)}
     order = core.order_along_curve([body.bounds for body in bodies.values()])
-    keys = list(bodies)
+    keys, count = list(bodies), len(bodies)
     rank = {keys[number]: place for place, number in enumerate(order)}
-    ends = [sorted((rank[id(pair.a)], rank[id(pair.b)])) for pair in pairs]
-    return sorted(range(len(pairs)), key=ends.__getitem__)
+    places = []  # of the earlier body, then of the other one, as one number
+    for pair in pairs:
+        a, b = rank[id(pair.a)], rank[id(pair.b)]
+        places.append(a * count + b if a < b else b * count + a)
+    return sorted(range(len(pairs)), key=places.__getitem__)
+
+
+def _leaving(pairs: Sequence[Pair], order: Sequence[int]) -> dict[int, list[PlacedBody]]:
+    """The number of a pair -> the bodies of which it is the last."""
+    leaving: dict[int, list[PlacedBody]] = {}
+    seen = set()
+    for k in reversed(order):
+        for body in (pairs[k].a, pairs[k].b):
+            if id(body) not in seen:
+                seen.add(id(body))
+                leaving.setdefault(k, []).append(body)
+    return leaving
 
 
 def _batches(pairs: Sequence[Pair], order: Sequence[int], threads: int) -> Iterator[list[int]]:

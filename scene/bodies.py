@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
-from satcheck.core import Mesh, Topology
+from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.frozen import frozen
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
@@ -146,32 +145,5 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
     """`Body.resolution_world`. largest: coordinate of the file's mesh."""
     if transform is None:
         return file.resolution
-    step = _largest_coordinate(transform, largest) * file.placement_step
+    step = largest_placed(transform, largest) * file.placement_step
     return file.resolution * largest_stretch(transform) + step
-
-
-def largest_stretch(transform: Transform) -> float:
-    """How much longer the transform can make a length: its largest singular value.
-
-    The largest eigenvalue of M^T M in closed form: Smith, "Eigenvalues of a symmetric 3 x 3
-    matrix" (1961).
-    """
-    a, b, c, _, d, e, f, _, g, h, i = transform[:11]
-    xx, yy, zz = a * a + d * d + g * g, b * b + e * e + h * h, c * c + f * f + i * i
-    xy, xz, yz = a * b + d * e + g * h, a * c + d * f + g * i, b * c + e * f + h * i
-    mean = (xx + yy + zz) / 3.0
-    spread = (xx - mean) ** 2 + (yy - mean) ** 2 + (zz - mean) ** 2
-    radius = math.sqrt((spread + 2.0 * (xy**2 + xz**2 + yz**2)) / 6.0)
-    if radius == 0.0:
-        return math.sqrt(mean)
-    xx, yy, zz = (xx - mean) / radius, (yy - mean) / radius, (zz - mean) / radius
-    xy, xz, yz = xy / radius, xz / radius, yz / radius
-    determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
-    half_determinant = max(-1.0, min(1.0, determinant / 2.0))
-    return math.sqrt(mean + 2.0 * radius * math.cos(math.acos(half_determinant) / 3.0))
-
-
-def _largest_coordinate(transform: Transform, largest: float) -> float:
-    """An upper bound of |world coordinate| for file coordinates up to `largest`."""
-    a, b, c, x, d, e, f, y, g, h, i, z = map(abs, transform[:12])
-    return max((a + b + c) * largest + x, (d + e + f) * largest + y, (g + h + i) * largest + z)

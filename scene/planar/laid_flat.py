@@ -8,11 +8,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from satcheck.core import Mesh
+from satcheck.core import Mesh, largest_stretch
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import replace
-from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable, largest_stretch
+from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from satcheck.core import largest_placed, largest_stretch
 from satcheck.scene import Body, load_scene
-from satcheck.scene.bodies import largest_stretch
 from satcheck.scene.loading.raw_mesh import RawMesh
 from satcheck.scene.resolution import (
     FLOAT32_STEP,
@@ -95,6 +95,19 @@ def test_largest_stretch(linear, stretch):
     a, b, c = linear[:3], linear[3:6], linear[6:]
     transform = (*a, 7.0, *b, 8.0, *c, 9.0, 0.0, 0.0, 0.0, 1.0)
     assert largest_stretch(transform) == pytest.approx(stretch, rel=1e-14)
+
+
+def test_a_stretch_beyond_all_numbers_is_none():
+    for large in (1e90, 1e160, 1e300):
+        transform = (large, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+        with pytest.raises(OverflowError, match="stretches lengths out of range"):
+            largest_stretch(transform)
+
+
+def test_the_largest_coordinate_of_what_is_placed():
+    transform = (1, -2, 0.5, 7, 0, 3, 0, -50, 0, 0, 1, 0, 0, 0, 0, 1)
+    assert largest_placed(transform, 4.0) == 3 * 4 + 50
+    assert largest_placed(transform, 400.0) == 3.5 * 400 + 7
 
 
 def test_world_resolution_adds_the_rounding_of_the_placement(tmp_path):

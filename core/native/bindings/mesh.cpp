@@ -27,6 +27,7 @@
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "scene/placed_bounds.hpp"
+#include "scene/stretch.hpp"
 #include "scene/words.hpp"
 
 namespace nb = nanobind;
@@ -179,6 +180,11 @@ void bind_placed_bounds(nb::module_& m) {
   m.def("placed_bounds", &bounds_of_placed, "meshes"_a, "matrices"_a, "threads"_a = 0,
         R"(The bounds of meshes[i].transformed(matrices[i]) for each i, to the bit, without placing a mesh; None where that
 raises. On `threads` threads, 0: one a core. ValueError when the lengths differ.)");
+  m.def("largest_stretch", &largest_stretch, "matrix"_a,
+        "How much longer the placement, 16 entries by rows, can make a length: its largest singular value. "
+        "OverflowError where its squares leave the range of numbers.");
+  m.def("largest_placed", &largest_placed, "matrix"_a, "largest"_a,
+        "An upper bound, but for rounding, of |world coordinate| for coordinates up to `largest` in the file.");
 }
 
 void bind_topology(nb::module_& m) {
