@@ -1,11 +1,12 @@
 """Stubs of the compiled core. Points and vectors are tuples (x, y, z) in the mesh's own frame."""
 
-from collections.abc import Sequence
-from typing import Any, Literal, overload
+from collections.abc import Callable, Sequence
+from typing import Any, Literal, TypeVar, overload
 
 from numpy import float64, int32, uint8, uint32
 from numpy.typing import NDArray
 
+T = TypeVar("T")
 Point = tuple[float, float, float]
 
 class Topology:
@@ -350,6 +351,9 @@ class Climb:
     def gap(self) -> MeshDistance | None: ...
     @property
     def gap_is_void(self) -> bool: ...
+    @property
+    def proven_gap(self) -> float: ...
+    def stages(self, make: Callable[[str, str, float, str], T]) -> list[T]: ...
     @property
     def nanoseconds(self) -> tuple[int, int, int, int, int, int]: ...
 

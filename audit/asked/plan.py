@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from time import perf_counter_ns
+from typing import TYPE_CHECKING
 
 from satcheck.audit.report.report import Issue, Stage
+
+if TYPE_CHECKING:
+    from satcheck.core import Climb
 
 NANOSECONDS_PER_MICROSECOND = 1000.0
 
@@ -24,6 +28,10 @@ class Plan:
         elapsed = (now - self._since) / NANOSECONDS_PER_MICROSECOND
         self.stages.append(Stage(stage, result, elapsed, detail))
         self._since = now
+
+    def climbed(self, found: Climb) -> None:
+        """The rungs of the core, in its words."""
+        self.stages += found.stages(Stage)
 
     def add(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
         """A stage that ran elsewhere."""

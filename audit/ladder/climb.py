@@ -31,9 +31,10 @@ _EXTRAS: frozenset[Effect] = frozenset(
 )
 
 
-def climb(pair: Pair, first: Rung = "aabb") -> core.Climb:
-    """One pair, from this rung on. Raises what making its bodies raises."""
-    last = LAST[pair.settings.accuracy]
+def climb(pair: Pair, first: Rung = "aabb", last: Rung | None = None) -> core.Climb:
+    """One pair, from this rung on, up to `last` or as far as its settings go. Raises what making
+    its bodies raises."""
+    last = last or LAST[pair.settings.accuracy]
     if pair.curved:
         last = "aabb"
     elif pair.outlined and first == "aabb" and last != "aabb":

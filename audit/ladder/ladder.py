@@ -32,16 +32,8 @@ RELATION_NAMED: dict[str, Relation] = {
     "inside": "inside",
     "coincident": "coincident",
 }
-# Result and detail of the stage.
-WORDS_OF_ORIENTED_BOXES: dict[str, tuple[str, str]] = {
-    "apart": ("separated", ""),
-    "meet": ("meet", ""),
-    "sheared": ("skipped", "a transform shears: the carried box is no box"),
-    "unturned": ("skipped", "neither body is turned: its oriented box is its world box"),
-}
-# Nanoseconds of a climb, and the places of its rungs in them.
-Costs = tuple[int, ...]
-BOXES, ORIENTED, HULLS, NESTING, TRIANGLES, BAND = range(6)
+# The place of the touch band, or of the gap, in the nanoseconds of a climb.
+BAND = -1
 
 
 @frozen
@@ -81,28 +73,28 @@ def settle(pair: Pair, plan: Plan, found: core.Climb | None = None) -> Contact:
 
 
 def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
-    cost = found.nanoseconds
-    gap = _boxes(plan, found, cost)
-    if gap > pair.asked_gap or not pair.may("obb"):
+    plan.climbed(found)
+    gap, asked_gap = found.box_gap, pair.asked_gap
+    if gap > asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
     if pair.curved:
         from satcheck.audit.curved.contact import settle_curved
 
         return settle_curved(pair, plan) if pair.may("hull") else _apart_or_guess(gap)
-    if _oriented_boxes_apart(plan, found, cost):
-        return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
+    if found.boxes == "apart":
+        return Contact("separated", True, math.nextafter(asked_gap, math.inf))
     if not pair.may("hull"):
         return _apart_or_guess(gap)
     if pair.outlined:
         if _outlines_apart(pair, plan):
-            return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
+            return Contact("separated", True, math.nextafter(asked_gap, math.inf))
         found = climb(pair, "hull")
-        cost = found.nanoseconds
-    contact = _convex(plan, found, cost) if found.both_convex else _hulls(plan, found, cost, gap)
+        plan.climbed(found)
+    contact = _convex(found) if found.both_convex else _hulls(found)
     if contact is not None:
         return contact
     if pair.may("exact"):
-        return _triangles(plan, found, cost)
+        return _triangles(found)
     if pair.may("parts"):
         from satcheck.audit.ladder.parts_only import settle_by_parts
 
@@ -116,30 +108,9 @@ def _apart_or_guess(gap: float) -> Contact:
 
 def boxes_apart(pair: Pair, plan: Plan) -> float:
     """Rung 0 alone: a lower bound of the gap of the world boxes, 0.0 when they meet."""
-    gap = core.box_gap(pair.a.bounds, pair.b.bounds)
-    plan.record("aabb", *_words_of_boxes(gap))
-    return gap
-
-
-def _boxes(plan: Plan, found: core.Climb, cost: Costs) -> float:
-    gap = found.box_gap
-    plan.add("aabb", *_words_of_boxes(gap), cost[BOXES])
-    return gap
-
-
-def _words_of_boxes(gap: float) -> tuple[str, str]:
-    if gap > 0:
-        return "separated", f"world boxes apart by at least {gap:.6g}"
-    return "meet", "world boxes meet"
-
-
-def _oriented_boxes_apart(plan: Plan, found: core.Climb, cost: Costs) -> bool:
-    """Whether the files' own boxes, placed, are apart by more than was asked about."""
-    boxes = found.boxes
-    result, detail = WORDS_OF_ORIENTED_BOXES[boxes]
-    apart = boxes == "apart"
-    plan.add("obb", result, found.box_feature if apart else detail, cost[ORIENTED])
-    return apart
+    found = climb(pair, last="aabb")
+    plan.climbed(found)
+    return found.box_gap
 
 
 def _outlines_apart(pair: Pair, plan: Plan) -> bool:
@@ -167,54 +138,33 @@ def _asked(result: T | None) -> T:
     return result
 
 
-def _convex(plan: Plan, found: core.Climb, cost: Costs) -> Contact | None:
+def _convex(found: core.Climb) -> Contact | None:
     """Everything about two convex bodies; None when the solver could not decide."""
     result = _asked(found.hulls)
-    detail = f"both convex: {result.method} {result.feature}".rstrip()
-    plan.add("hull", result.outcome, detail, cost[HULLS])
     if result.outcome == "undecided":
         return None
     relation = RELATION_NAMED[result.outcome]
-    if found.nesting is not None:
-        detail = "one world box holds the other"
-        plan.add("containment", found.nesting, detail, cost[NESTING])
-        # The surfaces differ from the hulls by the rounding of the pose: a relation without a
-        # common interior can then only mean a graze, which the hulls have already settled.
-        if found.nesting in ("contains", "inside", "coincident"):
-            relation = RELATION_NAMED[found.nesting]
+    # The surfaces differ from the hulls by the rounding of the pose: a relation without a common
+    # interior can then only mean a graze, which the hulls have already settled.
+    if found.nesting in ("contains", "inside", "coincident"):
+        relation = RELATION_NAMED[found.nesting]
     return Contact(relation, True, max(result.lower or 0.0, 0.0), result, climb=found)
 
 
-def _hulls(plan: Plan, found: core.Climb, cost: Costs, box_lower: float) -> Contact | None:
+def _hulls(found: core.Climb) -> Contact | None:
     """Apart, if the hulls of the whole meshes are; None otherwise."""
-    result = _asked(found.hulls)
-    if result.outcome != "separated":
-        outcome = "undecided" if result.outcome == "undecided" else "meet"
-        detail = "not both convex: hulls prove only separation"
-        plan.add("hull", outcome, detail, cost[HULLS])
+    if _asked(found.hulls).outcome != "separated":
         return None
-    lower = max(result.lower or 0.0, box_lower)
-    detail = f"hulls apart by at least {lower:.6g}"
-    plan.add("hull", "separated", detail, cost[HULLS])
-    return Contact("separated", True, lower, climb=found)
+    return Contact("separated", True, found.proven_gap, climb=found)
 
 
-def _triangles(plan: Plan, found: core.Climb, cost: Costs) -> Contact:
+def _triangles(found: core.Climb) -> Contact:
     surfaces = _asked(found.triangles)
-    detail = f"{surfaces.box_tests} box tests, {surfaces.triangle_tests} triangle tests"
-    crossing = None
     in_a, in_b = surfaces.triangle_a, surfaces.triangle_b
-    if in_a >= 0 and in_b >= 0:
-        crossing = (in_a, in_b)
-        detail += f", triangles {in_a} and {in_b} meet"
-    proven, relation = surfaces.proven, RELATION_NAMED[surfaces.relation]
-    if not proven:
-        detail += ", sampled in a degenerate contact"
-    plan.add("triangles", relation, detail, cost[TRIANGLES])
     return Contact(
-        relation,
-        proven,
-        crossing=crossing,
+        RELATION_NAMED[surfaces.relation],
+        surfaces.proven,
+        crossing=(in_a, in_b) if in_a >= 0 and in_b >= 0 else None,
         point=surfaces.point,
         climb=found,
     )

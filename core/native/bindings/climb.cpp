@@ -12,8 +12,10 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <unordered_map>
 
 #include "scene/climb.hpp"
+#include "scene/rung_words.hpp"
 #include "scene/touch_proof.hpp"
 #include "scene/words.hpp"
 
@@ -92,6 +94,27 @@ std::optional<const char*> word(const std::optional<T>& value) {
   return value ? std::optional(name_of(*value)) : std::nullopt;
 }
 
+// The Python text of a word that is written in the source: one for all uses.
+PyObject* known_word(const char* word) {
+  static auto* const known = new std::unordered_map<const void*, PyObject*>;
+  PyObject*& text = (*known)[word];
+  if (text == nullptr) text = PyUnicode_InternFromString(word);
+  return text;
+}
+
+nb::list stages(const Climb& climb, nb::handle make) {
+  nb::list made;
+  for (const RungWords& words : words_of(climb)) {
+    const nb::object cost = nb::float_(static_cast<double>(words.nanoseconds) / 1000.0);
+    const nb::object detail = nb::steal(PyUnicode_FromStringAndSize(words.detail.data(), words.detail.size()));
+    PyObject* const given[] = {known_word(words.rung), known_word(words.result), cost.ptr(), detail.ptr()};
+    const nb::object stage = nb::steal(PyObject_Vectorcall(make.ptr(), given, 4, nullptr));
+    if (!stage.is_valid()) throw nb::python_error();
+    made.append(stage);
+  }
+  return made;
+}
+
 void bind_found(nb::module_& m) {
   nb::class_<WayWithin>(m, "WayWithin", R"(A way out of an overlap that is no longer than the touch band.
 
@@ -112,6 +135,7 @@ nesting       the relation of two convex bodies that overlap and whose world box
 triangles     the relation of the meshes.
 least_depth   of an overlap that triangles decided, where the touch band is not 0: a proven lower bound of its depth.
 way_within    out of the touch band, of such an overlap that least_depth leaves open.
+proven_gap    a proven lower bound of the distance by boxes and hulls, 0.0 where they know none.
 gap           of surfaces apart; gap_is_void: it may be that of a wall that bounds no material.
 nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of the touch band or gap.)")
       .def_ro("box_gap", &Climb::box_gap)
@@ -126,6 +150,8 @@ nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of the to
       .def_prop_ro("way_within", [](const Climb& c) { return if_known(c.way_within); }, nb::rv_policy::reference_internal)
       .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal)
       .def_ro("gap_is_void", &Climb::gap_is_void)
+      .def_prop_ro("proven_gap", &proven_gap)
+      .def("stages", &stages, "make"_a, R"(What the rungs that ran found, in words: make(rung, result, microseconds, detail) of each.)")
       .def_prop_ro("nanoseconds", [](const Climb& c) { return nb::tuple(nb::cast(c.nanoseconds)); });
 }
 

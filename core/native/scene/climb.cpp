@@ -27,8 +27,6 @@ constexpr std::size_t kManyVertices = 8192;
 // Of its box what a body can be cut down to for one pair: cutting it costs a part of what it saves.
 constexpr double kLittle = 0.5;
 
-enum Clock : std::size_t { kBoxes, kOriented, kHulls, kNesting, kTriangles, kBand };
-
 bool holds(const Aabb& outer, const Aabb& inner) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(outer.min[axis] <= inner.min[axis] && inner.max[axis] <= outer.max[axis])) return false;
@@ -73,7 +71,11 @@ class Climber {
   Climber(const ClimbRequest& asked, Rung first, Rung last) : q_(asked), first_(first), last_(last) {}
 
   Climb take() {
-    if (takes(Rung::aabb) && timed(kBoxes, [&] { return boxes_settle(); })) return found_;
+    const bool apart = timed(kBoxes, [&] {
+      found_.box_gap = box_gap(q_.a->bounds(), q_.b->bounds());
+      return found_.box_gap > q_.asked_gap;
+    });
+    if (takes(Rung::aabb) && apart) return found_;
     if (takes(Rung::obb) && timed(kOriented, [&] { return oriented_boxes_settle(); })) return found_;
     if (takes(Rung::hull) && hulls_settle()) {
       if (hulls_leave_gap_open()) timed(kBand, [&] { return measure_gap(); });
@@ -93,11 +95,6 @@ class Climber {
     found_.nanoseconds[clock] =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
     return result;
-  }
-
-  bool boxes_settle() {
-    found_.box_gap = box_gap(q_.a->bounds(), q_.b->bounds());
-    return found_.box_gap > q_.asked_gap;
   }
 
   bool oriented_boxes_settle() {
@@ -177,8 +174,7 @@ class Climber {
   // Hulls can be closer than a gap that is asked about.
   bool hulls_leave_gap_open() const {
     if (found_.both_convex || last_ != Rung::triangles) return false;
-    const double proven = found_.hulls->has_distance ? std::fmax(found_.hulls->lower, 0.0) : 0.0;
-    return !(std::fmax(proven, found_.box_gap) > q_.asked_gap);
+    return !(proven_gap(found_) > q_.asked_gap);
   }
 
   bool boxes_nest() const {
@@ -256,6 +252,11 @@ class Climber {
 };
 
 }  // namespace
+
+double proven_gap(const Climb& climb) {
+  const double by_hulls = climb.hulls && climb.hulls->has_distance ? climb.hulls->lower : 0.0;
+  return std::fmax(by_hulls, climb.box_gap);
+}
 
 Climb climb(const ClimbRequest& request, Rung first, Rung last) { return Climber(request, first, last).take(); }
 

@@ -30,6 +30,9 @@ struct ClimbRequest {
 // sheared, unturned: why oriented boxes say no more than the world boxes.
 enum class BoxOutcome : std::uint8_t { not_asked, sheared, unturned, apart, meet };
 
+// The places of costs: of the rungs in their order, nesting behind the hulls, and of the touch band or the gap.
+enum Clock : std::size_t { kBoxes, kOriented, kHulls, kNesting, kTriangles, kBand };
+
 // What each rung found, and what it cost; nothing where the climb did not get so far.
 struct Climb {
   double box_gap = 0;  // a proven lower bound of the gap of the world boxes
@@ -43,9 +46,11 @@ struct Climb {
   std::optional<WayWithin> way_within;  // of one that least_depth does not prove deeper than the band
   std::optional<MeshDistance> gap;      // of surfaces apart
   bool gap_is_void = false;           // it may be that of a wall that bounds no material
-  // Of the rungs, in the order above, those of nesting and of the last two (one of which runs) included.
-  std::array<std::int64_t, 6> nanoseconds{};
+  std::array<std::int64_t, kBand + 1> nanoseconds{};
 };
+
+// A proven lower bound of the distance by boxes and hulls; 0 where they know none.
+double proven_gap(const Climb& climb);
 
 // From `first` up to `last`, which is taken even where what it finds cannot settle the pair. Throws what the
 // making of a body throws.
