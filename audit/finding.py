@@ -49,15 +49,12 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     _add_extras(known, pair, contact, plan)
     found = judged(known, pair, gap, unseen is not None)
     known["reason"] = known["reason"] or found.reason
-    return _finding(
-        pair.a.id,
-        pair.b.id,
-        plan,
-        severity=found.severity,
-        rule=found.rule,
-        undecided=found.undecided,
-        **known,
+    known["rule"], known["severity"], known["undecided"] = (
+        found.rule,
+        found.severity,
+        found.undecided,
     )
+    return _finding(pair.a.id, pair.b.id, plan, known)
 
 
 def _unseen_way_out(known: dict[str, Any], pair: Pair, plan: Plan) -> str | None:
@@ -102,24 +99,27 @@ def apart_by_boxes(pair: Pair) -> Finding:
     plan = Plan()
     if not boxes_apart(pair, plan) > pair.asked_gap:
         raise RuntimeError(f"the broad phase dropped {pair.a.id} and {pair.b.id}")
-    return _finding(
-        pair.a.id,
-        pair.b.id,
-        plan,
-        relation="separated",
-        severity="none",
-        exact_relation="separated",
-        quality="exact",
-        tolerance=pair.tolerance,
-        contacts=Contacts() if pair.asked.wants("contacts") else None,
-        volume=0.0 if pair.asked.wants("volume") else None,
-        volume_error=0.0 if pair.asked.wants("volume") else None,
-    )
+    known = {
+        "relation": "separated",
+        "severity": "none",
+        "exact_relation": "separated",
+        "quality": "exact",
+        "tolerance": pair.tolerance,
+        "contacts": Contacts() if pair.asked.wants("contacts") else None,
+        "volume": 0.0 if pair.asked.wants("volume") else None,
+        "volume_error": 0.0 if pair.asked.wants("volume") else None,
+    }
+    return _finding(pair.a.id, pair.b.id, plan, known)
 
 
 def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:
-    undecided = {"severity": "warning", "undecided": "relation", "reason": reason}
-    return _finding(a, b, plan, relation="indeterminate", **undecided)
+    known = {
+        "relation": "indeterminate",
+        "severity": "warning",
+        "undecided": "relation",
+        "reason": reason,
+    }
+    return _finding(a, b, plan, known)
 
 
 def _weakness(pair: Pair, contact: Contact) -> str | None:
@@ -241,5 +241,8 @@ def _open_gap(pair: Pair) -> str:
     return "the gap may be wider: the nearest wall has no thickness and may be no part of the body"
 
 
-def _finding(a: str, b: str, plan: Plan, **known: Any) -> Finding:
-    return Finding(id=finding_id(a, b), a=a, b=b, plan=tuple(plan.stages), **known)
+def _finding(a: str, b: str, plan: Plan, known: dict[str, Any]) -> Finding:
+    """known: its other fields."""
+    known["id"], known["a"], known["b"] = finding_id(a, b), a, b
+    known["plan"] = tuple(plan.stages)
+    return Finding(**known)

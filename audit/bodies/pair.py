@@ -23,7 +23,8 @@ _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
 
 @frozen
 class Pair:
-    """tolerance: half width of the touch band, world units.
+    """tolerance: half width of the touch band, world units. asked_gap: a gap beyond this needs no
+    figure, it is neither near nor in the touch band.
 
     By default either surface may be off by its own input precision, so the sum of both; but
     coordinates without decimals, far from the origin, must not swallow a whole body. Never less
@@ -41,12 +42,14 @@ class Pair:
     paths: Paths | None = None
     alone: bool = False
     tolerance: float = derived()
+    asked_gap: float = derived()
 
     def __post_init__(self) -> None:
         tolerance = self.asked.tolerance
         if tolerance is None:
             tolerance = self._precision()
         object.__setattr__(self, "tolerance", tolerance)
+        object.__setattr__(self, "asked_gap", max(self.asked.clearance or 0.0, tolerance))
 
     def _precision(self) -> float:
         plane = self.settings.planar
@@ -61,11 +64,6 @@ class Pair:
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""
         return _RANK[rung] <= _RANK[self.settings.accuracy]
-
-    @property
-    def asked_gap(self) -> float:
-        """A gap beyond this needs no figure: it is neither near nor in the touch band."""
-        return max(self.asked.clearance or 0.0, self.tolerance)
 
     @property
     def largest_coordinate(self) -> float:

@@ -8,7 +8,7 @@ case: what it could not prove is then an estimate, and it can only err towards "
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
@@ -20,8 +20,6 @@ from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
-
-T = TypeVar("T")
 
 # The words of the core for a relation.
 RELATION_NAMED: dict[str, Relation] = {
@@ -74,32 +72,43 @@ def settle(pair: Pair, plan: Plan, found: core.Climb | None = None) -> Contact:
 
 def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
     plan.climbed(found)
-    gap, asked_gap = found.box_gap, pair.asked_gap
-    if gap > asked_gap or not pair.may("obb"):
+    contact = _proven(pair, found)
+    if contact is not None:
+        return contact
+    gap = found.box_gap
+    if gap > pair.asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
     if pair.curved:
         from satcheck.audit.curved.contact import settle_curved
 
         return settle_curved(pair, plan) if pair.may("hull") else _apart_or_guess(gap)
-    if found.boxes == "apart":
-        return Contact("separated", True, math.nextafter(asked_gap, math.inf))
     if not pair.may("hull"):
         return _apart_or_guess(gap)
-    if pair.outlined:
+    if pair.outlined and found.hulls is None:
         if _outlines_apart(pair, plan):
-            return Contact("separated", True, math.nextafter(asked_gap, math.inf))
-        found = climb(pair, "hull")
-        plan.climbed(found)
-    contact = _convex(found) if found.both_convex else _hulls(found)
-    if contact is not None:
-        return contact
-    if pair.may("exact"):
-        return _triangles(found)
+            return _apart_beyond(pair)
+        return _settled(pair, plan, climb(pair, "hull"))
     if pair.may("parts"):
         from satcheck.audit.ladder.parts_only import settle_by_parts
 
         return settle_by_parts(pair, plan)
     return Contact("penetrating", False)
+
+
+def _proven(pair: Pair, found: core.Climb) -> Contact | None:
+    """What the rung that the climb ended with says above the world boxes; None: not everything."""
+    if found.triangles is not None:
+        return _triangles(found, found.triangles)
+    if found.boxes == "apart":
+        return _apart_beyond(pair)
+    if found.hulls is None:
+        return None
+    return _convex(found, found.hulls) if found.both_convex else _hulls(found, found.hulls)
+
+
+def _apart_beyond(pair: Pair) -> Contact:
+    """By more than was asked about."""
+    return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
 
 
 def _apart_or_guess(gap: float) -> Contact:
@@ -132,15 +141,8 @@ def _edge_of(found: core.PolygonResult) -> str:
     return f"outlines, edge {edge} of {body}"
 
 
-def _asked(result: T | None) -> T:
-    """Of a rung that the climb got to."""
-    assert result is not None
-    return result
-
-
-def _convex(found: core.Climb) -> Contact | None:
+def _convex(found: core.Climb, result: core.PairResult) -> Contact | None:
     """Everything about two convex bodies; None when the solver could not decide."""
-    result = _asked(found.hulls)
     if result.outcome == "undecided":
         return None
     relation = RELATION_NAMED[result.outcome]
@@ -151,15 +153,14 @@ def _convex(found: core.Climb) -> Contact | None:
     return Contact(relation, True, max(result.lower or 0.0, 0.0), result, climb=found)
 
 
-def _hulls(found: core.Climb) -> Contact | None:
+def _hulls(found: core.Climb, result: core.PairResult) -> Contact | None:
     """Apart, if the hulls of the whole meshes are; None otherwise."""
-    if _asked(found.hulls).outcome != "separated":
+    if result.outcome != "separated":
         return None
     return Contact("separated", True, found.proven_gap, climb=found)
 
 
-def _triangles(found: core.Climb) -> Contact:
-    surfaces = _asked(found.triangles)
+def _triangles(found: core.Climb, surfaces: core.MeshRelation) -> Contact:
     in_a, in_b = surfaces.triangle_a, surfaces.triangle_b
     return Contact(
         RELATION_NAMED[surfaces.relation],
