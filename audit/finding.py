@@ -6,7 +6,6 @@ no gap, so it keeps none.
 
 from __future__ import annotations
 
-from hashlib import sha256
 from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.asked.plan import Plan
@@ -19,6 +18,7 @@ from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 from satcheck.audit.severity import judged, keeps
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.core import sha256
 
 if TYPE_CHECKING:
     from satcheck.audit.figures.depth import Depth
@@ -30,7 +30,7 @@ ID_DIGITS = 12
 def finding_id(a: str, b: str) -> str:
     """Stable for the two bodies, whatever their order, pose or result."""
     key = f"{a}\0{b}" if a < b else f"{b}\0{a}"
-    return sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
+    return sha256(key.encode(errors="surrogatepass"))[:ID_DIGITS]
 
 
 def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:

@@ -57,6 +57,7 @@ from satcheck.core._native import (
     safe_time,
     sat_polygons,
     search_depth,
+    sha256,
     surface_intersection,
 )
 from satcheck.core.conventions import OUTCOMES
@@ -116,5 +117,6 @@ __all__ = [
     "safe_time",
     "sat_polygons",
     "search_depth",
+    "sha256",
     "surface_intersection",
 ]

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
-
-from satcheck.core import Mesh
+from satcheck.core import Mesh, sha256
 from satcheck.core.frozen import replace
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.health import examine
@@ -19,7 +17,7 @@ def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
     examined = examine(mesh)
     return replace(
         file,
-        sha256=hashlib.sha256(b"".join(mesh.to_bytes())).hexdigest(),
+        sha256=sha256(b"".join(mesh.to_bytes())),
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,

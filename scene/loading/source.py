@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 
+from satcheck.core import sha256
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
@@ -93,7 +93,7 @@ def read_source(
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
     _refuse_other_content(path, file_format, data)
-    return Source(path, location, file_format, hashlib.sha256(data).hexdigest(), data)
+    return Source(path, location, file_format, sha256(data), data)
 
 
 def _size(path: str, location: Path) -> int:

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/numeric_range.hpp"
+#include "base/sha256.hpp"
 #include "convex/batch.hpp"
 #include "convex/sat_polygon.hpp"
 #include "mesh/hull_points.hpp"
@@ -317,6 +318,14 @@ NB_MODULE(_native, m) {
   bind_pair_results(m);
   bind_polygons(m);
   bind_climb(m);
+  m.def(
+      "sha256",
+      [](const nb::bytes& data) {
+        const std::string_view bytes(data.c_str(), data.size());
+        const nb::gil_scoped_release release;
+        return sha256(bytes);
+      },
+      nb::arg("data"), "SHA-256 of the bytes, in hexadecimal digits. hashlib takes longer to import than a check to hash.");
   m.def(
       "check_pair",
       [](const Shape& a, const Shape& b, const std::optional<std::vector<double>>& pose_a,
