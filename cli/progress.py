@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
-import threading
-from types import TracebackType
+from _thread import allocate_lock
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from threading import Timer
+    from types import TracebackType
+
     from rich.progress import Progress, TaskID
 
 # Seconds before the bar appears: shorter work answers before anyone would read it.
@@ -25,17 +27,20 @@ class Bar:
         self._wanted = bool(
             sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
         )
-        self._lock = threading.Lock()
+        self._lock = allocate_lock()
         self._ended = False
         self._done, self._total = 0, 0
         self._shown: tuple[Progress, TaskID] | None = None
-        self._timer = threading.Timer(PATIENCE, self._show)
-        self._timer.daemon = True
+        self._timer: Timer | None = None
 
     def __enter__(self) -> Bar | None:
         """None where nobody would see it."""
         if not self._wanted:
             return None
+        from threading import Timer
+
+        self._timer = Timer(PATIENCE, self._show)
+        self._timer.daemon = True
         self._timer.start()
         return self
 
@@ -52,6 +57,8 @@ class Bar:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        if self._timer is None:
+            return
         self._timer.cancel()
         with self._lock:
             self._ended = True

@@ -81,16 +81,10 @@ def examine(mesh: Mesh, *, orient: bool = True) -> Examined:
         volume=topology.volume,
         inside_out=turned and topology.oriented,
         double_sided=double_sided,
-        flat=not after.solid and _is_flat(found.mesh),
+        flat=not after.solid and found.mesh.is_flat(),
         solid=after.solid,
     )
     return Examined(found.mesh, topology, health, tuple(_warnings(health, turned)))
-
-
-def _is_flat(mesh: Mesh) -> bool:
-    low, high = mesh.bounds
-    thin = any(low[axis] == high[axis] for axis in range(3))
-    return thin or mesh.convex_hull().dimension < 3
 
 
 def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:

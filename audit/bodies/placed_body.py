@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from _thread import RLock, allocate_lock  # threading takes longer to import
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from threading import Lock, RLock
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from satcheck import core
@@ -25,7 +25,7 @@ T = TypeVar("T")
 MeshKey = tuple[str, str, str | None]
 
 # Held while a body gets its geometry, which makes nothing yet.
-_MAKING = Lock()
+_MAKING = allocate_lock()
 
 
 class Once(Generic[T]):

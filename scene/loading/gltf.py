@@ -49,7 +49,7 @@ def read_gltf(
 
 def _parse_json(data: memoryview) -> dict[str, Any]:
     try:
-        text = str(data, "utf-8-sig")
+        text = str(data, "utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError:
         raise MeshFileError("bad-encoding", "the JSON is not UTF-8") from None
     document, _ = read_json(text) or (_json_with_reasons(text), False)

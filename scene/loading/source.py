@@ -88,7 +88,8 @@ def read_source(
             file=path,
         )
     try:
-        data = location.read_bytes()
+        with location.open("rb", buffering=0) as file:
+            data = file.read()
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None

@@ -141,3 +141,16 @@ def test_surface_queries() -> None:
         Surface(Mesh(VERTICES, TRIANGLES[1:].copy()), True)
     with pytest.raises(ValueError, match="not finite"):
         surface.nearest((math.nan, 0, 0))
+
+
+@pytest.mark.parametrize("lift", [0.0, 2.0**-52])
+def test_flat_is_exact(lift: float) -> None:
+    """A tilted square of which one corner is lifted by an ulp, after a needle without one."""
+    corners = [(0, 0, 0), (1, 0, 1), (0, 1, 1), (1, 1, 2 + 2 * lift), (0.5, 0, 0.5)]
+    mesh = Mesh(np.array(corners, dtype=float), np.array([[0, 4, 1], [0, 1, 2], [1, 3, 2]]))
+    assert mesh.is_flat() == (lift == 0)
+    assert mesh.is_flat() == (mesh.convex_hull().dimension < 3)
+
+
+def test_what_has_no_area_is_flat() -> None:
+    assert Mesh(np.array([[0.0, 0, 0], [1, 1, 1], [2, 2, 2]]), np.array([[0, 1, 2]])).is_flat()

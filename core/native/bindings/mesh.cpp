@@ -154,6 +154,7 @@ the winding. ValueError when the matrix is not affine, not finite or singular.)"
       .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding a component, outermost closed shells outward. Copies of a triangle are dropped
 where that closes the surface.)")
       .def("components", &split_components, ReleaseGil(), "The parts that share no edge, in order of their first triangle.")
+      .def("is_flat", &is_flat, ReleaseGil(), "Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.")
       .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
       .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
 equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");

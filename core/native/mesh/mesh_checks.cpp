@@ -1,10 +1,12 @@
 #include "mesh/mesh_checks.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "base/numeric_range.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 
@@ -22,6 +24,16 @@ void require_valid(const Mesh& mesh) {
       }
     }
   }
+}
+
+bool is_flat(const Mesh& mesh) {
+  const auto corner = [&](const Triangle& t, int k) { return mesh.vertices[t[k]]; };
+  const auto wide = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return !collinear(corner(t, 0), corner(t, 1), corner(t, 2));
+  });
+  return wide == mesh.triangles.end() || std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](Vec3 p) {
+    return orientation(corner(*wide, 0), corner(*wide, 1), corner(*wide, 2), p) == 0;
+  });
 }
 
 }  // namespace satcheck

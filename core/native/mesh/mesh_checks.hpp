@@ -1,4 +1,4 @@
-// What a mesh must satisfy before any geometry runs.
+// What a mesh must satisfy before any geometry runs, and what it may still be.
 #pragma once
 
 #include "base/mesh.hpp"
@@ -7,5 +7,8 @@ namespace satcheck {
 
 // Throws std::invalid_argument on a coordinate (numeric_range.hpp) or an index out of range.
 void require_valid(const Mesh& mesh);
+
+// Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.
+bool is_flat(const Mesh& mesh);
 
 }  // namespace satcheck
