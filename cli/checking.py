@@ -68,7 +68,8 @@ def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
     refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     document = Document()
-    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside)
+    hashed = choices.form == "json"
+    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside, hashed)
     if len(scene.bodies) > SMALL_BODIES or any(
         body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
@@ -115,16 +116,20 @@ def load(
     packages: Mapping[str, Path] | None = None,
     split: Split | None = None,
     allow_outside: bool = False,
+    hashed: bool = True,
 ) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone, and
-    for a split of what says itself what its bodies are; ClickException where nothing is left."""
+    for a split of what says itself what its bodies are; ClickException where nothing is left.
+    hashed: whether the document states the SHA-256 of files."""
     from satcheck.cli.report.words import issue_line
     from satcheck.scene import load_scene
     from satcheck.scene.loader import is_mesh
 
     if split and not any(map(is_mesh, paths)):
         raise wrong_usage("--split is about mesh files: a scene says what its bodies are")
-    scene = load_scene(paths, split=split, packages=packages, allow_outside=allow_outside)
+    scene = load_scene(
+        paths, split=split, packages=packages, allow_outside=allow_outside, hashed=hashed
+    )
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])

@@ -24,20 +24,20 @@ IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column 
 class MeshFile:
     """One mesh file, flattened into one mesh in file units, or one mesh of it.
 
-    path: as given, with "/". sha256: of the file's bytes. format: "obj", "stl", "ply", "off",
-    "glb", "gltf", "3mf" or "dae", or "shape": a primitive that the scene file at `path` states.
-    resolution: how finely its coordinates were written, in file units. units: as the file declares
-    them. mesh: welded, wound outward where that can be decided. topology: of the welded mesh before
-    that repair. issues: warnings about this file. part: the mesh within the file, in its own
-    coordinates; None: all of the file, where it places it. outline: the corners, counter-clockwise,
-    of the convex polygon over which the mesh is a prism, in a check in a plane. placement_step: how
-    finely its placement in the world is known, relative to the coordinates that it makes.
-    deviation: how far curves may be off the polygons that stand for them, in file units; part of
-    the resolution.
+    path: as given, with "/". sha256: of the file's bytes; None: nobody wanted it. format: "obj",
+    "stl", "ply", "off", "glb", "gltf", "3mf" or "dae", or "shape": a primitive that the scene file
+    at `path` states. resolution: how finely its coordinates were written, in file units. units: as
+    the file declares them. mesh: welded, wound outward where that can be decided. topology: of the
+    welded mesh before that repair. issues: warnings about this file. part: the mesh within the
+    file, in its own coordinates; None: all of the file, where it places it. outline: the corners,
+    counter-clockwise, of the convex polygon over which the mesh is a prism, in a check in a plane.
+    placement_step: how finely its placement in the world is known, relative to the coordinates that
+    it makes. deviation: how far curves may be off the polygons that stand for them, in file units;
+    part of the resolution.
     """
 
     path: str
-    sha256: str
+    sha256: str | None
     format: str
     resolution: float
     units: str | None

@@ -28,6 +28,7 @@ def load_scene(
     megabytes_per_file: int = DEFAULT_MEGABYTES_PER_FILE,
     packages: Mapping[str, str | Path] | None = None,
     allow_outside: bool = False,
+    hashed: bool = True,
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
@@ -44,7 +45,7 @@ def load_scene(
     Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
     the id of their file where there are several), with -2, -3, ... where they occur again.
     allow_outside: the files that a scene, a robot or a glTF file names may lie outside of its
-    folder.
+    folder. hashed: whether the SHA-256 of each file is taken, which some reports state.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file, or a node of one, that cannot be used becomes an Unreadable with an error issue and
@@ -52,7 +53,9 @@ def load_scene(
     """
     if isinstance(paths, str | Path):
         raise SatcheckError("bad-argument", f"paths: a list of paths, not one: [{str(paths)!r}]")
-    files = MeshFiles(seconds_per_file, megabytes_per_file, allow_outside=allow_outside)
+    files = MeshFiles(
+        seconds_per_file, megabytes_per_file, allow_outside=allow_outside, hashed=hashed
+    )
     builder = SceneBuilder(files)
     given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))

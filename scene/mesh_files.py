@@ -35,8 +35,9 @@ class MeshFiles:
         megabytes: int = DEFAULT_MEGABYTES_PER_FILE,
         *,
         allow_outside: bool = False,
+        hashed: bool = True,
     ) -> None:
-        self._limits = ReadLimits(seconds, megabytes, allow_outside)
+        self._limits = ReadLimits(seconds, megabytes, allow_outside, hashed)
         self._places: dict[Path, Path] = {}
         self._wholes: dict[Path, MeshFile | MeshFileError] = {}
         self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}

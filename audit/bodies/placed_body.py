@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from satcheck.verify.bodies import Placed, Shape
 
 T = TypeVar("T")
-MeshKey = tuple[str, str, str | None]
+MeshKey = tuple[str, str | int, str | None]
 
 # Held while a body gets its geometry, which makes nothing yet.
 _MAKING = allocate_lock()
@@ -46,9 +46,9 @@ class Once(Generic[T]):
 
 
 def mesh_key(file: MeshFile) -> MeshKey:
-    """The same for the same mesh. Not the sha256 alone: files of the same bytes can refer to
-    neighbours that differ."""
-    return file.path, file.sha256, file.part
+    """The same for the same mesh, while that exists. Not the sha256 alone: files of the same bytes
+    can refer to neighbours that differ."""
+    return file.path, file.sha256 or id(file.mesh), file.part
 
 
 @frozen

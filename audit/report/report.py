@@ -105,7 +105,8 @@ class PartError:
 class BodyReport:
     """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
 
-    An unreadable body has None everywhere but id, name and file. `convex` is None where no pair
+    An unreadable body has None everywhere but id, name and file. `sha256` is None, too, where the
+    scene was loaded without. `convex` is None where no pair
     had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
     input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
     None: as in the file. `groups`, `static`: as the scene says. `shape`: the primitive that the

@@ -56,7 +56,9 @@ def _ignored(source: Source, found: dict[str, Any]) -> tuple[Issue, ...]:
 def _read(
     path: str, location: Path, allowed: ReadLimits, *, whole: bool
 ) -> tuple[Source, dict[str, Any]]:
-    source = read_source(path, location, max_bytes=allowed.file_bytes, formats=DRAWINGS)
+    source = read_source(
+        path, location, max_bytes=allowed.file_bytes, formats=DRAWINGS, hashed=allowed.hashed
+    )
     try:
         found = read_drawing(
             source.format,

@@ -21,12 +21,14 @@ from satcheck.scene.resolution import file_resolution, placement_step
 class ReadLimits:
     """What reading one file may take, of which the file itself may be a quarter of the megabytes.
 
-    allow_outside: whether the files that it refers to may lie outside of its folder.
+    allow_outside: whether the files that it refers to may lie outside of its folder. hashed:
+    whether somebody wants its SHA-256.
     """
 
     seconds: float
     megabytes: int
     allow_outside: bool = False
+    hashed: bool = True
 
     @property
     def file_bytes(self) -> int:
@@ -45,7 +47,7 @@ def load_mesh_file(path: str, location: Path, allowed: ReadLimits) -> MeshFile:
 
 
 def open_source(path: str, location: Path, allowed: ReadLimits) -> Source:
-    return read_source(path, location, max_bytes=allowed.file_bytes)
+    return read_source(path, location, max_bytes=allowed.file_bytes, hashed=allowed.hashed)
 
 
 def read_scene(source: Source, allowed: ReadLimits, *, flat: bool) -> RawScene:

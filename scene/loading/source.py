@@ -55,18 +55,24 @@ _TEXT_HEAD_BYTES = 4096
 class Source:
     """A mesh file as it lies on disk.
 
-    path: as given, for messages. location: where it was read from. sha256: of `data`, hex.
+    path: as given, for messages. location: where it was read from. sha256: of `data`, hex; None:
+    not asked for.
     """
 
     path: str
     location: Path
     format: str
-    sha256: str
+    sha256: str | None
     data: bytes
 
 
 def read_source(
-    path: str, location: Path, *, max_bytes: int, formats: Mapping[str, str] = FORMATS
+    path: str,
+    location: Path,
+    *,
+    max_bytes: int,
+    formats: Mapping[str, str] = FORMATS,
+    hashed: bool = True,
 ) -> Source:
     """Reads a mesh file, or raises MeshFileError.
 
@@ -94,7 +100,8 @@ def read_source(
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
     _refuse_other_content(path, file_format, data)
-    return Source(path, location, file_format, sha256(data), data)
+    digest = sha256(data) if hashed else None
+    return Source(path, location, file_format, digest, data)
 
 
 def _size(path: str, location: Path) -> int:

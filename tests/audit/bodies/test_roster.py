@@ -43,6 +43,17 @@ def test_what_stays_where_it_is_is_placed_once():
     assert moved.placed[0].shared is first.placed[0].shared
 
 
+def test_bodies_share_a_mesh_that_was_not_hashed():
+    plain = replace(FILE, sha256=None)
+    other = replace(shape_file(Box((2.0, 1.0, 1.0)), "test.toml"), sha256=None)
+    files = (plain, replace(plain, units="mm"), other)
+    bodies = tuple(Body(f"b{k}", "", file) for k, file in enumerate(files))
+    roster = place(Scene("", None, bodies), Settings())
+    first, same, differs = (roster.placed[k].shared for k in range(3))
+    assert first is same
+    assert first is not differs
+
+
 def test_an_unreadable_body_is_in_its_groups():
     lost = Unreadable("lost", "gone.obj", issue("file-not-found", "gone"), ("a",))
     bodies = tuple(Body(f"b{k}", "", FILE, groups=(group,)) for k, group in enumerate("ab"))
