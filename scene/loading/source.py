@@ -8,6 +8,7 @@ from pathlib import Path
 from satcheck.core import sha256
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
+from satcheck.scene import _readers
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.regular_file import size_of
 
@@ -94,14 +95,21 @@ def read_source(
             file=path,
         )
     try:
-        with location.open("rb", buffering=0) as file:
-            data = file.read()
+        data = _read(location, size)
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
     _refuse_other_content(path, file_format, data)
     digest = sha256(data) if hashed else None
     return Source(path, location, file_format, digest, data)
+
+
+def _read(location: Path, size: int) -> bytes:
+    """All of it, whatever its size is in the meantime."""
+    with location.open("rb", buffering=0) as file:
+        data = _readers.read_file(file.fileno(), size)
+        more = file.read()
+    return data + more if more else data
 
 
 def _size(path: str, location: Path) -> int:

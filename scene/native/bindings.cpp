@@ -5,9 +5,17 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
+#if defined(_WIN32)
+#include <io.h>
+#else
+#include <unistd.h>
+#endif
 
+#include "base/large_pages.hpp"
 #include "json_document.hpp"
 #include "placement.hpp"
 #include "readers.hpp"
@@ -36,6 +44,43 @@ ReadOutcome read(const nb::bytes& data) {
   const std::string_view bytes(data.c_str(), data.size());
   nb::gil_scoped_release release;
   return Read(bytes);
+}
+
+std::int64_t read_some(int descriptor, char* to, std::size_t most) {
+  constexpr std::size_t kMost = 1 << 30;  // that every system takes at once
+#if defined(_WIN32)
+  return _read(descriptor, to, static_cast<unsigned>(std::min(most, kMost)));
+#else
+  return ::read(descriptor, to, std::min(most, kMost));
+#endif
+}
+
+// Up to `size` bytes of an open file, fewer where it ends before.
+nb::bytes read_file(int descriptor, std::size_t size) {
+  PyObject* room = PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size));
+  if (room == nullptr) nb::raise_python_error();
+  char* const bytes = PyBytes_AsString(room);
+  std::size_t have = 0;
+  int failure = 0;
+  {
+    nb::gil_scoped_release release;
+    satcheck::prefer_large_pages(bytes, size);
+    while (have < size && failure == 0) {
+      const std::int64_t got = read_some(descriptor, bytes + have, size - have);
+      if (got == 0) break;
+      if (got > 0) have += static_cast<std::size_t>(got);
+      if (got < 0 && errno != EINTR) failure = errno;
+    }
+  }
+  if (failure == 0 && have < size) _PyBytes_Resize(&room, static_cast<Py_ssize_t>(have));
+  if (failure != 0) {
+    Py_DECREF(room);
+    errno = failure;
+    PyErr_SetFromErrno(PyExc_OSError);
+    nb::raise_python_error();
+  }
+  if (room == nullptr) nb::raise_python_error();
+  return nb::steal<nb::bytes>(room);
 }
 
 const char* precision_name(const MeshData& mesh) {
@@ -108,6 +153,8 @@ NB_MODULE(_readers, m) {
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
 
+  m.def("read_file", &read_file, nb::arg("descriptor"), nb::arg("size"),
+        "Up to `size` bytes of an open file from where it stands; OSError where it cannot be read.");
   m.def(
       "read_json",
       [](const nb::str& text) -> nb::object {

@@ -6,9 +6,12 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <limits>
-#include <type_traits>
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
+
+#include "base/large_pages.hpp"
 
 namespace satcheck::scene {
 
@@ -19,61 +22,68 @@ class Corners {
  public:
   using Point = std::array<Coordinate, 3>;
 
-  explicit Corners(std::size_t expected) : slots_(std::bit_ceil(std::max(2 * expected, kFewest))) {}
+  // A quarter full: a corner that is not in the first slot looked at costs a mispredicted jump.
+  explicit Corners(std::size_t expected)
+      : size_(std::bit_ceil(std::max(4 * expected, kFewest))), slots_(zeroed<Slot>(size_)) {}
 
-  static std::uint64_t hash(const Point& point) {
+  // Of the bytes of a point, wherever they lie: a copy that was just written in other pieces would have to be waited for.
+  static std::uint64_t hash(const void* point) {
     constexpr std::uint64_t kFactor = 0x9E3779B97F4A7C15u;  // 2^64 divided by the golden ratio
     std::uint64_t h = 0;
-    for (const Coordinate c : point) {
-      h = (h ^ std::bit_cast<Bits>(c)) * kFactor;
-      h ^= h >> 29;
-    }
+    const auto mix = [&](auto word, std::size_t from) {
+      std::memcpy(&word, static_cast<const char*>(point) + from, sizeof word);
+      h = (h ^ word) * kFactor;
+      h ^= h >> 32;
+    };
+    std::size_t from = 0;
+    for (; from + sizeof(std::uint64_t) <= sizeof(Point); from += sizeof(std::uint64_t)) mix(std::uint64_t{}, from);
+    if (from < sizeof(Point)) mix(std::uint32_t{}, from);
     return h;
   }
 
   void fetch(std::uint64_t hash) const {
 #if defined(__GNUC__)
-    __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]);
+    __builtin_prefetch(&slots_[hash & (size_ - 1)]);
 #endif
   }
 
   // The number of its vertex; where that is new, its coordinates go to the end of `vertices`.
   std::uint32_t number(const Point& point, std::uint64_t hash, std::vector<double>& vertices) {
     Slot& slot = find(point, hash);
-    if (slot.number != kEmpty) return slot.number;
-    slot = {point, count_};
+    if (slot.behind != kEmpty) return slot.behind - 1;
+    slot = {point, ++count_};
     for (const Coordinate c : point) vertices.push_back(c);
-    if (2 * std::size_t{++count_} > slots_.size()) grow();
+    if (2 * std::size_t{count_} > size_) grow();
     return count_ - 1;
   }
 
  private:
-  using Bits = std::conditional_t<sizeof(Coordinate) == sizeof(std::uint32_t), std::uint32_t, std::uint64_t>;
-  static constexpr std::uint32_t kEmpty = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t kEmpty = 0;
   static constexpr std::size_t kFewest = 64;
 
   struct Slot {
-    Point point{};
-    std::uint32_t number = kEmpty;
+    Point point;
+    std::uint32_t behind;  // the number after that of the vertex
   };
 
   Slot& find(const Point& point, std::uint64_t hash) {
-    std::size_t at = hash & (slots_.size() - 1);
-    while (slots_[at].number != kEmpty && std::memcmp(&slots_[at].point, &point, sizeof point) != 0) {
-      at = (at + 1) & (slots_.size() - 1);
+    std::size_t at = hash & (size_ - 1);
+    while (slots_[at].behind != kEmpty && std::memcmp(&slots_[at].point, &point, sizeof point) != 0) {
+      at = (at + 1) & (size_ - 1);
     }
     return slots_[at];
   }
 
   void grow() {
-    std::vector<Slot> full(2 * slots_.size());
-    full.swap(slots_);
-    for (const Slot& slot : full) {
-      if (slot.number != kEmpty) find(slot.point, hash(slot.point)) = slot;
+    const auto full = std::exchange(slots_, zeroed<Slot>(2 * size_));
+    const std::span<const Slot> every(full.get(), std::exchange(size_, 2 * size_));
+    for (const Slot& slot : every) {
+      if (slot.behind != kEmpty) find(slot.point, hash(&slot.point)) = slot;
     }
   }
 
-  std::vector<Slot> slots_;
+  std::size_t size_;  // a power of two
+  std::unique_ptr<Slot[], Free> slots_;
   std::uint32_t count_ = 0;
 };
 

@@ -1,5 +1,6 @@
 // Stereolithography files: "StereoLithography Interface Specification", 3D Systems, 1989. Facet normals and
 // attribute bytes are ignored: the corners carry the orientation.
+#include "base/large_pages.hpp"
 #include "builder.hpp"
 #include "bytes.hpp"
 #include "corners.hpp"
@@ -14,16 +15,10 @@ constexpr std::size_t facet_size = 50;   // normal, three corners, two attribute
 constexpr std::size_t normal_size = 12;
 constexpr std::size_t count_offset = 80;
 
-// Facets that are read together, so that looking up their corners need not wait for memory.
-constexpr std::size_t block_size = 16;
+// Facets that are read before the corners of the first are looked up, which then need not wait for memory.
+constexpr std::size_t ahead = 16;
 
 using Facet = std::array<Corners<float>::Point, 3>;
-
-Facet load_facet(const char* from) {
-  Facet facet;
-  for (std::size_t i = 0; i < 9; ++i) facet[i / 3][i % 3] = load<float>(from + i * sizeof(float));
-  return facet;
-}
 
 // All exponents at once: that of what is infinite or no number has every bit set.
 bool is_finite(const Facet& facet) {
@@ -49,24 +44,26 @@ MeshData read_binary(std::string_view bytes, std::size_t count) {
   MeshData mesh;
   mesh.precision = Precision::float32;
   const std::size_t expected = count / 2;  // vertices: of a closed surface of few handles
-  mesh.vertices.reserve(expected * 3);
-  mesh.triangles.reserve(count * 3);
+  mesh.vertices = with_room<double>(expected * 3);
+  mesh.triangles = with_room<std::uint32_t>(count * 3);
   Corners<float> corners(expected);
-  std::array<Facet, block_size> facets;
-  std::array<std::uint64_t, 3 * block_size> hashes;
-  std::array<std::uint32_t, 3 * block_size> numbers;
-  for (std::size_t first = 0; first < count; first += block_size) {
-    const std::size_t size = std::min(block_size, count - first);
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t offset = header_size + (first + i) * facet_size + normal_size;
-      facets[i] = load_facet(bytes.data() + offset);
-      if (!is_finite(facets[i])) fail_at_coordinate(facets[i], first + i, offset);
-      for (std::size_t k = 0; k < 3; ++k) corners.fetch(hashes[3 * i + k] = corners.hash(facets[i][k]));
+  struct Waiting {
+    Facet facet;
+    std::array<std::uint64_t, 3> hash;
+  };
+  std::array<Waiting, ahead> waiting;
+  for (std::size_t i = 0; i < count + ahead; ++i) {
+    auto& [facet, hash] = waiting[i % ahead];
+    if (i >= ahead) {
+      for (std::size_t k = 0; k < 3; ++k) mesh.triangles.push_back(corners.number(facet[k], hash[k], mesh.vertices));
     }
-    for (std::size_t i = 0; i < 3 * size; ++i) {
-      numbers[i] = corners.number(facets[i / 3][i % 3], hashes[i], mesh.vertices);
+    if (i < count) {
+      const std::size_t offset = header_size + i * facet_size + normal_size;
+      const char* from = bytes.data() + offset;
+      std::memcpy(&facet, from, sizeof facet);
+      if (!is_finite(facet)) fail_at_coordinate(facet, i, offset);
+      for (std::size_t k = 0; k < 3; ++k) corners.fetch(hash[k] = corners.hash(from + k * sizeof facet[k]));
     }
-    mesh.triangles.insert(mesh.triangles.end(), numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(3 * size));
   }
   return mesh;
 }
@@ -151,7 +148,7 @@ class AsciiStlReader {
         const std::string_view word = any("a coordinate");
         coordinate = parse_coordinate(word, words_.line(), mesh_);
       }
-      mesh_.triangles.push_back(corners_.number(point, corners_.hash(point), mesh_.vertices));
+      mesh_.triangles.push_back(corners_.number(point, corners_.hash(&point), mesh_.vertices));
     }
     expect("endloop");
     expect("endfacet");

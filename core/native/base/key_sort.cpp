@@ -7,6 +7,8 @@
 #include <memory>
 #include <numeric>
 
+#include "base/large_pages.hpp"
+
 namespace satcheck {
 namespace {
 
@@ -52,7 +54,7 @@ void order_from_axis(const std::vector<Vec3>& points, int axis, std::span<std::u
   constexpr double kLastCell = 0xFFFFFFFF;
   const double scale = kLastCell / (high - low);
   if (!(scale > 0 && scale < INFINITY)) return compare_all();
-  const auto buffer = std::make_unique_for_overwrite<std::uint64_t[]>(2 * order.size());
+  const auto buffer = unwritten<std::uint64_t>(2 * order.size());
   const std::span<std::uint64_t> cells{buffer.get(), order.size()};
   for (std::size_t i = 0; i < order.size(); ++i) {
     cells[i] = std::uint64_t{static_cast<std::uint32_t>((points[order[i]][axis] - low) * scale)} << 32 | order[i];
@@ -76,7 +78,7 @@ void sort_by_key(std::span<Keyed> items) {
     });
     return;
   }
-  const auto buffer = std::make_unique_for_overwrite<Keyed[]>(items.size());
+  const auto buffer = unwritten<Keyed>(items.size());
   const std::span<Keyed> sorted =
       sort_by_digits(items, {buffer.get(), items.size()}, 64, [](const Keyed& item) { return item.key; });
   if (sorted.data() != items.data()) std::copy(sorted.begin(), sorted.end(), items.begin());
@@ -100,7 +102,7 @@ void sort_triangles(std::vector<Triangle>& triangles, std::size_t vertex_count) 
   std::vector<std::uint32_t> start(vertex_count + 1, 0);
   for (const Triangle& t : triangles) ++start[t[0] + 1];
   std::inclusive_scan(start.begin(), start.end(), start.begin());
-  const auto others = std::make_unique_for_overwrite<std::uint64_t[]>(triangles.size());  // the second and the third corner
+  const auto others = unwritten<std::uint64_t>(triangles.size());  // the second and the third corner
   std::vector<std::uint32_t> place(start.begin(), start.end() - 1);
   for (const Triangle& t : triangles) others[place[t[0]]++] = std::uint64_t{t[1]} << 32 | t[2];
   for (std::uint32_t v = 0; v < vertex_count; ++v) {

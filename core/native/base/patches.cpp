@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "base/large_pages.hpp"
+
 namespace satcheck {
 namespace {
 
@@ -19,7 +21,8 @@ Labels number_sets(DisjointSets& sets, std::size_t triangle_count) {
 
 }  // namespace
 
-DisjointSets::DisjointSets(std::size_t n) : parent_(n) {
+DisjointSets::DisjointSets(std::size_t n) : parent_(with_room<std::uint32_t>(n)) {
+  parent_.resize(n);
   std::iota(parent_.begin(), parent_.end(), 0u);
 }
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 #include "convex/polytope.hpp"
 #include "mesh/convexity.hpp"
@@ -85,6 +86,8 @@ Mesh mesh_from_bytes(const Bytes& vertices, const Bytes& triangles) {
     throw std::invalid_argument("the byte counts are not multiples of 24 and 12");
   }
   Mesh mesh;
+  mesh.vertices = with_room<Vec3>(vertices.size() / sizeof(Vec3));
+  mesh.triangles = with_room<Triangle>(triangles.size() / sizeof(Triangle));
   mesh.vertices.resize(vertices.size() / sizeof(Vec3));
   mesh.triangles.resize(triangles.size() / sizeof(Triangle));
   if (vertices.size() != 0) std::memcpy(mesh.vertices.data(), vertices.data(), vertices.size());

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/key_sort.hpp"
+#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 
 namespace satcheck {
@@ -130,6 +131,7 @@ Bvh build(std::vector<Keyed> items, BoxOf box_of, unsigned threads) {
   sort_by_key(items);
   Bvh bvh;
   bvh.order.resize(count);
+  bvh.boxes = with_room<Aabb>(count);
   bvh.boxes.resize(count);
   const Subtree trunk = grow(items, {0, count}, kTaskSize);
   std::vector<Subtree> branches(trunk.leaves.size());
@@ -217,7 +219,8 @@ Bvh build_bvh(const Mesh& mesh, unsigned threads) {
   for (const Vec3& p : mesh.vertices) bounds.include(p);
   const MortonCurve curve(bounds);
   const auto box_of = [&](std::uint32_t t) { return triangle_box(mesh, t); };
-  std::vector<Keyed> items(count);
+  std::vector<Keyed> items = with_room<Keyed>(count);
+  items.resize(count);
   const auto place_on_curve = [&](std::size_t i) {
     const auto t = static_cast<std::uint32_t>(i);
     items[t] = {curve.code(centre(box_of(t))), t};

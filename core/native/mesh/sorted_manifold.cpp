@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/key_sort.hpp"
+#include "base/large_pages.hpp"
 #include "base/patches.hpp"
 #include "exact/predicates.hpp"
 
@@ -28,7 +29,7 @@ std::uint32_t triangle(Side side) { return static_cast<std::uint32_t>(side) & ~k
 class ThirdSides {
  public:
   ThirdSides(std::size_t vertex_count, const std::vector<Triangle>& triangles)
-      : start_(vertex_count + 1), sides_(std::make_unique_for_overwrite<Side[]>(triangles.size())) {
+      : start_(vertex_count + 1), sides_(unwritten<Side>(triangles.size())) {
     for (const Triangle& t : triangles) ++start_[std::min(t[1], t[2])];
     std::inclusive_scan(start_.begin(), start_.end(), start_.begin());
     // From the back, so that each start ends up where its list starts.

@@ -8,6 +8,7 @@
 
 #include "base/edge_table.hpp"
 #include "base/key_sort.hpp"
+#include "base/large_pages.hpp"
 #include "base/patches.hpp"
 #include "exact/predicates.hpp"
 
@@ -140,8 +141,7 @@ void count_triangles(Topology& topology, const Mesh& welded, const EdgeTable& ed
 // With vertex v at place[v], each triangle from its lowest corner on, in ascending order.
 std::vector<Triangle> sorted_triangles(const std::vector<Triangle>& triangles, const std::uint32_t* place,
                                        std::size_t vertex_count) {
-  std::vector<Triangle> result;
-  result.reserve(triangles.size());
+  std::vector<Triangle> result = with_room<Triangle>(triangles.size());
   for (const Triangle& t : triangles) {
     const std::uint32_t a = place[t[0]], b = place[t[1]], c = place[t[2]];
     result.push_back(a <= b && a <= c ? Triangle{a, b, c} : b <= c ? Triangle{b, c, a} : Triangle{c, a, b});
@@ -178,8 +178,8 @@ Mesh weld_and_sort(const Mesh& mesh) {
   const std::vector<Vec3>& points = mesh.vertices;
   const std::vector<bool> referenced = find_referenced(mesh);
   Mesh result;
-  result.vertices.reserve(points.size());
-  const auto place = std::make_unique_for_overwrite<std::uint32_t[]>(points.size());
+  result.vertices = with_room<Vec3>(points.size());
+  const auto place = unwritten<std::uint32_t>(points.size());
   for (const std::uint32_t v : order_by_coordinates(points)) {
     if (!referenced[v]) continue;
     const Vec3 p = points[v] + Vec3{};  // -0.0 + 0.0 == +0.0
