@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -37,6 +37,7 @@ Progress = Callable[[int, int], None]
 @frozen
 class Examined:
     finding: Finding
+    asked: Asked
     issues: tuple[Issue, ...] = ()
     traceback: str | None = None
 
@@ -80,7 +81,7 @@ def check(
         bodies=body_reports(roster),
         exempt=exempt_of(scene),
         rules=scene.rules,
-        effects=effects_of(planner, _with_asked(planner, close, examined), counts),
+        effects=effects_of(planner, map(_asked_and_found, examined), counts),
         motions=() if movers is None else movers.values(),
         pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
@@ -152,12 +153,8 @@ def _examine_all(
     return [done[k] for k in range(len(pairs))]
 
 
-def _with_asked(
-    planner: Planner, close: list[tuple[int, int]], examined: list[Examined]
-) -> Iterator[tuple[Asked, Finding]]:
-    for pair, one in zip(close, examined, strict=True):
-        asked = planner.asked(*pair)
-        yield (asked if one.finding.motion is None else asked.swept()), one.finding
+def _asked_and_found(one: Examined) -> tuple[Asked, Finding]:
+    return (one.asked if one.finding.motion is None else one.asked.swept()), one.finding
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:
@@ -183,7 +180,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> Examined:
             finding = with_sweep(finding, pair, pair.paths, plan)
         if pair.asked.wants("certificate"):
             finding = _with_certificate(pair, finding)
-        return Examined(finding, tuple(plan.issues))
+        return Examined(finding, pair.asked, tuple(plan.issues))
     except Exception as error:  # noqa: BLE001 the one place where a run survives its own faults
         import traceback
 
@@ -191,7 +188,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> Examined:
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         finding = indeterminate(pair.a.id, pair.b.id, reason, plan)
-        return Examined(finding, (*plan.issues, issue), traceback.format_exc())
+        return Examined(finding, pair.asked, (*plan.issues, issue), traceback.format_exc())
 
 
 def _with_certificate(pair: Pair, finding: Finding) -> Finding:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
 
 from satcheck.audit.asked.planner import Asked, Planner
 from satcheck.audit.report.report import (
@@ -14,7 +13,6 @@ from satcheck.audit.report.report import (
     EffectReport,
     Finding,
     PairCounts,
-    Relation,
 )
 
 # Stages that belong to an effect which not every pair asks for; the others find the overlap.
@@ -40,26 +38,53 @@ FAILED = "not decided"
 NO_ANSWER = "no answer"
 
 
-class _Shown(NamedTuple):
-    """What of a finding decides this. exact: the relation without the touch band, where it is
-    known. The others: whether it has that figure."""
+class _Alike:
+    """Findings that differ in nothing that counts here; most are like many others.
 
-    relation: Relation
-    exact: Relation
-    depth: bool
-    volume: bool
-    contacts: bool
-    certificate: bool
+    finding: one of them; pairs: how many there are; time: microseconds, by stage.
+    """
+
+    __slots__ = ("asked", "finding", "pairs", "time")
+
+    def __init__(self, asked: Asked, finding: Finding) -> None:
+        self.asked, self.finding = asked, finding
+        self.pairs = 0
+        self.time = [0.0] * len(finding.plan)
+
+    @staticmethod
+    def key(asked: Asked, finding: Finding) -> tuple[object, ...]:
+        return (
+            id(asked),
+            finding.relation,
+            finding.exact_relation,
+            finding.depth is None,
+            finding.volume is None,
+            finding.contacts is None,
+            finding.certificate is None,
+            *[stage.stage for stage in finding.plan],
+        )
+
+    def count(self, finding: Finding) -> None:
+        self.pairs += 1
+        for place, stage in enumerate(finding.plan):
+            self.time[place] += stage.microseconds
+
+    def stages(self) -> Iterator[tuple[Effect, float]]:
+        """The effect that each belongs to, and its microseconds."""
+        for stage, time in zip(self.finding.plan, self.time, strict=True):
+            effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
+            # What the overlap needed, and nobody asked more for, belongs to it.
+            yield effect if effect in self.asked.by else "overlap", time
 
     @property
     def unanswered(self) -> set[Effect]:
         """What has nothing to show for its stage, because it was refused, for instance."""
-        answers: dict[Effect, bool] = {
-            "volume": self.volume,
-            "contacts": self.contacts,
-            "certificate": self.certificate,
+        answers: dict[Effect, object] = {
+            "volume": self.finding.volume,
+            "contacts": self.finding.contacts,
+            "certificate": self.finding.certificate,
         }
-        return {effect for effect, is_there in answers.items() if not is_there}
+        return {effect for effect, answer in answers.items() if answer is None}
 
 
 def effects_of(
@@ -68,37 +93,25 @@ def effects_of(
     """close: the pairs that the broad phase left over. The pairs of each effect, and those on which
     it did not run, are together all pairs. A sweep is left out where nothing moves."""
     effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
+    groups = _grouped(close)
     time: dict[Effect, float] = dict.fromkeys(EFFECTS, 0.0)
-    # Most pairs are like many others in all that counts here.
-    alike: Counter[tuple[int, _Shown, tuple[Effect, ...]]] = Counter()
-    known: dict[int, Asked] = {}
-    looked_at = 0
-    for asked, finding in close:
-        looked_at += 1
-        known[id(asked)] = asked
-        stages = []
-        for stage in finding.plan:
-            effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
-            if effect not in asked.by:  # what the overlap needed, and nobody asked more for
-                effect = "overlap"
-            time[effect] += stage.microseconds
-            if effect != "overlap":
-                stages.append(effect)
-        alike[id(asked), _shown(finding), tuple(stages)] += 1
     ran: Counter[Effect] = Counter()
     spared: dict[Effect, Counter[str]] = {effect: Counter() for effect in EFFECTS}
-    for (asking, shown, stages_run), pairs in alike.items():
-        asked = known[asking]
-        done: set[Effect] = {"overlap", *stages_run}
-        if shown.depth:  # also where the touch band found it
+    for group in groups:
+        done: set[Effect] = {"overlap"}
+        for effect, microseconds in group.stages():
+            time[effect] += microseconds
+            done.add(effect)
+        if group.finding.depth is not None:  # also where the touch band found it
             done.add("depth")
-        unanswered = done & shown.unanswered
+        unanswered = done & group.unanswered
         for effect in effects:
             if effect in done and effect not in unanswered:
-                ran[effect] += pairs
+                ran[effect] += group.pairs
             else:
-                why = NO_ANSWER if effect in unanswered else _why_not(effect, asked, shown)
-                spared[effect][why] += pairs
+                why = NO_ANSWER if effect in unanswered else _why_not(effect, group)
+                spared[effect][why] += group.pairs
+    looked_at = sum(group.pairs for group in groups)
     unreadable = counts.total - counts.allowed - counts.pruned - looked_at
     return tuple(
         EffectReport(
@@ -112,15 +125,15 @@ def effects_of(
     )
 
 
-def _shown(finding: Finding) -> _Shown:
-    return _Shown(
-        finding.relation,
-        finding.exact_relation or finding.relation,
-        finding.depth is not None,
-        finding.volume is not None,
-        finding.contacts is not None,
-        finding.certificate is not None,
-    )
+def _grouped(close: Iterable[tuple[Asked, Finding]]) -> list[_Alike]:
+    groups: dict[tuple[object, ...], _Alike] = {}
+    for asked, finding in close:
+        key = _Alike.key(asked, finding)
+        group = groups.get(key)
+        if group is None:
+            group = groups[key] = _Alike(asked, finding)
+        group.count(finding)
+    return list(groups.values())
 
 
 def _reasons(
@@ -134,11 +147,12 @@ def _reasons(
     return {reason: count for reason, count in sorted(reasons.items()) if count}
 
 
-def _why_not(effect: Effect, asked: Asked, shown: _Shown) -> str:
-    if not asked.wants(effect):
+def _why_not(effect: Effect, group: _Alike) -> str:
+    finding = group.finding
+    if not group.asked.wants(effect):
         return NOT_ASKED
-    if shown.relation == "indeterminate":
+    if finding.relation == "indeterminate":
         return FAILED
     if effect == "distance":
-        return OVERLAP if shown.exact in OVERLAPS else FAR
+        return OVERLAP if (finding.exact_relation or finding.relation) in OVERLAPS else FAR
     return NO_OVERLAP

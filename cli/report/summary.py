@@ -72,7 +72,8 @@ def _is_hit(finding: Finding) -> bool:
 
 def _hits(report: Report) -> list[str]:
     """Of pairs that do not overlap as they are placed."""
-    hits = sum(_is_hit(f) and f.relation not in OVERLAPS for f in report.findings)
+    moving = [finding for finding in report.findings if finding.motion is not None]
+    hits = sum(_is_hit(f) and f.relation not in OVERLAPS for f in moving)
     return (
         [f"{counted(hits, 'pair')} {'hits' if hits == 1 else 'hit'} while moving."] if hits else []
     )

@@ -65,7 +65,7 @@ def by_surfaces(finding: Finding) -> bool:
     swept = finding.motion
     if swept is not None and swept.relation != "indeterminate" and swept.reason is not None:
         return True
-    return any((stage.stage, stage.result) == UNSEEN for stage in finding.plan)
+    return UNSEEN in [(stage.stage, stage.result) for stage in finding.plan]
 
 
 def in_motion(finding: Finding) -> str:
