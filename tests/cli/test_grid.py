@@ -37,7 +37,8 @@ def of_rich(layout: Layout, page: Page) -> str:
         table.add_column(column.name, justify=justify, overflow="fold", width=width)  # type: ignore[arg-type]
     for cells in zip(*(column.cells for column in layout.columns), strict=True):
         table.add_row(*map(Text, cells))
-    canvas = Canvas(page._replace(width=max(page.width, layout.width)))
+    width = max(page.width, layout.width)
+    canvas = Canvas(Page(width=width, colour=page.colour, unicode=page.unicode))
     canvas.print(table)
     return canvas.text()
 
@@ -52,4 +53,5 @@ def test_as_rich_draws_it(width: int, unicode: bool, colour: bool) -> None:
     drawn = canvas.text()
     assert ("\x1b[1;31mpenetrating\x1b[0m" in drawn) == colour
     lines = [ESCAPES.sub("", line).rstrip() for line in drawn.splitlines()]
-    assert lines == of_rich(layout, page._replace(colour=False)).splitlines()
+    plain = Page(width=width, colour=False, unicode=unicode)
+    assert lines == of_rich(layout, plain).splitlines()

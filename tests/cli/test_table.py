@@ -142,7 +142,7 @@ def test_colour_adds_nothing_but_colour() -> None:
     page = Page(width=120, colour=True, unicode=True)
     coloured = shown(*ALL, page=page)
     assert "\x1b[1;31m" in coloured
-    plain = shown(*ALL, page=page._replace(colour=False))
+    plain = shown(*ALL, page=Page(width=120, colour=False, unicode=True))
     squeezed = [ESCAPES.sub("", line).rstrip() for line in coloured.splitlines()]
     assert squeezed == plain.splitlines()
 
@@ -297,7 +297,7 @@ def test_pairs_of_an_unreadable_body_are_no_rows() -> None:
 @pytest.mark.parametrize("colour", [False, True])
 @pytest.mark.parametrize("name", ["a\x1b[2A\x1b[2K", "\u202eb", "c\x0b\x85d", "\ud800"])
 def test_a_name_gives_a_terminal_no_orders(name: str, colour: bool) -> None:
-    page = PLAIN_PAGE._replace(colour=colour)
+    page = Page(width=PLAIN_PAGE.width, colour=colour, unicode=True)
     lines = ESCAPES.sub("", shown(replace(PENETRATING, a=name), page=page)).split("\n")
     assert all(line.isprintable() for line in lines)
     assert any("\N{REPLACEMENT CHARACTER}" in line for line in lines)
