@@ -13,8 +13,11 @@
 // calls on Lanes is inlined into both. Sanitizers and Clang cannot.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define SATCHECK_WIDE __attribute__((target_clones("avx2", "default")))
+// The same for a fused multiply-add, where it is asked for by name: without such an instruction it is a call.
+#define SATCHECK_FUSED __attribute__((target_clones("fma", "default")))
 #else
 #define SATCHECK_WIDE
+#define SATCHECK_FUSED
 #endif
 #define SATCHECK_INLINE inline __attribute__((always_inline))
 
@@ -92,6 +95,7 @@ SATCHECK_INLINE int bits_of(LaneMask mask) {
 #else  // plain code
 
 #define SATCHECK_WIDE
+#define SATCHECK_FUSED
 #define SATCHECK_INLINE inline
 
 namespace satcheck {

@@ -48,6 +48,8 @@ struct Shape {
 // Points (n >= 1) in any order; the shape is their convex hull, computed exactly.
 Shape make_hull(const std::vector<Vec3>& points);
 Shape make_hull(Polytope polytope);
+// The same of three points that are not collinear, without faces.
+Shape make_triangle(const std::array<Vec3, 3>& corners);
 // The hull of points of which the faces are not computed; they span a solid.
 Shape make_hull_without_faces(std::vector<Vec3> points);
 // The same hull, with its faces.

@@ -19,6 +19,10 @@ constexpr double kDeterminantBound = 9 * kRoundoff;
 // Covers the roundings of the error term itself.
 constexpr double kSlack = 1.001;
 
+double point_error(double coordinate) {
+  return kPointError * std::fabs(coordinate) + std::numeric_limits<double>::min();
+}
+
 bool is_float64(const ExactPoint& p) { return p.error == Vec3{}; }
 
 Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d) {
@@ -38,10 +42,7 @@ ExactPoint make_exact_point(Dyadic x, Dyadic y, Dyadic z, Dyadic w) {
     w = -w;
   }
   p.rounded = {rounded_ratio(x, w), rounded_ratio(y, w), rounded_ratio(z, w)};
-  const auto error = [](double value) {
-    return kPointError * std::fabs(value) + std::numeric_limits<double>::min();
-  };
-  p.error = {error(p.rounded.x), error(p.rounded.y), error(p.rounded.z)};
+  p.error = {point_error(p.rounded.x), point_error(p.rounded.y), point_error(p.rounded.z)};
   p.x = std::move(x);
   p.y = std::move(y);
   p.z = std::move(z);
@@ -96,18 +97,41 @@ bool operator==(const ExactPoint& p, const ExactPoint& q) {
          (p.z * q.w - q.z * p.w).sign() == 0;
 }
 
-int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
-  const Vec3 u = b - a, v = c - a, p = d.rounded - a;
+namespace {
+
+// A point of space or of a plane as float64 knows it.
+struct Known {
+  Vec3 at, error;
+};
+
+constexpr int kOpen = 2;  // a sign that float64 cannot tell
+
+// The one of orientation(a, b, c, d) in float64.
+struct Determinant {
+  double value, error;
+};
+
+Determinant rounded_determinant(Vec3 a, Vec3 b, Vec3 c, Known d) {
+  const Vec3 u = b - a, v = c - a, p = d.at - a;
   const double yz = u.y * v.z, zy = u.z * v.y, zx = u.z * v.x, xz = u.x * v.z, xy = u.x * v.y,
                yx = u.y * v.x;
   const Vec3 size{std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz),
                   std::fabs(xy) + std::fabs(yx)};
   const double determinant = (yz - zy) * p.x + (zx - xz) * p.y + (xy - yx) * p.z;
   const Vec3 span{std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
-  const double bound = kSlack * (kDeterminantBound * dot(size, span) + dot(size, d.error));
-  if (determinant > bound) return 1;
-  if (determinant < -bound) return -1;
+  return {determinant, kSlack * (kDeterminantBound * dot(size, span) + dot(size, d.error))};
+}
 
+int filtered_orientation(Vec3 a, Vec3 b, Vec3 c, Known d) {
+  const auto [determinant, bound] = rounded_determinant(a, b, c, d);
+  return determinant > bound ? 1 : determinant < -bound ? -1 : kOpen;
+}
+
+}  // namespace
+
+int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
+  const int sign = filtered_orientation(a, b, c, {d.rounded, d.error});
+  if (sign != kOpen) return sign;
   if (is_float64(d)) return orientation(a, b, c, d.rounded);
   const Dyadic ax = a.x, ay = a.y, az = a.z;
   const Dyadic ux = b.x - ax, uy = b.y - ay, uz = b.z - az;
@@ -117,14 +141,57 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
       .sign();
 }
 
+LazyPoint lazy_centroid(const std::array<Vec3, 3>& triangle) {
+  const auto& [a, b, c] = triangle;
+  const auto third = [](double x, double y, double z) { return (x + y + z) / 3; };
+  // Two roundings, of at most 2 and 3 of the largest coordinate, are divided by 3, with one more: below 3 u of it.
+  const auto error = [](double x, double y, double z) {
+    return point_error(larger(std::fabs(x), larger(std::fabs(y), std::fabs(z))));
+  };
+  return {{third(a.x, b.x, c.x), third(a.y, b.y, c.y), third(a.z, b.z, c.z)},
+          {error(a.x, b.x, c.x), error(a.y, b.y, c.y), error(a.z, b.z, c.z)},
+          [&triangle] { return weighted_point(triangle[0], triangle[1], triangle[2], 1, 1, 1); }};
+}
+
+LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, const Vec3& q) {
+  const auto make = [&] { return plane_meeting_point(plane[0], plane[1], plane[2], p, q); };
+  const Determinant at_p = rounded_determinant(plane[0], plane[1], plane[2], {p, {}});
+  const Determinant at_q = rounded_determinant(plane[0], plane[1], plane[2], {q, {}});
+  const double sum = std::fabs(at_p.value) + std::fabs(at_q.value), error = at_p.error + at_q.error;
+  if (!(sum > 4 * error)) {
+    const ExactPoint exact = make();
+    return {exact.rounded, exact.error, make};
+  }
+  // The place t = P / (P + Q) on the way from p to q, with heights P and Q of which the error is at most a quarter of
+  // the sum: |dt| <= 16/9 error / sum, and 3 roundings.
+  const double t = std::fabs(at_p.value) / sum, off = kSlack * (2 * error / sum + 4 * kRoundoff);
+  const auto at = [&](double from, double to) { return from + (to - from) * t; };
+  const auto error_at = [&](double from, double to) {
+    return kSlack * std::fabs(to - from) * off + point_error(larger(std::fabs(from), std::fabs(to)));
+  };
+  return {{at(p.x, q.x), at(p.y, q.y), at(p.z, q.z)}, {error_at(p.x, q.x), error_at(p.y, q.y), error_at(p.z, q.z)}, make};
+}
+
+LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double wq) {
+  const double t = wq / (wp + wq);
+  const auto at = [&](double from, double to) { return from + (to - from) * t; };
+  const auto error_at = [](double from, double to, double error) {
+    return kSlack * (error + 2 * kRoundoff * std::fabs(to - from)) + point_error(larger(std::fabs(from), std::fabs(to)));
+  };
+  const Vec3 a = p.rounded, b = q.rounded;
+  const Vec3 error{larger(p.error.x, q.error.x), larger(p.error.y, q.error.y), larger(p.error.z, q.error.z)};
+  return {{at(a.x, b.x), at(a.y, b.y), at(a.z, b.z)},
+          {error_at(a.x, b.x, error.x), error_at(a.y, b.y, error.y), error_at(a.z, b.z, error.z)},
+          [&p, &q, wp, wq] { return between(p.exact(), q.exact(), wp, wq); }};
+}
+
+int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d) {
+  const int sign = filtered_orientation(a, b, c, {d.rounded, d.error});
+  return sign != kOpen ? sign : orientation(a, b, c, d.exact());
+}
+
 namespace {
 
-// A point of a plane as float64 knows it.
-struct Known {
-  Vec3 at, error;
-};
-
-// The sign, where float64 can tell; 2 where it cannot.
 int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
   const auto [i, j] = plane_axes(drop_axis);
   const Vec3 u = b.at - a.at, v = c.at - a.at;
@@ -136,14 +203,19 @@ int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
   const double bound =
       kSlack * (kDeterminantBound * (std::fabs(left) + std::fabs(right)) +
                 product_error(u[i], eu[i], v[j], ev[j]) + product_error(u[j], eu[j], v[i], ev[i]));
-  return left - right > bound ? 1 : left - right < -bound ? -1 : 2;
+  return left - right > bound ? 1 : left - right < -bound ? -1 : kOpen;
 }
 
 }  // namespace
 
 int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis) {
   const int sign = filtered_orientation_2d({a, {}}, {b, {}}, {p.rounded, p.error}, drop_axis);
-  return sign != 2 ? sign : orientation_2d_at(make_exact_point(a), make_exact_point(b), p, drop_axis);
+  return sign != kOpen ? sign : orientation_2d_at(make_exact_point(a), make_exact_point(b), p, drop_axis);
+}
+
+int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis) {
+  const int sign = filtered_orientation_2d({a, {}}, {b, {}}, {p.rounded, p.error}, drop_axis);
+  return sign != kOpen ? sign : orientation_2d_at(a, b, p.exact(), drop_axis);
 }
 
 int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
@@ -151,7 +223,7 @@ int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint
     return orientation_2d(a.rounded, b.rounded, c.rounded, drop_axis);
   }
   const int sign = filtered_orientation_2d({a.rounded, a.error}, {b.rounded, b.error}, {c.rounded, c.error}, drop_axis);
-  return sign != 2 ? sign : area_value(a, b, c, drop_axis).sign();
+  return sign != kOpen ? sign : area_value(a, b, c, drop_axis).sign();
 }
 
 Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {

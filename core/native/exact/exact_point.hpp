@@ -1,6 +1,11 @@
 // Points with rational coordinates, for samples that no float64 point can be.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
+#include <utility>
+
 #include "base/vec.hpp"
 #include "exact/dyadic.hpp"
 
@@ -25,14 +30,40 @@ ExactPoint between(const ExactPoint& p, const ExactPoint& q, const Dyadic& wp, c
 // The value whose sign is orientation(a, b, c, d).
 Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
-// Where the line through p and q, on strictly different sides of the plane of a, b, c, meets it.
+// Where the line through p and q, on different sides of the plane of a, b, c, meets it; one of them may lie in it.
 ExactPoint plane_meeting_point(Vec3 a, Vec3 b, Vec3 c, Vec3 p, Vec3 q);
+
+// A point that float64 knows to within `error` per coordinate, and that is computed exactly only for the signs
+// which this leaves open.
+class LazyPoint {
+ public:
+  LazyPoint(Vec3 rounded, Vec3 error, std::function<ExactPoint()> make)
+      : rounded(rounded), error(error), make_(std::move(make)) {}
+
+  const ExactPoint& exact() const {
+    if (!exact_) exact_ = make_();
+    return *exact_;
+  }
+
+  Vec3 rounded, error;
+
+ private:
+  std::function<ExactPoint()> make_;
+  mutable std::optional<ExactPoint> exact_;
+};
+
+// As the functions above. What they are given must outlive the point.
+LazyPoint lazy_centroid(const std::array<Vec3, 3>& triangle);
+LazyPoint lazy_meeting_point(const std::array<Vec3, 3>& plane, const Vec3& p, const Vec3& q);
+LazyPoint lazy_between(const LazyPoint& p, const LazyPoint& q, double wp, double wq);
 
 bool operator==(const ExactPoint& p, const ExactPoint& q);
 
 // The predicates of predicates.hpp with an exact point in the last place.
 int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d);
+int orientation(Vec3 a, Vec3 b, Vec3 c, const LazyPoint& d);
 int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis);
+int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis);
 int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
 
 // The value with that sign, times a positive factor that depends on a and b alone and times c.w.
@@ -51,6 +82,8 @@ inline PlaneAxes plane_axes(int drop_axis) {
 }
 
 inline Aabb point_box(const ExactPoint& p) { return {p.rounded - p.error, p.rounded + p.error}; }
+inline Aabb point_box(const LazyPoint& p) { return {p.rounded - p.error, p.rounded + p.error}; }
 inline Vec3 rounded_point(const ExactPoint& p) { return p.rounded; }
+inline Vec3 rounded_point(const LazyPoint& p) { return p.rounded; }
 
 }  // namespace satcheck

@@ -7,6 +7,8 @@
 
 #include <limits>
 
+#include "base/lanes.hpp"
+
 namespace satcheck {
 namespace {
 
@@ -46,14 +48,14 @@ struct Rounded {
   double value, error;
 };
 
-Rounded two_sum(double a, double b) {
+SATCHECK_INLINE Rounded two_sum(double a, double b) {
   const double sum = a + b;
   const double b_part = sum - a;
   const double a_part = sum - b_part;
   return {sum, (a - a_part) + (b - b_part)};
 }
 
-Rounded two_product(double a, double b) {
+SATCHECK_INLINE Rounded two_product(double a, double b) {
   const double product = a * b;
   return {product, std::fma(a, b, -product)};
 }
@@ -243,8 +245,10 @@ Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c) {
           exact_minor(p.x, p.y, q.x, q.y).rounded()};
 }
 
-double rounded_affine(Vec3 a, Vec3 b, double offset) {
-  // T. Ogita, S. M. Rump, S. Oishi, "Accurate Sum and Dot Product" (2005), Dot2.
+namespace {
+
+// T. Ogita, S. M. Rump, S. Oishi, "Accurate Sum and Dot Product" (2005), Dot2.
+SATCHECK_INLINE double compensated_affine(Vec3 a, Vec3 b, double offset) {
   double total = offset, correction = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Rounded p = two_product(a[axis], b[axis]);
@@ -253,6 +257,22 @@ double rounded_affine(Vec3 a, Vec3 b, double offset) {
     correction += s.error + p.error;
   }
   return total + correction;
+}
+
+SATCHECK_FUSED void round_affine(const Vec3 (&row)[3], Vec3 offset, Vec3* points, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 p = points[i];
+    points[i] = {compensated_affine(row[0], p, offset.x), compensated_affine(row[1], p, offset.y),
+                 compensated_affine(row[2], p, offset.z)};
+  }
+}
+
+}  // namespace
+
+double rounded_affine(Vec3 a, Vec3 b, double offset) { return compensated_affine(a, b, offset); }
+
+void round_affine(const Vec3 (&row)[3], Vec3 offset, std::vector<Vec3>& points) {
+  round_affine(row, offset, points.data(), points.size());
 }
 
 double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {

@@ -48,6 +48,9 @@ Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c);
 // a.x b.x + a.y b.y + a.z b.z + offset, summed in twice the precision and rounded once.
 double rounded_affine(Vec3 a, Vec3 b, double offset);
 
+// The same of many points: x, y and z of each by the three rows, in place.
+void round_affine(const Vec3 (&row)[3], Vec3 offset, std::vector<Vec3>& points);
+
 // Signed volume enclosed by a closed, consistently wound surface, positive when wound outwards.
 // Rounded, but its sign is exact: 0.0 only when the volume is exactly 0.
 double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);

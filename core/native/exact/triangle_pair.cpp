@@ -205,16 +205,19 @@ CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b) {
   return turn_a == turn_b ? CoplanarOverlap::agreeing : CoplanarOverlap::opposing;
 }
 
-Vec3 crossing_point(const Corners& a, const Corners& b) {
+std::array<PlaneMeeting, 2> crossing_ends(const Corners& a, const Corners& b) {
   const Lone la = from_lone_corner(a, sides(b, a)), lb = from_lone_corner(b, sides(a, b));
   const Interval ia = interval_of_first(la), ib = interval_of_second(lb);
   // The common segment runs from the later of the two low ends to the earlier of the high ends.
-  const Vec3 low = compare_along_line(la, ia.low, lb, ib.low) > 0 ? plane_crossing(a, lb.p, ib.low)
-                                                                  : plane_crossing(b, la.p, ia.low);
-  const Vec3 high = compare_along_line(la, ia.high, lb, ib.high) > 0
-                        ? plane_crossing(b, la.p, ia.high)
-                        : plane_crossing(a, lb.p, ib.high);
-  return low * 0.5 + high * 0.5;
+  const bool low_of_b = compare_along_line(la, ia.low, lb, ib.low) > 0;
+  const bool high_of_a = compare_along_line(la, ia.high, lb, ib.high) > 0;
+  return {low_of_b ? PlaneMeeting{a, lb.p, ib.low} : PlaneMeeting{b, la.p, ia.low},
+          high_of_a ? PlaneMeeting{b, la.p, ia.high} : PlaneMeeting{a, lb.p, ib.high}};
+}
+
+Vec3 crossing_point(const Corners& a, const Corners& b) {
+  const auto [low, high] = crossing_ends(a, b);
+  return plane_crossing(low.plane, low.p, low.q) * 0.5 + plane_crossing(high.plane, high.p, high.q) * 0.5;
 }
 
 Vec3 contact_point(const Corners& a, const Corners& b) {

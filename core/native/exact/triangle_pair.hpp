@@ -32,6 +32,15 @@ CoplanarOverlap coplanar_overlap(const Corners& a, const Corners& b);
 // Closed segment p q against a closed triangle, either of which may be degenerate.
 bool segment_meets_triangle(Vec3 p, Vec3 q, const Corners& t);
 
+// Where the way from p to q meets a plane, which p is not in.
+struct PlaneMeeting {
+  Corners plane;
+  Vec3 p, q;
+};
+
+// The ends of the segment along which crossing triangles cross.
+std::array<PlaneMeeting, 2> crossing_ends(const Corners& a, const Corners& b);
+
 // A point near the middle of the segment along which crossing triangles cross. Rounded.
 Vec3 crossing_point(const Corners& a, const Corners& b);
 

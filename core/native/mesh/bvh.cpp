@@ -100,9 +100,10 @@ void fit_boxes(std::vector<BvhNode>& nodes, std::size_t count, const std::vector
   while (count-- > 0) {
     BvhNode& node = nodes[count];
     if (node.is_leaf()) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) node.box.include(boxes[i]);
+      node.box = boxes[node.first];
+      for (std::uint32_t i = node.first + 1; i < node.first + node.count; ++i) node.box.include(boxes[i]);
     } else {
-      node.box.include(nodes[node.first].box);
+      node.box = nodes[node.first].box;
       node.box.include(nodes[node.first + 1].box);
     }
   }
@@ -274,8 +275,9 @@ std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes) {
 }
 
 void refit(Bvh& bvh, const Mesh& mesh) {
-  for (std::size_t k = 0; k < bvh.order.size(); ++k) bvh.boxes[k] = triangle_box(mesh, bvh.order[k]);
-  for (BvhNode& node : bvh.nodes) node.box = Aabb{};
+  bvh.boxes.clear();
+  bvh.boxes.reserve(bvh.order.size());
+  for (const std::uint32_t t : bvh.order) bvh.boxes.push_back(triangle_box(mesh, t));
   fit_boxes(bvh.nodes, bvh.nodes.size(), bvh.boxes);
 }
 

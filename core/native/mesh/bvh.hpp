@@ -42,8 +42,10 @@ std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes);
 void refit(Bvh& bvh, const Mesh& mesh);
 
 inline Aabb triangle_box(const Mesh& mesh, std::uint32_t t) {
-  Aabb box;
-  for (const std::uint32_t v : mesh.triangles[t]) box.include(mesh.vertices[v]);
+  const Triangle& v = mesh.triangles[t];
+  Aabb box{mesh.vertices[v[0]], mesh.vertices[v[0]]};
+  box.include(mesh.vertices[v[1]]);
+  box.include(mesh.vertices[v[2]]);
   return box;
 }
 

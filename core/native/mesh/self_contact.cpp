@@ -20,30 +20,76 @@ bool is_collinear(const Mesh& mesh, std::uint32_t t) {
 }
 
 // The corners of t in an order that starts with those it shares with u.
-Triangle shared_first(const Triangle& t, const Triangle& u, int& shared) {
-  Triangle result = t;
-  const auto is_shared = [&](std::uint32_t v) { return std::find(u.begin(), u.end(), v) != u.end(); };
-  shared = static_cast<int>(std::stable_partition(result.begin(), result.end(), is_shared) - result.begin());
-  return result;
-}
-
-bool has_more_in_common(const Mesh& mesh, std::uint32_t t, std::uint32_t u) {
+struct SharedFirst {
+  Triangle corner;
   int shared = 0;
-  const Triangle i = shared_first(mesh.triangles[t], mesh.triangles[u], shared);
-  const Triangle k = shared_first(mesh.triangles[u], mesh.triangles[t], shared);
-  const Corners ct = corners(mesh, t), cu = corners(mesh, u);
-  if (shared == 0) return classify(ct, cu) != TriangleContact::disjoint;
-  if (shared == 3) return true;
-  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
-  const int last = orientation(ct[0], ct[1], ct[2], at(k[2]));
-  if (shared == 2) {
-    if (last != 0) return false;
-    const int axis = projection_axis(rounded_normal(ct[0], ct[1], ct[2]));
-    return orientation_2d(at(i[0]), at(i[1]), at(i[2]), axis) == orientation_2d(at(i[0]), at(i[1]), at(k[2]), axis);
+
+  SharedFirst(const Triangle& t, const Triangle& u) {
+    int others = 0;
+    for (const std::uint32_t v : t) {
+      const bool is_shared = v == u[0] || v == u[1] || v == u[2];
+      corner[is_shared ? shared++ : 2 - others++] = v;
+    }
   }
-  if (last * orientation(ct[0], ct[1], ct[2], at(k[1])) > 0) return false;
-  // What they have in common is convex: beyond the corner it ends on an edge across from it.
-  return segment_meets_triangle(at(i[1]), at(i[2]), cu) || segment_meets_triangle(at(k[1]), at(k[2]), ct);
+};
+
+// A triangle that many others are held against.
+class Beheld {
+ public:
+  Beheld(const Mesh& mesh, std::uint32_t t)
+      : mesh_(mesh), t_(mesh.triangles[t]), c_(corners(mesh, t)), plane_(c_[0], c_[1], c_[2]),
+        axis_(projection_axis(rounded_normal(c_[0], c_[1], c_[2]))) {}
+
+  // More than shared corners and edges.
+  bool has_more_in_common_with(std::uint32_t other) const {
+    const Triangle& u = mesh_.triangles[other];
+    const SharedFirst mine(t_, u), theirs(u, t_);
+    const Triangle &i = mine.corner, &k = theirs.corner;
+    switch (theirs.shared) {
+      case 0: return classify(plane_, corners(mesh_, other)) != TriangleContact::disjoint;
+      case 1: return goes_on_from(at(i[0]), at(i[1]), at(i[2]), at(k[1]), at(k[2]));
+      case 2: return folds_onto(at(i[0]), at(i[1]), at(i[2]), at(k[2]));
+      default: return true;
+    }
+  }
+
+ private:
+  Vec3 at(std::uint32_t v) const { return mesh_.vertices[v]; }
+  int turn(Vec3 p, Vec3 q, Vec3 r) const { return orientation_2d(p, q, r, axis_); }
+
+  // Of a triangle across the edge p q: is its corner s in the plane, on the side of r? Neighbours in one plane
+  // lie on both sides of the edge as a rule, which is quickly seen.
+  bool folds_onto(Vec3 p, Vec3 q, Vec3 r, Vec3 s) const { return turn(p, q, r) == turn(p, q, s) && plane_.side(s) == 0; }
+
+  // This one is p, q, r and the other p, s, t.
+  bool goes_on_from(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 t) const {
+    if (parts(p, q, r, s, t) || parts(p, r, q, s, t)) return false;
+    if (plane_.side(s) * plane_.side(t) > 0) return false;
+    // What they have in common is convex: beyond the corner it ends on an edge across from it.
+    return segment_meets_triangle(q, r, {p, s, t}) || segment_meets_triangle(s, t, c_);
+  }
+
+  // Does the line p q, seen along the axis, have r on one side or on it, and s and t beyond it?
+  bool parts(Vec3 p, Vec3 q, Vec3 r, Vec3 s, Vec3 t) const {
+    const int beyond = turn(p, q, s);
+    return beyond != 0 && beyond == turn(p, q, t) && beyond != turn(p, q, r);
+  }
+
+  const Mesh& mesh_;
+  const Triangle& t_;
+  Corners c_;
+  TrianglePlane plane_;
+  int axis_;
+};
+
+// Calls visit(other) -> bool until it returns false; returns whether it never did.
+template <class Visit>
+bool visit_irregular_partners(const Surface& surface, std::uint32_t t, Visit visit) {
+  const Mesh& mesh = surface.mesh;
+  const Beheld triangle(mesh, t);
+  return visit_box(surface.bvh, mesh, triangle_box(mesh, t), [&](std::uint32_t u) {
+    return u == t || is_collinear(mesh, u) || !triangle.has_more_in_common_with(u) || visit(u);
+  });
 }
 
 // Across each edge of a triangle the one neighbour there, if there is exactly one.
@@ -74,16 +120,16 @@ class Neighbours {
 }  // namespace
 
 std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint32_t t) {
-  const Mesh& mesh = surface.mesh;
-  const Aabb box = triangle_box(mesh, t);
   std::vector<std::uint32_t> partners;
-  visit_box(surface.bvh, mesh, box, [&](std::uint32_t u) {
-    if (u != t && meet(box, triangle_box(mesh, u)) && !is_collinear(mesh, u) && has_more_in_common(mesh, t, u)) {
-      partners.push_back(u);
-    }
+  visit_irregular_partners(surface, t, [&](std::uint32_t u) {
+    partners.push_back(u);
     return true;
   });
   return partners;
+}
+
+bool has_irregular_partners(const Surface& surface, std::uint32_t t) {
+  return !visit_irregular_partners(surface, t, [](std::uint32_t) { return false; });
 }
 
 void visit_uniform_pieces(const Surface& surface, const std::function<bool(std::uint32_t)>& wanted,
@@ -105,7 +151,7 @@ void visit_uniform_pieces(const Surface& surface, const std::function<bool(std::
       const std::uint32_t t = queue.back();
       queue.pop_back();
       neighbours.visit(t, [&](std::uint32_t u) {
-        if (done[u] || !wanted(u) || is_collinear(mesh, u) || !irregular_partners(surface, u).empty()) return;
+        if (done[u] || !wanted(u) || is_collinear(mesh, u) || has_irregular_partners(surface, u)) return;
         done[u] = true;
         queue.push_back(u);
       });

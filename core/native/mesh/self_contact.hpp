@@ -12,6 +12,7 @@ namespace satcheck {
 // The other triangles of the surface that have more in common with t than shared corners and edges.
 // Collinear triangles bound nothing and are left out.
 std::vector<std::uint32_t> irregular_partners(const Surface& surface, std::uint32_t t);
+bool has_irregular_partners(const Surface& surface, std::uint32_t t);
 
 // Calls visit(triangle, piece, others) -> bool until it returns false, for pieces of the triangles that
 // wanted(t) accepts: the winding numbers beside every point of them are those beside one of the

@@ -1,9 +1,11 @@
 #include "mesh/surface.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "base/edge_table.hpp"
 #include "base/parallel.hpp"
@@ -46,7 +48,9 @@ std::vector<std::uint32_t> find_parts(const Mesh& welded) {
 // Whether both have the same triangles, or one the other's turned over as transform() does it.
 bool has_triangles_of(const Mesh& a, const Mesh& b) {
   if (a.vertices.size() != b.vertices.size()) return false;
-  if (a.triangles == b.triangles) return true;
+  if (a.triangles.size() != b.triangles.size()) return false;
+  if (a.triangles.empty()) return true;
+  if (std::memcmp(a.triangles.data(), b.triangles.data(), a.triangles.size() * sizeof(Triangle)) == 0) return true;
   const auto mirrored = [](const Triangle& s, const Triangle& t) {
     return s[0] == t[0] && s[1] == t[2] && s[2] == t[1];
   };
@@ -79,15 +83,16 @@ Surface make_plain_surface(const Mesh& inspected, const Aabb* region) {
   return surface;
 }
 
-Surface refitted_surface(const Surface& like, const Mesh& mesh) {
+Surface refitted_surface(const Surface& like, Mesh mesh) {
   if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) return make_surface(mesh, like.solid);
-  Surface surface = like;
-  surface.refitted = true;
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    surface.mesh.vertices[i] = mesh.vertices[i] + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
-  }
-  surface.mesh.triangles = mesh.triangles;
+  Surface surface;
+  surface.mesh = std::move(mesh);
+  for (Vec3& p : surface.mesh.vertices) p = p + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
+  surface.bvh = {like.bvh.nodes, like.bvh.order, {}};
   refit(surface.bvh, surface.mesh);
+  surface.parts = like.parts;
+  surface.solid = like.solid;
+  surface.refitted = true;
   return surface;
 }
 

@@ -30,7 +30,7 @@ Surface make_plain_surface(const Mesh& inspected, const Aabb* region = nullptr);
 // The surface of `mesh`, which is that of `like` with its vertices elsewhere, as an affine map puts them;
 // a mirror turns the winding. Nothing is sorted: the tree of `like` is fitted again. Where the triangles
 // are others, or rounding has put two vertices into one place, the surface is made anew.
-Surface refitted_surface(const Surface& like, const Mesh& mesh);
+Surface refitted_surface(const Surface& like, Mesh mesh);
 
 // Winding number of a point with respect to a solid; nothing when the point is on the surface.
 std::optional<int> winding_number(const Surface& surface, Vec3 point);

@@ -17,10 +17,7 @@ Mesh transform(const Mesh& mesh, const std::array<double, 16>& m) {
   const int handedness = determinant_sign({}, row[0], {}, row[1], {}, row[2]);
   if (handedness == 0) throw std::invalid_argument("the matrix is singular");
   Mesh result{mesh.vertices, mesh.triangles};
-  for (Vec3& p : result.vertices) {
-    p = {rounded_affine(row[0], p, m[3]), rounded_affine(row[1], p, m[7]),
-         rounded_affine(row[2], p, m[11])};
-  }
+  round_affine(row, {m[3], m[7], m[11]}, result.vertices);
   require_in_range(result.vertices, "transformed vertex");
   if (handedness < 0) {
     for (Triangle& t : result.triangles) std::swap(t[1], t[2]);

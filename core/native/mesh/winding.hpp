@@ -74,11 +74,14 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
   return winding;
 }
 
-// The triangles that contain p.
+// The triangles that contain p; of `known` that is not asked.
 template <class Point>
-std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p) {
+std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p,
+                                        std::optional<std::uint32_t> known = {}) {
   std::vector<std::uint32_t> found;
+  if (known) found.push_back(*known);
   visit_box(bvh, mesh, point_box(p), [&](std::uint32_t t) {
+    if (t == known) return true;
     const Triangle& v = mesh.triangles[t];
     if (point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) found.push_back(t);
     return true;
@@ -118,18 +121,23 @@ struct Beside {
 };
 
 // Of a mesh, just beside the point p of the triangle a, b, c, which need not belong to it. Nothing when p
-// lies on a triangle of the mesh that is in another plane.
+// lies on a triangle of the mesh that is in another plane. known: the triangle a, b, c, where it is one of the mesh and
+// has p in its inside.
 template <class Point>
 std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Point& p, Vec3 a, Vec3 b,
-                                     Vec3 c) {
+                                     Vec3 c, std::optional<std::uint32_t> known = {}) {
   if (bvh.nodes.empty() || !meet(point_box(p), bvh.nodes[0].box)) return Beside{};
-  const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p);
+  const std::vector<std::uint32_t> here = triangles_at(mesh, bvh, p, known);
   const Vec3 normal = rounded_normal(a, b, c);
   const int axis = projection_axis(normal);
   const int turn = orientation_2d(a, b, c, axis);
   int step = 0;               // on the way from the front to the back
   bool on_an_edge = false;    // then several triangles make up one step
   for (const std::uint32_t t : here) {
+    if (t == known) {
+      ++step;
+      continue;
+    }
     const Triangle& v = mesh.triangles[t];
     const Vec3 u[3] = {mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
     for (int i = 0; i < 3; ++i) {

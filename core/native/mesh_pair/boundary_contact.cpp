@@ -68,8 +68,8 @@ bool is_plain_boundary(const Surface& surface, std::uint32_t t) {
   const Corners c = corners(surface.mesh, t);
   if (is_collinear(c)) return false;
   if (!surface.solid) return true;
-  if (!irregular_partners(surface, t).empty()) return false;
-  const auto sides = beside(surface, weighted_point(c[0], c[1], c[2], 1, 1, 1), c);
+  if (has_irregular_partners(surface, t)) return false;
+  const auto sides = beside_inner(surface, lazy_centroid(c), t);
   return sides && sides->is_boundary();
 }
 

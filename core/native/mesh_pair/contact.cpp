@@ -95,25 +95,11 @@ class ContactSide {
   std::vector<ContactTriangle> contacts_;
 };
 
-// Where the edges of one triangle go through the other, in its border or inside.
-void append_passages(const Corners& through, const Corners& edges, std::vector<ExactPoint>& points) {
-  const auto side = [&](Vec3 p) { return orientation(through[0], through[1], through[2], p); };
-  const auto append = [&](ExactPoint p) {
-    if (!plane_point_in_triangle(p, through[0], through[1], through[2])) return;
-    if (std::find(points.begin(), points.end(), p) == points.end()) points.push_back(std::move(p));
-  };
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 p = edges[i], q = edges[(i + 1) % 3];
-    if (side(p) == 0) append(make_exact_point(p));
-    if (side(p) * side(q) < 0) append(plane_meeting_point(through[0], through[1], through[2], p, q));
-  }
-}
-
 // A generic point of a crossing: each body has one winding number on either side of its triangle.
-bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const ExactPoint& p, Samples& samples) {
+bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const LazyPoint& p, Samples& samples) {
   const Beside sheet{1, 1, true};
-  const auto of_a = a.solid ? beside(a, p, corners(a.mesh, crossing.a)) : sheet;
-  const auto of_b = b.solid ? beside(b, p, corners(b.mesh, crossing.b)) : sheet;
+  const auto of_a = a.solid ? beside_inner(a, p, crossing.a) : sheet;
+  const auto of_b = b.solid ? beside_inner(b, p, crossing.b) : sheet;
   if (!of_a || !of_b) return false;
   const Evidence where{crossing.a, crossing.b, p.rounded};
   const Side side{a, b, true};
@@ -134,15 +120,12 @@ void sample_pieces(ContactSide& a, ContactSide& b, Samples& samples) {
 }  // namespace
 
 PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing) {
-  const Corners ca = corners(a.mesh, crossing.a), cb = corners(b.mesh, crossing.b);
-  std::vector<ExactPoint> ends;
-  append_passages(cb, ca, ends);
-  append_passages(ca, cb, ends);
+  const auto [first, last] = crossing_ends(corners(a.mesh, crossing.a), corners(b.mesh, crossing.b));
+  const LazyPoint from = lazy_meeting_point(first.plane, first.p, first.q);
+  const LazyPoint to = lazy_meeting_point(last.plane, last.p, last.q);
   Samples samples(a, b);
-  if (ends.size() < 2) return samples.facts();
   for (int k = 1; k <= kCrossingSamples; ++k) {
-    const ExactPoint p = between(ends[0], ends[1], 1.0, 1.0 * k);
-    if (note_crossing(a, b, crossing, p, samples)) break;
+    if (note_crossing(a, b, crossing, lazy_between(from, to, 1, k), samples)) break;
   }
   return samples.facts();
 }

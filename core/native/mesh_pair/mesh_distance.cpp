@@ -5,10 +5,41 @@
 #include <utility>
 #include <vector>
 
+#include "base/tolerances.hpp"
 #include "exact/triangle_distance.hpp"
 
 namespace satcheck {
 namespace {
+
+// The plane of a triangle, which most triangles nearby are clearly farther from than a bound.
+class Beyond {
+ public:
+  explicit Beyond(const Corners& t) : from_(t[0]) {
+    const Vec3 u = t[1] - t[0], v = t[2] - t[0];
+    normal_ = cross(u, v);
+    length_ = norm(normal_);
+    permanent_ = norm(u) * norm(v);
+  }
+
+  // Is all of the triangle, on one side, certainly farther than `reach`? A component of the normal, and each of its
+  // products with an offset, is off by a few roundoffs of the lengths that are multiplied.
+  bool holds(const Corners& t, double reach) const {
+    const double far = reach * (length_ + kNoise * permanent_);
+    int sides = 0;
+    for (const Vec3& p : t) {
+      const Vec3 w = p - from_;
+      const double height = dot(normal_, w), least = far + kNoise * permanent_ * norm(w);
+      sides += height > least ? 1 : height < -least ? -1 : 0;
+    }
+    return sides == 3 || sides == -3;
+  }
+
+ private:
+  static constexpr double kNoise = 32 * kUnitRoundoff;
+
+  Vec3 from_, normal_;
+  double length_, permanent_;
+};
 
 struct NodePair {
   double distance_squared;
@@ -22,6 +53,8 @@ class DistanceSearch {
 
   MeshDistance run() {
     if (a_.bvh.nodes.empty() || b_.bvh.nodes.empty()) return result_;
+    const Aabb &box_a = a_.bvh.nodes[0].box, &box_b = b_.bvh.nodes[0].box;
+    rounding_ = chain_rounding(std::max({max_abs(box_a.min), max_abs(box_a.max), max_abs(box_b.min), max_abs(box_b.max)}));
     push(0, 0);
     // Depth first, the nearer child first: the bound gets good early and the stack stays short.
     while (!stack_.empty() && result_.distance > 0) {
@@ -59,10 +92,14 @@ class DistanceSearch {
       const std::uint32_t ta = a_.bvh.order[k];
       const Corners ca = corners(a_.mesh, ta);
       const Aabb box = box_at(a_.bvh, a_.mesh, k);
+      const Beyond plane(ca);
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
         if (!(box_distance_squared(box, box_at(b_.bvh, b_.mesh, l)) <= bound_)) continue;
         const std::uint32_t tb = b_.bvh.order[l];
-        const Witnesses w = triangle_distance(ca, corners(b_.mesh, tb));
+        const Corners cb = corners(b_.mesh, tb);
+        const double reach = std::sqrt(bound_) + rounding_;
+        if (plane.holds(cb, reach) || Beyond(cb).holds(ca, reach)) continue;
+        const Witnesses w = triangle_distance(ca, cb);
         const bool improves = w.distance_squared < bound_ ||
                               (w.distance_squared == bound_ && result_.triangle_a == kNoTriangle);
         if (!improves || (counts_ && !counts_(ta, tb))) continue;
@@ -76,6 +113,7 @@ class DistanceSearch {
   const Surface& b_;
   const TrianglePairTest& counts_;
   double bound_;
+  double rounding_ = 0;  // of a distance that is computed
   MeshDistance result_;
   std::vector<NodePair> stack_;
 };

@@ -26,6 +26,12 @@ inline std::optional<Beside> beside(const Surface& s, const ExactPoint& p, const
   return winding_beside(s.mesh, s.bvh, p, t[0], t[1], t[2]);
 }
 
+// The same beside a point that is known to be inside triangle t of the surface.
+inline std::optional<Beside> beside_inner(const Surface& s, const LazyPoint& p, std::uint32_t t) {
+  const Corners c = corners(s.mesh, t);
+  return winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2], t);
+}
+
 class Samples {
  public:
   // The surfaces say nothing of the inside of what is no solid: it is never in the other body.

@@ -61,8 +61,8 @@ std::shared_ptr<HullPoints> Geometry::hull_points() {
   return once(mutex_, hull_points_, [&] { return find_hull_points(*mesh_); });
 }
 
-std::shared_ptr<Surface> Geometry::surface_of(const Mesh& placed) {
-  auto fitted = std::make_shared<Surface>(refitted_surface(*surface(), placed));
+std::shared_ptr<Surface> Geometry::surface_of(Mesh placed) {
+  auto fitted = std::make_shared<Surface>(refitted_surface(*surface(), std::move(placed)));
   ++(fitted->refitted ? refits_ : hierarchies_);
   return fitted;
 }
@@ -75,7 +75,7 @@ std::shared_ptr<Mesh> PlacedGeometry::mesh() {
 std::shared_ptr<Surface> PlacedGeometry::surface() {
   if (!transform_) return shared_->surface();
   const Lock lock(mutex_);
-  if (!surface_) surface_ = shared_->surface_of(*mesh());
+  if (!surface_) surface_ = shared_->surface_of(mesh_ ? *mesh_ : transform(*shared_->mesh(), *transform_));
   return surface_;
 }
 

@@ -42,7 +42,7 @@ class Geometry {
   std::shared_ptr<HullPoints> hull_points();
 
   // The surface of the placed mesh.
-  std::shared_ptr<Surface> surface_of(const Mesh& placed);
+  std::shared_ptr<Surface> surface_of(Mesh placed);
 
   // How many trees were built, and how many were fitted again to placed vertices.
   std::size_t hierarchies() const { return hierarchies_; }

@@ -10,9 +10,10 @@
 namespace satcheck {
 namespace {
 
-Shape triangle_hull(const Surface& surface, std::uint32_t triangle) {
-  const auto c = corners(surface.mesh, triangle);
-  return make_hull(std::vector<Vec3>(c.begin(), c.end()));
+double depth_of_triangles(const Corners& a, const Corners& b) {
+  const PairResult found = check_pair(make_triangle(a), {}, make_triangle(b), {}, Query::depth);
+  if (found.outcome != Outcome::penetrating || !found.has_distance) return 0;
+  return std::max(-found.upper * (1 - 2 * kUnitRoundoff), 0.0);
 }
 
 double depth_inside(const Surface& a, const Surface& b, double largest) {
@@ -23,10 +24,7 @@ double depth_inside(const Surface& a, const Surface& b, double largest) {
 
 double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b) {
   if (!is_plain_boundary(a, triangle_a) || !is_plain_boundary(b, triangle_b)) return 0;
-  const PairResult found =
-      check_pair(triangle_hull(a, triangle_a), {}, triangle_hull(b, triangle_b), {}, Query::depth);
-  if (found.outcome != Outcome::penetrating || !found.has_distance) return 0;
-  return std::max(-found.upper * (1 - 2 * kUnitRoundoff), 0.0);
+  return depth_of_triangles(corners(a.mesh, triangle_a), corners(b.mesh, triangle_b));
 }
 
 double nested_depth(PlacedGeometry& a, PlacedGeometry& b) {

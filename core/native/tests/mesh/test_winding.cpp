@@ -68,6 +68,8 @@ void both_sides_of_every_triangle() {
     const auto beside = winding_beside(s.mesh, s.bvh, p, c[0], c[1], c[2]);
     CHECK(beside && beside->front == 0 && beside->back == 1 && beside->on_surface);
     const auto reversed = winding_beside(s.mesh, s.bvh, p, c[0], c[2], c[1]);
+    const auto lazily = winding_beside(s.mesh, s.bvh, lazy_centroid(c), c[0], c[1], c[2], t);
+    CHECK(lazily && lazily->front == 0 && lazily->back == 1 && lazily->is_boundary());
     CHECK(reversed && reversed->front == 1 && reversed->back == 0 && reversed->is_boundary());
   }
 }
