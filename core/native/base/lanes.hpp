@@ -120,6 +120,8 @@ inline Lanes operator*(Lanes a, double s) { return each_lane([&](int l) { return
 inline Lanes operator-(Lanes a) { return each_lane([&](int l) { return -a[l]; }); }
 inline LaneMask operator<(Lanes a, Lanes b) { return {{a[0] < b[0], a[1] < b[1], a[2] < b[2], a[3] < b[3]}}; }
 inline LaneMask operator>(Lanes a, Lanes b) { return b < a; }
+inline LaneMask operator<=(Lanes a, Lanes b) { return {{a[0] <= b[0], a[1] <= b[1], a[2] <= b[2], a[3] <= b[3]}}; }
+inline LaneMask operator>=(Lanes a, Lanes b) { return b <= a; }
 inline LaneMask operator==(Lanes a, Lanes b) { return {{a[0] == b[0], a[1] == b[1], a[2] == b[2], a[3] == b[3]}}; }
 template <class Function>
 LaneMask each_mask(Function f) {

@@ -6,8 +6,6 @@
 // differences are multiples of 1e-291, which float64 holds.
 #pragma once
 
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "base/vec.hpp"
@@ -24,29 +22,10 @@ inline bool in_range(double coordinate) {
 }
 
 // Whether require_in_range() accepts points that were computed, not given.
-inline bool are_in_range(const std::vector<Vec3>& points) {
-  Aabb box;
-  bool all = true;
-  for (const Vec3& p : points) {
-    all &= in_range(p.x) & in_range(p.y) & in_range(p.z);
-    box.include(p);
-  }
-  const double size = points.empty() ? 0 : max_abs(box.max - box.min);
-  return all && (size == 0 || size >= kSmallestSize);
-}
+bool are_in_range(const std::vector<Vec3>& points);
 
 // Names the first offender: std::invalid_argument where it is not finite, std::overflow_error where it, or
 // the whole, is out of range.
-inline void require_in_range(const std::vector<Vec3>& points, const char* what) {
-  if (are_in_range(points)) return;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 p = points[i];
-    if (in_range(p.x) && in_range(p.y) && in_range(p.z)) continue;
-    const std::string where = std::string(what) + " " + std::to_string(i);
-    if (!is_finite(p)) throw std::invalid_argument(where + " is not finite");
-    throw std::overflow_error(where + " is out of range: coordinates other than 0 lie between 1e-80 and 1e45");
-  }
-  throw std::overflow_error("the size is out of range: it is below 1e-45");
-}
+void require_in_range(const std::vector<Vec3>& points, const char* what);
 
 }  // namespace satcheck

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "exact/predicates.hpp"
+#include "exact/point_in_triangle.hpp"
 
 namespace satcheck {
 namespace {
@@ -12,9 +12,6 @@ constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
 // rounded_ratio() is within 2 ulp; 8 u also covers the roundings of the box made from it.
 constexpr double kPointError = 8 * kRoundoff;
-
-// As in predicates.cpp.
-constexpr double kDeterminantBound = 9 * kRoundoff;
 
 // Covers the roundings of the error term itself.
 constexpr double kSlack = 1.001;
@@ -225,6 +222,20 @@ int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint
   const int sign = filtered_orientation_2d({a.rounded, a.error}, {b.rounded, b.error}, {c.rounded, c.error}, drop_axis);
   return sign != kOpen ? sign : area_value(a, b, c, drop_axis).sign();
 }
+
+namespace {
+
+template <class Point>
+bool in_triangle(const Point& p, Vec3 a, Vec3 b, Vec3 c) {
+  const int side = filtered_orientation(a, b, c, {p.rounded, p.error});
+  if (side != kOpen) return false;
+  return !collinear(a, b, c) && plane_point_in_triangle(p, a, b, c) && orientation(a, b, c, p) == 0;
+}
+
+}  // namespace
+
+bool point_in_triangle(const ExactPoint& p, Vec3 a, Vec3 b, Vec3 c) { return in_triangle(p, a, b, c); }
+bool point_in_triangle(const LazyPoint& p, Vec3 a, Vec3 b, Vec3 c) { return in_triangle(p, a, b, c); }
 
 Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis) {
   const auto [i, j] = plane_axes(drop_axis);

@@ -66,6 +66,11 @@ int orientation_2d_at(Vec3 a, Vec3 b, const ExactPoint& p, int drop_axis);
 int orientation_2d_at(Vec3 a, Vec3 b, const LazyPoint& p, int drop_axis);
 int orientation_2d_at(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
 
+// As point_in_triangle(): most triangles that are not off the point in float64 are off it seen along an axis, which
+// takes fewer digits than to know that it lies in their plane.
+bool point_in_triangle(const ExactPoint& p, Vec3 a, Vec3 b, Vec3 c);
+bool point_in_triangle(const LazyPoint& p, Vec3 a, Vec3 b, Vec3 c);
+
 // The value with that sign, times a positive factor that depends on a and b alone and times c.w.
 Dyadic area_value(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int drop_axis);
 

@@ -15,12 +15,7 @@ namespace {
 // u, the largest relative error of one rounding.
 constexpr double kRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
-// A term of the rounded 3x3 determinant carries at most 3 rounded differences, 2 products and
-// 3 additions: |error| <= ((1 + u)^8 - 1) * permanent. The ninth u covers the roundings of the
-// permanent and of the bound.
-constexpr double kDeterminantBound = 9 * kRoundoff;
-
-// Likewise 2 differences, 1 product, 1 addition; the fifth u covers the bound's own roundings.
+// As kDeterminantBound: 2 differences, 1 product, 1 addition; the fifth u covers the bound's own roundings.
 constexpr double kOrientation2dBound = 5 * kRoundoff;
 
 // What rounded_normal() promises, relative to the length of the normal.
@@ -186,26 +181,6 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
 }
 
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return determinant_sign(a, b, a, c, a, d); }
-
-TrianglePlane::TrianglePlane(Vec3 a, Vec3 b, Vec3 c) : a(a), b(b), c(c) {
-  const Vec3 u = b - a, v = c - a;
-  const double yz = u.y * v.z, zy = u.z * v.y;
-  const double zx = u.z * v.x, xz = u.x * v.z;
-  const double xy = u.x * v.y, yx = u.y * v.x;
-  normal_ = {yz - zy, zx - xz, xy - yx};
-  permanent_ = {std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz), std::fabs(xy) + std::fabs(yx)};
-}
-
-int TrianglePlane::side(Vec3 d) const {
-  // As many roundings as in determinant_sign(), with the rows in another order.
-  const Vec3 w = d - a;
-  const double determinant = dot(normal_, w);
-  const double bound = kDeterminantBound *
-                       (permanent_.x * std::fabs(w.x) + permanent_.y * std::fabs(w.y) + permanent_.z * std::fabs(w.z));
-  if (determinant > bound) return 1;
-  if (determinant < -bound) return -1;
-  return orientation(a, b, c, d);
-}
 
 int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
   const int i = drop_axis == 2 ? 0 : drop_axis + 1;

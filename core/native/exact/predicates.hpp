@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "base/tolerances.hpp"
 #include "base/vec.hpp"
 
 namespace satcheck {
@@ -17,11 +18,32 @@ namespace satcheck {
 // triangle a, b, c to which its counter-clockwise normal (b - a) x (c - a) points.
 int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 
+// Of the magnitudes that the terms of a 3x3 determinant have in float64, how much it can be off. A term carries at
+// most 3 rounded differences, 2 products and 3 additions: |error| <= ((1 + u)^8 - 1) * permanent. The ninth u
+// covers the roundings of the permanent and of the bound.
+inline constexpr double kDeterminantBound = 9 * kUnitRoundoff;
+
 // The plane of a triangle, for the sides of many points: side(d) == orientation(a, b, c, d).
 class TrianglePlane {
  public:
-  TrianglePlane(Vec3 a, Vec3 b, Vec3 c);
-  int side(Vec3 d) const;
+  TrianglePlane(Vec3 a, Vec3 b, Vec3 c) : a(a), b(b), c(c) {
+    const Vec3 u = b - a, v = c - a;
+    const double yz = u.y * v.z, zy = u.z * v.y;
+    const double zx = u.z * v.x, xz = u.x * v.z;
+    const double xy = u.x * v.y, yx = u.y * v.x;
+    normal_ = {yz - zy, zx - xz, xy - yx};
+    permanent_ = {std::fabs(yz) + std::fabs(zy), std::fabs(zx) + std::fabs(xz), std::fabs(xy) + std::fabs(yx)};
+  }
+
+  int side(Vec3 d) const {
+    // As many roundings as in determinant_sign(), with the rows in another order.
+    const Vec3 w = d - a;
+    const double determinant = dot(normal_, w);
+    const double bound = kDeterminantBound * dot(permanent_, {std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)});
+    if (determinant > bound) return 1;
+    if (determinant < -bound) return -1;
+    return orientation(a, b, c, d);
+  }
 
   Vec3 a, b, c;
 

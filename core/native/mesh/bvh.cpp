@@ -275,9 +275,8 @@ std::vector<std::uint32_t> order_along_curve(const std::vector<Aabb>& boxes) {
 }
 
 void refit(Bvh& bvh, const Mesh& mesh) {
-  bvh.boxes.clear();
-  bvh.boxes.reserve(bvh.order.size());
-  for (const std::uint32_t t : bvh.order) bvh.boxes.push_back(triangle_box(mesh, t));
+  bvh.boxes.resize(bvh.order.size());
+  for (std::size_t k = 0; k < bvh.order.size(); ++k) bvh.boxes[k] = triangle_box(mesh, bvh.order[k]);
   fit_boxes(bvh.nodes, bvh.nodes.size(), bvh.boxes);
 }
 

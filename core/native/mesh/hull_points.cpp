@@ -7,6 +7,7 @@
 
 #include "base/tolerances.hpp"
 #include "convex/polytope.hpp"
+#include "convex/support_scan.hpp"
 #include "mesh/topology.hpp"
 
 namespace satcheck {
@@ -17,11 +18,27 @@ constexpr double kDepth = 0x1p-20;
 // Planes against vertices, at most: a hundredth of a second. Vertices that are not reached stay in.
 constexpr std::size_t kMostTests = 20'000'000;
 
+// The planes of a hull's faces, four at a time; padded with the first one.
+struct FacePlanes {
+  explicit FacePlanes(const Polytope& hull) {
+    std::vector<Vec3> on_face;
+    for (std::size_t f = 0; f < hull.face_count(); ++f) on_face.push_back(hull.vertices[hull.face_vertex[hull.face_offset[f]]]);
+    from = VertexLanes(on_face);
+    normal = VertexLanes(hull.face_normal);
+  }
+
+  VertexLanes from, normal;
+};
+
 // Whether p lies deeper than `depth` below every face.
-bool is_deep(const Polytope& hull, Vec3 p, double depth) {
-  for (std::size_t f = 0; f < hull.face_count(); ++f) {
-    const Vec3 on_face = hull.vertices[hull.face_vertex[hull.face_offset[f]]];
-    if (!(dot(hull.face_normal[f], on_face - p) > depth)) return false;
+SATCHECK_WIDE bool is_deep(const FacePlanes& faces, Vec3 p, double depth) {
+  const VertexLanes &from = faces.from, &normal = faces.normal;
+  const Lanes px = all_lanes(p.x), py = all_lanes(p.y), pz = all_lanes(p.z), least = all_lanes(depth);
+  for (std::size_t f = 0; f < from.padded(); f += 4) {
+    const Lanes below = load_lanes(&normal.x[f]) * (load_lanes(&from.x[f]) - px) +
+                        load_lanes(&normal.y[f]) * (load_lanes(&from.y[f]) - py) +
+                        load_lanes(&normal.z[f]) * (load_lanes(&from.z[f]) - pz);
+    if (bits_of(below > least) != 15) return false;
   }
   return true;
 }
@@ -47,11 +64,12 @@ HullPoints find_hull_points(const Mesh& mesh) {
   const double depth = kDepth * max_abs(box.max - box.min);
   std::vector<bool> is_corner(mesh.vertices.size(), false);
   for (const std::uint32_t v : hull.source) is_corner[v] = true;
+  const FacePlanes faces(hull);
   std::size_t tests = 0;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     if (is_corner[v]) continue;
     tests += hull.face_count();
-    if (tests > kMostTests || !is_deep(hull, mesh.vertices[v], depth)) result.points.push_back(mesh.vertices[v]);
+    if (tests > kMostTests || !is_deep(faces, mesh.vertices[v], depth)) result.points.push_back(mesh.vertices[v]);
   }
   // In an order that depends on nothing but the coordinates.
   std::sort(result.points.begin(), result.points.end(), coordinates_less);

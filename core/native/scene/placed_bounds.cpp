@@ -2,6 +2,8 @@
 // could leave the range of numbers, are summed and rounded as transform() does it.
 #include "scene/placed_bounds.hpp"
 
+#include <stdexcept>
+
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
 #include "exact/predicates.hpp"
