@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "convex/polytope.hpp"
+#include "convex/shape.hpp"
 #include "exact/predicates.hpp"
 #include "tests/check.hpp"
 
@@ -186,6 +187,18 @@ void large_inputs() {
   timed("tube", tube);
 }
 
+void triangles_without_faces() {
+  std::mt19937 generator(12);
+  std::uniform_int_distribution<int> coordinate(-3, 3);
+  const auto point = [&] { return Vec3{coordinate(generator) * 0.1, coordinate(generator) * 0.1, coordinate(generator) * 0.1}; };
+  for (int i = 0; i < 3000; ++i) {
+    const std::array<Vec3, 3> t{point(), point(), point()};
+    if (collinear(t[0], t[1], t[2])) continue;
+    const Shape shape = make_triangle(t), hull = make_hull(Points(t.begin(), t.end()));
+    CHECK(!shape.has_faces && shape.origin == hull.origin && shape.polytope.vertices == hull.polytope.vertices);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -196,5 +209,6 @@ int main() {
   slivers_and_random_clouds();
   random_lattice_clouds();
   large_inputs();
+  triangles_without_faces();
   return testing::exit_status();
 }

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "exact/point_in_triangle.hpp"
 #include "exact/predicates.hpp"
 #include "tests/check.hpp"
 
@@ -54,11 +55,47 @@ void thirds_lie_in_their_plane() {
   }
 }
 
+// The signs are those of the exact points, whether float64 can tell them or not.
+void lazy_points_have_the_signs_of_exact_ones() {
+  std::mt19937 generator(3);
+  std::uniform_int_distribution<int> coarse(-3, 3);
+  std::uniform_real_distribution<double> fine(-1, 1);
+  int met = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const auto point = [&] {
+      if (i % 2 == 0) return Vec3{coarse(generator) * 0.1, coarse(generator) * 0.1, coarse(generator) * 0.1};
+      return Vec3{fine(generator), fine(generator), fine(generator)};
+    };
+    const std::array<Vec3, 3> t{point(), point(), point()};
+    const Vec3 p = point(), q = point(), u = point(), v = point(), w = point();
+    const auto agree = [&](const LazyPoint& lazy, const ExactPoint& exact) {
+      CHECK(lazy.exact() == exact);
+      for (const auto& [a, b, c] : {t, std::array<Vec3, 3>{u, v, w}, std::array<Vec3, 3>{t[0], u, v}}) {
+        CHECK(orientation(a, b, c, lazy) == orientation(a, b, c, exact));
+        CHECK(orientation_2d_at(a, b, lazy, 1) == orientation_2d_at(a, b, exact, 1));
+        const bool inside = orientation(a, b, c, exact) == 0 && !collinear(a, b, c) && plane_point_in_triangle(exact, a, b, c);
+        CHECK(point_in_triangle(lazy, a, b, c) == inside && point_in_triangle(exact, a, b, c) == inside);
+      }
+      CHECK(meet(point_box(lazy), point_box(exact)));
+    };
+    agree(lazy_centroid(t), weighted_point(t[0], t[1], t[2], 1, 1, 1));
+    const int side_p = orientation(t[0], t[1], t[2], p), side_q = orientation(t[0], t[1], t[2], q);
+    if (side_p == 0 || side_q == side_p) continue;
+    ++met;
+    const LazyPoint lazy = lazy_meeting_point(t, p, q), middle = lazy_centroid(t);
+    const ExactPoint exact = plane_meeting_point(t[0], t[1], t[2], p, q);
+    agree(lazy, exact);
+    agree(lazy_between(lazy, middle, 1, 3), between(exact, middle.exact(), 1, 3));
+  }
+  CHECK(met > 1000);
+}
+
 }  // namespace
 
 int main() {
   arithmetic_matches_integers();
   far_apart_exponents();
   thirds_lie_in_their_plane();
+  lazy_points_have_the_signs_of_exact_ones();
   return testing::exit_status();
 }

@@ -98,6 +98,24 @@ void planar_orientation() {
   CHECK(orientation_2d({0.1, 0.1, 0}, far, {0.3, std::nextafter(0.3, 1.0), 0}, 2) == 1);
 }
 
+// One by one and together: the same bits.
+void affine_sums_of_many_points() {
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<double> coordinate(-10, 10);
+  const auto point = [&] { return Vec3{coordinate(generator), coordinate(generator), coordinate(generator)}; };
+  for (std::size_t count = 0; count < 40; ++count) {
+    const Vec3 row[3] = {point(), point(), point()}, offset = point();
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < count; ++i) points.push_back(point());
+    std::vector<Vec3> placed = points;
+    round_affine(row, offset, placed);
+    for (std::size_t i = 0; i < count; ++i) {
+      CHECK((placed[i] == Vec3{rounded_affine(row[0], points[i], offset.x), rounded_affine(row[1], points[i], offset.y),
+                              rounded_affine(row[2], points[i], offset.z)}));
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -106,5 +124,6 @@ int main() {
   one_ulp_off_a_plane();
   determinant_of_unrelated_rows();
   planar_orientation();
+  affine_sums_of_many_points();
   return testing::exit_status();
 }

@@ -3,6 +3,7 @@
 #include "scene/climb.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "mesh/inspection.hpp"
 #include "mesh/topology.hpp"
