@@ -44,6 +44,18 @@ class Suggestion:
 
 
 @frozen
+class Unchecked:
+    """One pair that no rule allows and of which the check as placed could not say how it relates,
+    so that it is not suggested. adjacent: a joint connects the links. reason: why it could not."""
+
+    a: str
+    b: str
+    adjacent: bool
+    links: Names | None
+    reason: str
+
+
+@frozen
 class Suggestions:
     """poses: how many random ones were checked. undecided: pairs of which something was not.
     may_meet: links of which some bodies met in some of the poses, or may have.
@@ -59,6 +71,7 @@ class Suggestions:
     undecided: int
     may_meet: frozenset[frozenset[str]]
     issues: tuple[Issue, ...]
+    unchecked: tuple[Unchecked, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """JSON values in the fixed key order of the schema."""
@@ -70,6 +83,7 @@ class Suggestions:
             "seed": self.seed,
             "suggestions": [_values(pair) for pair in self.pairs],
             "undecided": self.undecided,
+            "unchecked": [_unchecked_values(pair) for pair in self.unchecked],
         }
 
 
@@ -81,7 +95,8 @@ def suggest(
     progress: Callable[[int, int], None] | None = None,
 ) -> Suggestions:
     """What is in contact where the scene places it, with its depth; links with a joint between
-    them; and in these poses of its robots, drawn with this seed, what always or never meets.
+    them; and in these poses of its robots, drawn with this seed, what always or never meets. A pair
+    that could not be checked as placed is not suggested, whatever else is known of it.
 
     Raises what `check` and `check_poses` raise.
     """
@@ -98,7 +113,9 @@ def suggest(
     assert known.book is not None
     ids = [body.id for body in report.bodies]
     asked = [(ids[i], ids[j]) for i, j in known.book.asked_pairs()]
-    pairs, may_meet = _suggestions(scene, report, samples, asked)
+    unchecked = _unchecked(scene, report, asked)
+    left_out = {(one.a, one.b) for one in unchecked}
+    pairs, may_meet = _suggestions(scene, report, samples, asked, left_out)
     return Suggestions(
         tool=report.tool,
         units=report.units,
@@ -108,11 +125,32 @@ def suggest(
         undecided=len(undecided),
         may_meet=may_meet,
         issues=issues,
+        unchecked=unchecked,
+    )
+
+
+def _unchecked(scene: Scene, report: Report, asked: list[Names]) -> tuple[Unchecked, ...]:
+    found = {(f.a, f.b): f for f in report.findings if f.relation == "indeterminate"}
+    links, adjacent = _links(scene), _adjacent(scene)
+    return tuple(
+        Unchecked(
+            a,
+            b,
+            adjacent=frozenset((a, b)) in adjacent,
+            links=_carriers(links, a, b),
+            reason=found[a, b].reason or "indeterminate",
+        )
+        for a, b in asked
+        if (a, b) in found
     )
 
 
 def _suggestions(
-    scene: Scene, report: Report, samples: Samples | None, asked: list[Names]
+    scene: Scene,
+    report: Report,
+    samples: Samples | None,
+    asked: list[Names],
+    left_out: set[Names],
 ) -> tuple[list[Suggestion], frozenset[frozenset[str]]]:
     """The pairs, and the links of which other pairs than those that never met."""
     suggested: list[Suggestion] = []
@@ -122,8 +160,10 @@ def _suggestions(
     links, adjacent = _links(scene), _adjacent(scene)
     for a, b in asked:
         finding, tally = found.get((a, b)), tallies.get((a, b))
-        why = _why(finding, tally, samples, frozenset((a, b)) in adjacent)
-        carriers = (links[a], links[b]) if a in links and b in links else None
+        why = None
+        if (a, b) not in left_out:
+            why = _why(finding, tally, samples, frozenset((a, b)) in adjacent)
+        carriers = _carriers(links, a, b)
         if carriers is not None and why != "never":
             may_meet.add(frozenset(carriers))
         if why is not None:
@@ -173,6 +213,10 @@ def _relation(finding: Finding | None) -> Relation:
     return "separated" if finding is None else finding.relation
 
 
+def _carriers(links: dict[str, str], a: str, b: str) -> Names | None:
+    return (links[a], links[b]) if a in links and b in links else None
+
+
 def _links(scene: Scene) -> dict[str, str]:
     """body -> link, where the scene has one robot: two may call their links the same."""
     if len(scene.robots) != 1:
@@ -198,4 +242,14 @@ def _values(pair: Suggestion) -> dict[str, Any]:
         "relation": pair.relation,
         "depth_bounds": pair.depth_bounds and list(pair.depth_bounds),
         "contacts": pair.contacts,
+    }
+
+
+def _unchecked_values(pair: Unchecked) -> dict[str, Any]:
+    return {
+        "a": pair.a,
+        "b": pair.b,
+        "adjacent": pair.adjacent,
+        "links": pair.links and list(pair.links),
+        "reason": pair.reason,
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
@@ -14,7 +15,7 @@ from satcheck.scene.rules import Selector
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.suggest import Suggestion, Suggestions, Why
+    from satcheck.audit.suggest import Suggestion, Suggestions, Unchecked, Why
 
 _RULES_ALONE = """\
 # Give this file beside the scene, or move its rules into the scene.
@@ -37,7 +38,8 @@ def chosen(found: Suggestions, *, never: bool) -> list[Suggestion]:
 
 def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
     """A scene file of `[[rules]]` alone; the reason of each says that it is to be confirmed."""
-    blocks = [
+    blocks = [f"# {_left_out(one)}" for one in found.unchecked if one.adjacent]
+    blocks += [
         "\n".join(
             (
                 "[[rules]]",
@@ -54,13 +56,20 @@ def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
 
 def srdf(found: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
     """A line for each two links with a suggested pair of bodies, by the strongest of their reasons;
-    no "Never" where some of their bodies may meet. robot: its name."""
-    lines: dict[frozenset[str], str] = {}
+    no "Never" where some of their bodies may meet. robot: its name.
+
+    None where some of their bodies could not be checked: a comment says so in its place."""
+    unchecked = {frozenset(one.links): one for one in found.unchecked if one.links is not None}
+    lines = {links: _comment(_left_out(one)) for links, one in unchecked.items() if one.adjacent}
     for reason, a, b in _links(pairs):
         if reason == _SRDF_REASONS["never"] and frozenset((a, b)) in found.may_meet:
             continue
+        links = frozenset((a, b))
         attributes = f"link1={quoteattr(a)} link2={quoteattr(b)} reason={quoteattr(reason)}"
-        lines.setdefault(frozenset((a, b)), f"<disable_collisions {attributes}/>")
+        line = f"<disable_collisions {attributes}/>"
+        if links in unchecked:
+            line = _comment(_left_out(unchecked[links]))
+        lines.setdefault(links, line)
     inner = "".join(f"  {line}\n" for line in lines.values())
     return f"<robot name={quoteattr(robot)}>\n{inner}</robot>\n"
 
@@ -97,9 +106,25 @@ def remark(found: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> s
     if left and not never:
         poses = counted(found.poses, "random pose")
         said += f" {counted(left, 'more pair')} never met in {poses}, which is no proof: --never."
+    if left_out := sum(one.adjacent for one in found.unchecked):
+        pairs_left = counted(left_out, "pair")
+        said += f" Not suggested, as not checked: {pairs_left} with a joint between the links."
     if found.undecided:
         said += f" Of {counted(found.undecided, 'pair')} something could not be decided."
     return said
+
+
+def _left_out(pair: Unchecked) -> str:
+    """A comment of one line, whatever the names hold."""
+    joined = "a joint connects them, but " if pair.adjacent else ""
+    why = f"{joined}they could not be checked: {pair.reason}"
+    text = f"not suggested: {pair.a} and {pair.b}: {why}"
+    return "".join(c if c.isprintable() else "?" for c in text)
+
+
+def _comment(text: str) -> str:
+    """XML lets no comment hold `--`."""
+    return f"<!-- {re.sub('-(?=-)', '- ', text)} -->"
 
 
 def _contact(pair: Suggestion, unit: str | None) -> str:

@@ -11,11 +11,13 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.audit.report.report import Tool
-from satcheck.audit.suggest import Suggestion, Suggestions
+from satcheck.audit.suggest import Suggestion, Suggestions, Unchecked
 from satcheck.cli.report.schema import text
 from satcheck.cli.report.suggest import srdf, toml
+from satcheck.core.frozen import replace
 from satcheck.scene import Selector
 from tests.cli.process import satcheck
+from tests.scene.robot.robots import joint, link, robot_of
 
 SCENE = """
 schema = "satcheck.scene/1"
@@ -112,6 +114,51 @@ def test_a_link_pair_that_may_meet_is_not_called_never() -> None:
         found.tool, None, 10, 0, found.pairs, 0, frozenset({frozenset(("a", "b"))}), ()
     )
     assert srdf(met, [pair], "arm") == '<robot name="arm">\n</robot>\n'
+
+
+def test_what_was_not_checked_is_not_suggested(tmp_path: Path) -> None:
+    """The mesh of the arm is missing."""
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    shape = "<collision><geometry>{}</geometry></collision>"
+    robot = robot_of(
+        link("base", shape.format('<box size="1 1 1"/>')),
+        link("arm", shape.format('<mesh filename="gone.stl"/>')),
+        link("tip", shape.format('<box size="1 1 1"/>')),
+        joint("j", "base", "arm", "revolute", limit),
+        joint("k", "base", "tip", "revolute", limit),
+    )
+    (tmp_path / "r.urdf").write_text(robot, encoding="utf-8")
+    ran = {
+        form: satcheck("suggest", str(tmp_path / "r.urdf"), "--sample", "2", "--format", form)
+        for form in ("srdf", "toml", "json")
+    }
+    for one in ran.values():
+        assert one.code == 2
+        assert "1 pair suggested" in one.err
+        assert "Not suggested, as not checked: 1 pair with a joint between" in one.err
+    (line,) = ElementTree.fromstring(ran["srdf"].out)
+    assert (line.get("link1"), line.get("link2")) == ("base", "tip")
+    why = "a joint connects them, but they could not be checked: "
+    assert f"<!-- not suggested: base and arm: {why}" in ran["srdf"].out
+    (rule,) = tomllib.loads(ran["toml"].out)["rules"]
+    assert (rule["a"], rule["b"]) == ("base", "tip")
+    assert f"\n# not suggested: base and arm: {why}" in ran["toml"].out
+    Draft202012Validator(json.loads(text("suggestions"))).validate(ran["json"].document)
+    assert [one["b"] for one in ran["json"].document["suggestions"]] == ["tip"]
+    unchecked = ran["json"].document["unchecked"]
+    assert [(one["a"], one["b"], one["adjacent"]) for one in unchecked] == [
+        ("base", "arm", True),
+        ("arm", "tip", False),
+    ]
+
+
+def test_two_links_with_a_pair_that_was_not_checked_have_no_line() -> None:
+    met = Suggestion("a/1", "b", "contact", ("a", "b"), relation="touching")
+    lost = Unchecked("a/2", "b", adjacent=False, links=("a", "b"), reason="no -- file\n")
+    found = replace(suggestions(met), unchecked=(lost,))
+    text_ = srdf(found, [met], "arm")
+    assert list(ElementTree.fromstring(text_)) == []
+    assert "<!-- not suggested: a/2 and b: they could not be checked: no - - file? -->" in text_
 
 
 def test_never_has_to_be_asked_for() -> None:
