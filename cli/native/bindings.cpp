@@ -16,8 +16,8 @@ using namespace satcheck::cli;
 
 namespace {
 
-// Bytes of what is written at once, as a rule.
-constexpr std::size_t kUsual = 4096;
+// Bytes of what is written at once, as a rule, and of a piece of a long document, at least.
+constexpr std::size_t kUsual = 4096, kPiece = 1 << 16;
 constexpr std::size_t kStep = 2;  // blanks that a depth more takes
 
 // How the instances of a class of core/frozen.py are written: an object of their fields, or what their to_dict makes.
@@ -106,6 +106,16 @@ class Writer {
     return nb::steal(PyUnicode_DecodeUTF8(text_.data(), static_cast<Py_ssize_t>(text_.size()), "surrogatepass"));
   }
 
+  // The same, cut between members of lists.
+  nb::list pieces(PyObject* value, int depth) {
+    nb::list cut;
+    pieces_ = &cut;
+    this->value(value, depth);
+    cut.append(text());
+    pieces_ = nullptr;
+    return cut;
+  }
+
  private:
   void object(PyObject* dict, int depth) {
     const Nesting nesting;
@@ -166,6 +176,10 @@ class Writer {
       text_ += k > 0 ? "," : "[";
       line(depth + 1);
       value(members[k], depth + 1);
+      if (pieces_ != nullptr && text_.size() >= kPiece) {
+        pieces_->append(text());
+        text_.clear();
+      }
     }
     close(false, "[]", "]", depth);
   }
@@ -244,6 +258,7 @@ class Writer {
   }
 
   nb::object without_;
+  nb::list* pieces_ = nullptr;
   std::string text_;
 };
 
@@ -264,4 +279,10 @@ NB_MODULE(_json, m) {
       "(audit/report/report_values.py); without: the name of a field that is left out.\n\n"
       "Objects and lists of objects take a line per member, plain lists (vectors) one line; numbers have full "
       "precision and no negative zero. TypeError for what is no JSON value, ValueError for a number that is not finite.");
+  m.def(
+      "pieces",
+      [](nb::handle value, int depth, const nb::object& without) { return Writer(without).pieces(value.ptr(), depth); },
+      nb::arg("value").none(), nb::arg("depth") = 0, nb::arg("without").none() = nb::none(),
+      nb::sig("def pieces(value: object, depth: int = 0, without: str | None = None) -> list[str]"),
+      "The same text in pieces, for a document that may be larger than what it is about.");
 }

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from satcheck.cli._json import text
+from satcheck.cli._json import pieces, text
 
 if TYPE_CHECKING:
     from satcheck.audit.report.report import Report
@@ -19,22 +18,12 @@ def render(report: Report, *, timings: bool) -> list[str]:
     from satcheck.audit.report.report import TIME
 
     without = None if timings else TIME
-    pieces = ["{"]
+    found = ["{"]
     for number, (key, value) in enumerate(report.members()):
-        pieces.append(f"{',' if number else ''}\n  {text(key)}: ")
-        if isinstance(value, tuple) and value:
-            pieces += _list_pieces(value, without)
-        else:
-            pieces.append(text(value, 1, without))
-    pieces.append("\n}\n")
-    return pieces
-
-
-def _list_pieces(members: tuple[Any, ...], without: str | None) -> Iterator[str]:
-    """Of a list at the top, objects all."""
-    for number, member in enumerate(members):
-        yield f"{',' if number else '['}\n    {text(member, 2, without)}"
-    yield "\n  ]"
+        found.append(f"{',' if number else ''}\n  {text(key)}: ")
+        found += pieces(value, 1, without)
+    found.append("\n}\n")
+    return found
 
 
 def document(values: dict[str, Any]) -> str:

@@ -13,7 +13,7 @@ from jsonschema import Draft202012Validator
 
 from satcheck.audit import Contacts, Report, Stage
 from satcheck.audit.report.report_values import plain
-from satcheck.cli._json import text
+from satcheck.cli._json import pieces, text
 from satcheck.cli.report import json as report_json
 from satcheck.cli.report.schema import text as schema_text
 from satcheck.core.frozen import replace
@@ -40,6 +40,13 @@ def text_of(report: Report, *, timings: bool) -> str:
 def test_the_pieces_are_the_document() -> None:
     for report in (FULL, reports.report(bodies=()), reports.report()):
         assert text_of(report, timings=True) == report_json.document(report.to_dict(True))
+
+
+def test_a_long_document_comes_in_pieces() -> None:
+    values = [{"name": "\u00e4" * 1000, "rows": [[k], []]} for k in range(200)]
+    assert len(pieces(values)) > 2
+    assert "".join(pieces(values, 1)) == text(values, 1)
+    assert pieces(7) == ["7"]
 
 
 def test_numbers_are_written_as_python_shows_them() -> None:
