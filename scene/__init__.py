@@ -13,7 +13,6 @@ from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.loader import load_scene
 from satcheck.scene.mesh_files import MeshFiles
-from satcheck.scene.remeshed import remeshed
 from satcheck.scene.rules import Rule, Selector
 
 __all__ = [
@@ -31,5 +30,4 @@ __all__ = [
     "Selector",
     "Unreadable",
     "load_scene",
-    "remeshed",
 ]

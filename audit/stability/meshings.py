@@ -11,7 +11,8 @@ from satcheck.audit.stability.bounds import one_ulp, rounded_once
 from satcheck.audit.stability.retessellation import retessellate
 from satcheck.audit.stability.variant import Points, Question, Variant, body
 from satcheck.core import Mesh
-from satcheck.scene import Body, MeshFile, remeshed
+from satcheck.scene import Body, MeshFile
+from satcheck.scene.remeshed import remeshed
 
 # Edges split and diagonals turned in each mesh of a sample.
 STEPS = 12

@@ -7,14 +7,17 @@ no rules, the mesh files and robots beside it; those of a file without bodies ar
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body, Unreadable
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import SceneFile
-from satcheck.scene.motion import Motion
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
+
+if TYPE_CHECKING:
+    from satcheck.scene.motion import Motion
 
 MOST_PAIRS = 100_000  # of a rule that has to be written out
 

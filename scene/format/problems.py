@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.format.positions import Key, Keys, Positions
+
+if TYPE_CHECKING:
+    from satcheck.scene.format.positions import Key, Keys, Positions
 
 MOST = 20  # problems that are told of one file
 

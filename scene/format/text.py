@@ -5,13 +5,15 @@ from __future__ import annotations
 from codecs import BOM_UTF8
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene._readers import read_json
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.format.positions import Positions
 from satcheck.scene.loading.regular_file import size_of
+
+if TYPE_CHECKING:
+    from satcheck.scene.format.positions import Positions
 
 TOML_SUFFIX = ".toml"
 

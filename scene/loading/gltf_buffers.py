@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 import sys
 from array import array
 from pathlib import Path
@@ -11,8 +10,8 @@ from typing import Any
 from satcheck.scene._readers import float64_of, uint32_of
 from satcheck.scene.errors import MeshFileError
 
-_GLB_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
-_CHUNK_HEADER = struct.Struct("<II")  # length, type
+_GLB_HEADER = 12  # bytes: magic, version, length of the file
+_CHUNK_HEADER = 8  # length, type
 _JSON_CHUNK = 0x4E4F534A
 _BIN_CHUNK = 0x004E4942
 
@@ -59,9 +58,9 @@ def member(values: list[Any], index: int, what: str) -> dict[str, Any]:
 
 def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
     """(JSON text, binary chunk or None) of a GLB file."""
-    if len(data) < _GLB_HEADER.size or bytes(data[:4]) != b"glTF":
+    if len(data) < _GLB_HEADER or bytes(data[:4]) != b"glTF":
         raise MeshFileError("not-this-format", "not a GLB file: it does not start with glTF")
-    _, version, length = _GLB_HEADER.unpack_from(data)
+    version, length = _two_numbers(data, 4)
     if version != 2:
         raise MeshFileError("unsupported-feature", f"GLB version {version}: 2 is read")
     if length != len(data):
@@ -70,16 +69,16 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
             code, f"the header promises {length} bytes, the file has {len(data)} bytes"
         )
     chunks: list[tuple[int, memoryview]] = []
-    offset = _GLB_HEADER.size
+    offset = _GLB_HEADER
     while offset < length:
-        if length - offset < _CHUNK_HEADER.size:
+        if length - offset < _CHUNK_HEADER:
             raise MeshFileError("truncated", f"byte {offset}: a chunk header is cut off")
-        size, kind = _CHUNK_HEADER.unpack_from(data, offset)
-        offset += _CHUNK_HEADER.size
+        size, kind = _two_numbers(data, offset)
+        offset += _CHUNK_HEADER
         if size > length - offset:
             raise MeshFileError(
                 "truncated",
-                f"byte {offset - _CHUNK_HEADER.size}: chunk length {size} exceeds the file, "
+                f"byte {offset - _CHUNK_HEADER}: chunk length {size} exceeds the file, "
                 f"which has {length - offset} bytes left",
             )
         chunks.append((kind, data[offset : offset + size]))
@@ -88,6 +87,12 @@ def split_glb(data: memoryview) -> tuple[memoryview, memoryview | None]:
         raise MeshFileError("bad-record", "the first chunk of the GLB file is not JSON")
     has_binary = len(chunks) > 1 and chunks[1][0] == _BIN_CHUNK
     return chunks[0][1], chunks[1][1] if has_binary else None
+
+
+def _two_numbers(data: memoryview, offset: int) -> tuple[int, int]:
+    """Little-endian, 32 bits each."""
+    middle, end = offset + 4, offset + 8
+    return int.from_bytes(data[offset:middle], "little"), int.from_bytes(data[middle:end], "little")
 
 
 class Accessors:
