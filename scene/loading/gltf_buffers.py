@@ -110,7 +110,7 @@ class Accessors:
         self._views = items(document, "bufferViews")
         self._infos = items(document, "buffers")
         self._chunk = chunk
-        self._directory = Path(directory)
+        self._directory = directory
         self._allow_outside = allow_outside
         self._buffers: dict[int, memoryview] = {}
 
@@ -221,7 +221,7 @@ class Accessors:
         from urllib.parse import unquote
 
         name = unquote(uri)
-        root = self._directory.resolve()
+        root = Path(self._directory).resolve()
         if ":" in uri or "\\" in name or "\0" in name:
             raise MeshFileError("outside-path", f"buffer {name!r} is not a relative path: refused")
         path = (root / name).resolve()

@@ -73,7 +73,9 @@ def tidy_name(name: object, otherwise: str) -> str:
     components; `otherwise` where nothing is left."""
     if not isinstance(name, str):
         return otherwise
-    shown = "".join(c if c.isprintable() else " " for c in name[:_LONGEST_NAME])
+    shown = name[:_LONGEST_NAME]
+    if not shown.isprintable():
+        shown = "".join(c if c.isprintable() else " " for c in shown)
     return shown.replace(COMPONENT_MARK, "").strip() or otherwise
 
 
