@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "satcheck.suggestions/1"
 # adjacent: a joint connects their links. contact: they meet as they are placed. always, never: in
-# so many random poses.
+# so many other poses.
 Why = Literal["adjacent", "always", "contact", "never"]
 Names = tuple[str, str]
 
@@ -57,8 +57,9 @@ class Unchecked:
 
 @frozen
 class Suggestions:
-    """poses: how many random ones were checked. undecided: pairs of which something was not.
-    may_meet: links of which some bodies met in some of the poses, or may have.
+    """poses: how many others were checked; seed: of random ones. held: joints that did not move
+    among them. undecided: pairs of which something was not decided. may_meet: links of which some
+    bodies met in some of the poses, or may have.
 
     "never" is said of the poses that were checked, and proves nothing about the others.
     """
@@ -72,6 +73,7 @@ class Suggestions:
     may_meet: frozenset[frozenset[str]]
     issues: tuple[Issue, ...]
     unchecked: tuple[Unchecked, ...] = ()
+    held: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """JSON values in the fixed key order of the schema."""
@@ -81,6 +83,7 @@ class Suggestions:
             "units": self.units,
             "poses": self.poses,
             "seed": self.seed,
+            "held": list(self.held),
             "suggestions": [_values(pair) for pair in self.pairs],
             "undecided": self.undecided,
             "unchecked": [_unchecked_values(pair) for pair in self.unchecked],
@@ -93,10 +96,12 @@ def suggest(
     poses: Sequence[Pose] = (),
     seed: int | None = None,
     progress: Callable[[int, int], None] | None = None,
+    held: Sequence[str] = (),
 ) -> Suggestions:
     """What is in contact where the scene places it, with its depth; links with a joint between
-    them; and in these poses of its robots, drawn with this seed, what always or never meets. A pair
-    that could not be checked as placed is not suggested, whatever else is known of it.
+    them; and in these poses of its robots what always or never meets. seed: that they were drawn
+    with; None: they are not random. held: the joints that stand still in them. A pair that could
+    not be checked as placed is not suggested, whatever else is known of it.
 
     Raises what `check` and `check_poses` raise.
     """
@@ -126,6 +131,7 @@ def suggest(
         may_meet=may_meet,
         issues=issues,
         unchecked=unchecked,
+        held=tuple(held) if poses else (),
     )
 
 

@@ -17,6 +17,8 @@ from satcheck.core.frozen import frozen
 if TYPE_CHECKING:
     from satcheck.audit.suggest import Suggestions
     from satcheck.scene import Scene
+    from satcheck.scene.robot import Pose
+    from satcheck.scene.scene_builder import Split
 
 
 @frozen
@@ -26,10 +28,11 @@ class Choices:
     paths: tuple[str, ...]
     form: str
     output: Path | None
-    sample: int | None
-    seed: int | None
     never: bool
     packages: Mapping[str, Path]
+    split: Split | None
+    allow_outside: bool
+    posing: Posing
 
 
 def run(choices: Choices) -> int:
@@ -37,9 +40,9 @@ def run(choices: Choices) -> int:
     from satcheck.cli.report.suggest import chosen, remark
     from satcheck.cli.report.words import issue_line
 
-    refuse_early(choices.paths, choices.output)
+    refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     document = Document()
-    scene = load(choices.paths, choices.packages)
+    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside)
     if choices.form == "srdf" and len(scene.robots) != 1:
         raise click.UsageError("SRDF is about one robot: give one URDF")
     found = _suggest(scene, choices)
@@ -64,11 +67,28 @@ def _suggest(scene: Scene, choices: Choices) -> Suggestions:
     from satcheck.audit.suggest import suggest
     from satcheck.cli.progress import Bar
 
-    posing = Posing(sample=choices.sample, seed=choices.seed)
-    poses = poses_of(scene, posing) if posing.given else []
-    assert isinstance(poses, list)  # random poses come as a list
+    placed, poses = _poses(scene, choices.posing)
+    if placed:
+        from satcheck.scene.robot import posed
+
+        scene = posed(scene, placed)
+    held = tuple(placed) if choices.posing.sample else ()
     with Bar("poses") as bar:
-        return suggest(scene, poses=poses, seed=posing.random_seed, progress=bar)
+        seed = choices.posing.random_seed
+        return suggest(scene, poses=poses, seed=seed, progress=bar, held=held)
+
+
+def _poses(scene: Scene, posing: Posing) -> tuple[Pose, list[Pose]]:
+    """(as the robots are placed, the other poses to look at). What --sample holds on to places them
+    too; of a list of poses none does."""
+    if not posing.given:
+        return {}, []
+    found = poses_of(scene, posing)
+    if not isinstance(found, list):
+        return found, []
+    placed = poses_of(scene, Posing(pose=posing.pose if posing.sample else (), state=posing.state))
+    assert not isinstance(placed, list)  # --sample takes no list
+    return placed, found
 
 
 def _render(found: Suggestions, choices: Choices, scene: Scene) -> str:

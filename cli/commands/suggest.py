@@ -6,26 +6,21 @@ from typing import Any
 
 import click
 
-from satcheck.cli.commands.options import HELP_NAMES, debug_option, output_option, paths_argument
-from satcheck.cli.commands.robots import package_option
+from satcheck.cli.commands.options import (
+    HELP_NAMES,
+    debug_option,
+    output_option,
+    outside_option,
+    paths_argument,
+    split_option,
+)
+from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 
 FORMATS = ("toml", "json", "srdf")
 
 
 @click.command("suggest", context_settings=HELP_NAMES)
 @paths_argument("SCENE")
-@click.option(
-    "--sample",
-    type=click.IntRange(min=1),
-    metavar="N",
-    help="Look at N random poses of the robots too: which pairs always meet, which never.",
-)
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    metavar="N",
-    help="Which random poses: the same number draws the same ones.  [default: 0]",
-)
 @click.option(
     "--never",
     is_flag=True,
@@ -40,19 +35,25 @@ FORMATS = ("toml", "json", "srdf")
     help="Rules for a scene file, data, or disable_collisions for the SRDF of a robot.",
 )
 @output_option
+@split_option
+@outside_option
 @package_option
+@pose_options
 @debug_option
 def command(debug: bool, **options: Any) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
     These are the pairs in contact as they are placed, links of a robot with a joint between them,
-    and with --sample those that are in contact in every pose. The evidence stands in the reason of
-    each rule: whether the contact is meant is yours to confirm.
+    and with --sample, or several poses, those that are in contact in every pose. One pose places
+    the robot. The evidence stands in the reason of each rule: whether the contact is meant is yours
+    to confirm.
 
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
     error; 3, something could not be decided.
     """
+    from satcheck.cli.posing import Posing
     from satcheck.cli.suggesting import Choices, run
 
     del debug
+    options["posing"] = Posing(*(options.pop(name) for name in POSE_OPTIONS))
     return run(Choices(**options))

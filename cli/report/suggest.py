@@ -91,7 +91,7 @@ def evidence(pair: Suggestion, found: Suggestions) -> str:
     if pair.relation is not None and pair.relation != "separated":
         said.append(f"{_contact(pair, unit_of(found.units))} at the placement")
     if found.poses and pair.contacts is not None:
-        poses = counted(found.poses, "random pose")
+        poses = _poses(found)
         if pair.why == "never":
             said.append(f"never in contact in {poses}, which is no proof")
         else:
@@ -104,7 +104,7 @@ def remark(found: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> s
     said = counted(len(list(pairs)), "pair") + " suggested: confirm each before you allow it."
     left = sum(pair.why == "never" for pair in found.pairs)
     if left and not never:
-        poses = counted(found.poses, "random pose")
+        poses = _poses(found)
         said += f" {counted(left, 'more pair')} never met in {poses}, which is no proof: --never."
     if left_out := sum(one.adjacent for one in found.unchecked):
         pairs_left = counted(left_out, "pair")
@@ -125,6 +125,12 @@ def _left_out(pair: Unchecked) -> str:
 def _comment(text: str) -> str:
     """XML lets no comment hold `--`."""
     return f"<!-- {re.sub('-(?=-)', '- ', text)} -->"
+
+
+def _poses(found: Suggestions) -> str:
+    """`20 random poses with 1 joint held`."""
+    poses = counted(found.poses, "pose" if found.seed is None else "random pose")
+    return poses + (f" with {counted(len(found.held), 'joint')} held" if found.held else "")
 
 
 def _contact(pair: Suggestion, unit: str | None) -> str:

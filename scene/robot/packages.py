@@ -18,6 +18,7 @@ from satcheck.scene.errors import MeshFileError
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _PACKAGE_SCHEMES = frozenset(("package", "model"))
 _MANIFEST = "package.xml"
+_OR_A_ROOT = f"; so does a {_MANIFEST} in the nearest folder that holds both, the root of a package"
 
 
 class MeshPlaces:
@@ -55,7 +56,7 @@ class MeshPlaces:
             raise MeshFileError("missing-resource", f"mesh file {uri!r} is missing (no {place})")
         if not self._may_open(place):
             raise MeshFileError(
-                "outside-path", f"{self._outside(uri, place)}: --allow-outside lets it"
+                "outside-path", f"{self._outside(uri, place)}: --allow-outside lets it{_OR_A_ROOT}"
             )
         return place
 
@@ -72,7 +73,8 @@ class MeshPlaces:
                 return place
         give = f"--package {name}=DIR"
         if places:
-            message = f"{self._outside(uri, places[0])}: --allow-outside or {give} lets it"
+            leave = f"--allow-outside or {give} lets it{_OR_A_ROOT}"
+            message = f"{self._outside(uri, places[0])}: {leave}"
             raise MeshFileError("outside-path", message)
         looked = f"there is no {_tidy(found[0] / inner)}" if found else "the package is not found"
         raise MeshFileError("missing-resource", f"{uri}: {looked}: {give} says where it lies")

@@ -16,7 +16,7 @@ from satcheck.cli.report.schema import text
 from satcheck.cli.report.suggest import srdf, toml
 from satcheck.core.frozen import replace
 from satcheck.scene import Selector
-from tests.cli.process import satcheck
+from tests.cli.process import SAMPLES, Ran, satcheck
 from tests.scene.robot.robots import joint, link, robot_of
 
 SCENE = """
@@ -36,6 +36,10 @@ def tetrahedron(size: int) -> str:
     """Its corners in OBJ, with the base in the plane z = 0 around the origin."""
     corners = ((-size, -size, 0), (size, -size, 0), (0, size, 0), (0, 0, size))
     return "".join(f"v {x} {y} {z}\n" for x, y, z in corners)
+
+
+def contacts_of(ran: Ran) -> set[tuple[str, str]]:
+    return {(one["a"], one["b"]) for one in ran.document["suggestions"] if one["why"] == "contact"}
 
 
 def suggestions(*pairs: Suggestion, units: str | None = "mm", poses: int = 0) -> Suggestions:
@@ -159,6 +163,40 @@ def test_two_links_with_a_pair_that_was_not_checked_have_no_line() -> None:
     text_ = srdf(found, [met], "arm")
     assert list(ElementTree.fromstring(text_)) == []
     assert "<!-- not suggested: a/2 and b: they could not be checked: no - - file? -->" in text_
+
+
+def test_a_mesh_outside_is_read_with_leave(tmp_path: Path) -> None:
+    text_ = (SAMPLES / "arm.urdf").read_text().replace('filename="', f'filename="{SAMPLES}/')
+    (tmp_path / "arm.urdf").write_text(text_)
+    refused = satcheck("suggest", str(tmp_path / "arm.urdf"))
+    assert refused.code == 2
+    assert "--allow-outside" in refused.err
+    assert satcheck("suggest", "--allow-outside", str(tmp_path / "arm.urdf")).code == 0
+
+
+def test_a_mesh_is_taken_apart() -> None:
+    assert "--split components" in satcheck("suggest", "box.obj").err
+    ran = satcheck("suggest", "rack.3mf", "--split", "components")
+    assert ran.code == 0, ran.err
+
+
+def test_a_state_places_the_robot_and_stays_in_random_poses() -> None:
+    still = satcheck("suggest", "arm.urdf", "arm.srdf", "--state", "folded", "--format", "json")
+    at_rest = satcheck("suggest", "arm.urdf", "arm.srdf", "--format", "json")
+    assert contacts_of(still) > contacts_of(at_rest)
+    given = ("--state", "folded", "--sample", "5")
+    ran = satcheck("suggest", "arm.urdf", "arm.srdf", *given, "--format", "json")
+    assert ran.document["held"] == ["elbow"]
+    ran = satcheck("suggest", "arm.urdf", "arm.srdf", *given)
+    assert "of 5 random poses with 1 joint held" in ran.out
+
+
+def test_given_poses_are_not_called_random() -> None:
+    ran = satcheck("suggest", "arm.urdf", "--pose", "arm_poses.json", "--never")
+    assert ran.code == 0, ran.err
+    poses = len(json.loads((SAMPLES / "arm_poses.json").read_text()))
+    assert f"never in contact in {poses} poses, which is no proof" in ran.out
+    assert "random" not in ran.out + ran.err
 
 
 def test_never_has_to_be_asked_for() -> None:

@@ -60,6 +60,7 @@ def test_outside_its_folder_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> No
         code, message = refusal(places(urdf), uri)
         assert code == "outside-path"
         assert "--allow-outside" in message
+        assert "so does a package.xml in the nearest folder that holds both" in message
         assert places(urdf, allow_outside=True).locate(uri).samefile(mesh)
 
 
