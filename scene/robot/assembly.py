@@ -175,13 +175,16 @@ def posed(scene: Scene, pose: Pose) -> Scene:
 
 
 def pose_of_states(scene: Scene, names: Iterable[str]) -> Pose:
-    """The named states put together. SatcheckError where two say different things of a joint."""
-    from satcheck.scene.robot.poses import state_named
+    """The named states put together. SatcheckError where two say different things of a joint, or
+    one names what the robots do not have."""
+    from satcheck.scene.robot.poses import check_state, state_named
 
     states = [state for robot in scene.robots for state in robot.states]
     pose: dict[str, tuple[float, ...]] = {}
     for name in names:
-        for joint, values in state_named(name, states).joints.items():
+        state = state_named(name, states)
+        check_state(state, [robot.robot for robot in scene.robots])
+        for joint, values in state.joints.items():
             if pose.setdefault(joint, values) != values:
                 raise SatcheckError("bad-pose", f"two states give joint {joint!r} different values")
     return pose

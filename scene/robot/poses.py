@@ -85,13 +85,24 @@ def state_named(name: str, states: Iterable[State]) -> State:
     raise SatcheckError("bad-pose", f"no state {name!r}: {has}")
 
 
+def check_state(state: State, robots: Sequence[Robot]) -> None:
+    """Raises what `settle` raises about the joints of a pose, with the place in the SRDF."""
+    movable = _movable(robots)
+    for name, values in state.joints.items():
+        try:
+            _check_named(name, values, robots, movable)
+        except SatcheckError as error:
+            where = f"line {state.lines[name]}: state {state.name!r}"
+            raise SatcheckError(error.code, f"{where}: {error.message}", file=state.file) from None
+
+
 def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
     """The complete pose of these robots.
 
     Raises SatcheckError (`bad-pose`) for joints that are not there, that cannot move, or that two
     robots have; and for a wrong number of numbers. A value beyond limits is kept, with a warning.
     """
-    movable = {joint.name: joint for robot in robots for joint in robot.joints if joint.freedoms}
+    movable = _movable(robots)
     for name, values in pose.items():
         _check_named(name, values, robots, movable)
     issues: list[Issue] = []
@@ -109,6 +120,10 @@ def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
         mimics=frozenset(name for name, joint in movable.items() if joint.mimic),
         issues=tuple(issues),
     )
+
+
+def _movable(robots: Sequence[Robot]) -> dict[str, Joint]:
+    return {joint.name: joint for robot in robots for joint in robot.joints if joint.freedoms}
 
 
 def _text(path: str) -> str:

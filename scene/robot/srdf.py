@@ -15,11 +15,14 @@ from satcheck.scene.robot.xml_tree import Element, read_tree
 
 @frozen
 class State:
-    """A <group_state>: values of some joints under a name."""
+    """A <group_state>: values of some joints under a name. lines: where the file, as given, says
+    them."""
 
     group: str
     name: str
     joints: dict[str, Values]
+    file: str
+    lines: dict[str, int]
 
 
 @frozen
@@ -70,9 +73,12 @@ def _pair(element: Element) -> frozenset[str]:
 
 def _state(element: Element) -> State:
     joints: dict[str, Values] = {}
+    lines: dict[str, int] = {}
     for joint in element.all("joint"):
         name = joint.text("name")
         values = joint.numbers("value", len(joint.text("value").split()))
         if joints.setdefault(name, values) != values:
             joint.refuse(f"a second value of joint {name!r}", "duplicate-id")
-    return State(element.attributes.get("group", ""), element.text("name"), joints)
+        lines.setdefault(name, joint.line)
+    group, name = element.attributes.get("group", ""), element.text("name")
+    return State(group, name, joints, element.file, lines)

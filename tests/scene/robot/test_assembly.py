@@ -120,6 +120,27 @@ def test_states_are_put_together_unless_they_differ() -> None:
         pose_of_states(scene, ["bowed", "folded"])
 
 
+@pytest.mark.parametrize(
+    ("joint", "said"),
+    [
+        ('name="elbo" value="3"', "unknown joint 'elbo' (did you mean 'elbow'?)"),
+        ('name="elbow" value="3 1"', "joint 'elbow' (revolute) takes 1 number, not 2"),
+    ],
+)
+def test_a_state_that_the_robot_cannot_take_is_said_with_its_place(
+    tmp_path: Path, joint: str, said: str
+) -> None:
+    srdf = (SAMPLES / "arm.srdf").read_text().replace('name="elbow" value="3"', joint)
+    (tmp_path / "arm.srdf").write_text(srdf)
+    scene = load_scene([SAMPLES / "arm.urdf", tmp_path / "arm.srdf"])
+    assert pose_of_states(scene, ["bowed"])
+    with pytest.raises(SatcheckError) as caught:
+        pose_of_states(scene, ["folded"])
+    line = 1 + srdf[: srdf.index(joint)].count("\n")
+    assert caught.value.message == f"line {line}: state 'folded': {said}"
+    assert caught.value.file == (tmp_path / "arm.srdf").as_posix()
+
+
 def test_a_mirrored_mesh_is_a_solid_the_right_way_round() -> None:
     bodies = {body.id: body for body in posed(load_scene(ARM), {"grip": (0.125,)}).bodies}
     left, right = (bodies[name].world_mesh() for name in ("left", "right"))

@@ -157,7 +157,8 @@ def test_a_name_that_two_robots_have_poses_neither(tmp_path: Path) -> None:
 
 
 def test_states_by_name_and_by_group() -> None:
-    states = [State("g", "home", {}), State("h", "home", {}), State("g", "far", {})]
+    names = (("g", "home"), ("h", "home"), ("g", "far"))
+    states = [State(group, name, {}, "r.srdf", {}) for group, name in names]
     assert state_named("far", states) is states[2]
     assert state_named("h/home", states) is states[1]
     with pytest.raises(SatcheckError, match="several groups have a state 'home': g/home, h/home"):
