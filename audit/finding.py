@@ -140,9 +140,14 @@ def _unproven(pair: Pair) -> str:
 
 
 def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any]:
-    shallow, move = _is_shallow(pair, contact, plan), None
-    if contact.convex is None and pair.may("exact"):
+    shallow, move = False, None
+    if contact.convex is not None:
+        # No triangles are needed to see an overlap within the touch band.
+        shallow = -(contact.convex.lower or 0.0) <= _band_with_rounding(pair)
+    elif pair.may("exact"):
         move = move_within(pair, contact, plan)
+    else:
+        shallow = estimate_is_within(pair, plan)
     guess = shallow and not contact.proven
     depth = None if guess else _depth(pair, contact, move, plan)
     within = shallow or move is not None or _is_within(pair, depth)
@@ -167,13 +172,6 @@ def _depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Dep
     from satcheck.audit.figures.depth import measure_depth
 
     return measure_depth(pair, contact, move, plan)
-
-
-def _is_shallow(pair: Pair, contact: Contact, plan: Plan) -> bool:
-    """Whether an overlap within the touch band needs no triangles to be seen."""
-    if contact.convex is not None:
-        return -(contact.convex.lower or 0.0) <= _band_with_rounding(pair)
-    return not pair.may("exact") and estimate_is_within(pair, plan)
 
 
 def _band_with_rounding(pair: Pair) -> float:

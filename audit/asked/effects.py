@@ -39,39 +39,23 @@ NO_ANSWER = "no answer"
 
 
 class _Alike:
-    """Findings that differ in nothing that counts here; most are like many others.
+    """Findings that differ in nothing that counts here; most are like many others."""
 
-    finding: one of them; pairs: how many there are; time: microseconds, by stage.
-    """
+    __slots__ = ("asked", "findings")
 
-    __slots__ = ("asked", "finding", "pairs", "time")
+    def __init__(self, asked: Asked) -> None:
+        self.asked = asked
+        self.findings: list[Finding] = []
 
-    def __init__(self, asked: Asked, finding: Finding) -> None:
-        self.asked, self.finding = asked, finding
-        self.pairs = 0
-        self.time = [0.0] * len(finding.plan)
-
-    @staticmethod
-    def key(asked: Asked, finding: Finding) -> tuple[object, ...]:
-        return (
-            id(asked),
-            finding.relation,
-            finding.exact_relation,
-            finding.depth is None,
-            finding.volume is None,
-            finding.contacts is None,
-            finding.certificate is None,
-            *[stage.stage for stage in finding.plan],
-        )
-
-    def count(self, finding: Finding) -> None:
-        self.pairs += 1
-        for place, stage in enumerate(finding.plan):
-            self.time[place] += stage.microseconds
+    @property
+    def finding(self) -> Finding:
+        """One of them."""
+        return self.findings[0]
 
     def stages(self) -> Iterator[tuple[Effect, float]]:
         """The effect that each belongs to, and its microseconds."""
-        for stage, time in zip(self.finding.plan, self.time, strict=True):
+        for place, stage in enumerate(self.finding.plan):
+            time = sum([finding.plan[place].microseconds for finding in self.findings])
             effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
             # What the overlap needed, and nobody asked more for, belongs to it.
             yield effect if effect in self.asked.by else "overlap", time
@@ -107,11 +91,11 @@ def effects_of(
         unanswered = done & group.unanswered
         for effect in effects:
             if effect in done and effect not in unanswered:
-                ran[effect] += group.pairs
+                ran[effect] += len(group.findings)
             else:
                 why = NO_ANSWER if effect in unanswered else _why_not(effect, group)
-                spared[effect][why] += group.pairs
-    looked_at = sum(group.pairs for group in groups)
+                spared[effect][why] += len(group.findings)
+    looked_at = sum(len(group.findings) for group in groups)
     unreadable = counts.total - counts.allowed - counts.pruned - looked_at
     return tuple(
         EffectReport(
@@ -128,11 +112,20 @@ def effects_of(
 def _grouped(close: Iterable[tuple[Asked, Finding]]) -> list[_Alike]:
     groups: dict[tuple[object, ...], _Alike] = {}
     for asked, finding in close:
-        key = _Alike.key(asked, finding)
+        key = (
+            id(asked),
+            finding.relation,
+            finding.exact_relation,
+            finding.depth is None,
+            finding.volume is None,
+            finding.contacts is None,
+            finding.certificate is None,
+            *[stage.stage for stage in finding.plan],
+        )
         group = groups.get(key)
         if group is None:
-            group = groups[key] = _Alike(asked, finding)
-        group.count(finding)
+            group = groups[key] = _Alike(asked)
+        group.findings.append(finding)
     return list(groups.values())
 
 

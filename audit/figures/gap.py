@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.ladder.ladder import BAND, Contact
+from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector, Witness
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.core.frozen import frozen
@@ -54,7 +54,7 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
     assert contact.climb is not None
     assert contact.climb.gap is not None
-    found, cost = contact.climb.gap, contact.climb.nanoseconds[BAND]
+    found, cost = contact.climb.gap, contact.climb.band_nanoseconds
     if math.isinf(found.distance):
         plan.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
         return Gap(limit, math.inf, math.inf)

@@ -18,7 +18,7 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import crossing_depth
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
-from satcheck.audit.ladder.ladder import BAND, Contact
+from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
 
 # A band narrower than this share of the way out of the hulls.
@@ -79,8 +79,9 @@ def _move_off_mesh(pair: Pair, plan: Plan) -> Vector | None:
 def _least_depth(pair: Pair, contact: Contact) -> tuple[float, int]:
     """What proves a depth at once, and what the climb has spent on the band."""
     found = contact.climb
-    if found is not None and found.least_depth is not None:
-        return found.least_depth, found.nanoseconds[BAND]
+    least = None if found is None else found.least_depth
+    if found is not None and least is not None:
+        return least, found.band_nanoseconds
     return max(crossing_depth(pair, contact.crossing), gap_around(pair, contact)), 0
 
 

@@ -30,8 +30,6 @@ RELATION_NAMED: dict[str, Relation] = {
     "inside": "inside",
     "coincident": "coincident",
 }
-# The place of the touch band, or of the gap, in the nanoseconds of a climb.
-BAND = -1
 
 
 @frozen

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 # A lower bound below this share of the upper one is left out: it tells a person nothing.
 NEGLIGIBLE = 1e-3
-# The step of a plan, and its result, where a body has no inside to check.
-UNSEEN = ("containment", "not checked")
+# The result of the step "containment", and of no other, where a body has no inside to check.
+UNSEEN = "not checked"
 
 
 def counted(count: int, one: str, many: str | None = None) -> str:
@@ -65,7 +65,7 @@ def by_surfaces(finding: Finding) -> bool:
     swept = finding.motion
     if swept is not None and swept.relation != "indeterminate" and swept.reason is not None:
         return True
-    return UNSEEN in [(stage.stage, stage.result) for stage in finding.plan]
+    return UNSEEN in [stage.result for stage in finding.plan]
 
 
 def in_motion(finding: Finding) -> str:

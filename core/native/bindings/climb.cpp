@@ -137,7 +137,7 @@ least_depth   of an overlap that triangles decided, where the touch band is not 
 way_within    out of the touch band, of such an overlap that least_depth leaves open.
 proven_gap    a proven lower bound of the distance by boxes and hulls, 0.0 where they know none.
 gap           of surfaces apart; gap_is_void: it may be that of a wall that bounds no material.
-nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of the touch band or gap.)")
+band_nanoseconds  what the touch band or the gap took. stages() says what the rungs did.)")
       .def_ro("box_gap", &Climb::box_gap)
       .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); })
       .def_prop_ro("box_feature", [](const Climb& c) { return name_of(c.box_feature); })
@@ -152,7 +152,7 @@ nanoseconds   of boxes, oriented boxes, hulls, nesting, triangles, and of the to
       .def_ro("gap_is_void", &Climb::gap_is_void)
       .def_prop_ro("proven_gap", &proven_gap)
       .def("stages", &stages, "make"_a, R"(What the rungs that ran found, in words: make(rung, result, microseconds, detail) of each.)")
-      .def_prop_ro("nanoseconds", [](const Climb& c) { return nb::tuple(nb::cast(c.nanoseconds)); });
+      .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });
 }
 
 // A batch on its way up, in threads of its own; on one thread it climbs when it is asked for.
