@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
-from satcheck.cli.refusals import failure
+from satcheck.cli.refusals import failure, wrong_usage
 
 if TYPE_CHECKING:
     import click
@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 UNBOUNDED_WIDTH = 100_000
 # A reader that left early: EPIPE, and EINVAL as Windows calls it.
 _READER_LEFT = (errno.EPIPE, errno.EINVAL)
+# Documents of other kinds, by the end of their names.
+_NO_REPORTS = frozenset(
+    {".html", ".htm", ".svg", ".png", ".pdf", ".xml", ".sarif", ".csv", ".toml", ".yaml"}
+)
 _COLOUR = r"(\x1b\[[0-9;]*m)"  # few calls need it: compiled at its first use
 
 
@@ -56,8 +60,16 @@ def cannot_write(where: str, reason: str | None) -> click.ClickException:
 
 
 def form_of(form: str | None, output: Path | None) -> str:
-    """How to report: as asked, else as the name of the output file says."""
-    return form or ("json" if output and output.suffix.lower() == ".json" else "table")
+    """How to report: as asked, else as the name of the output file says.
+
+    Raises click.UsageError for a name that promises what no report is.
+    """
+    suffix = output.suffix.lower() if output else ""
+    if form is None and suffix in _NO_REPORTS:
+        raise wrong_usage(
+            f"{output}: a report is a table or .json; --format table writes one there"
+        )
+    return form or ("json" if suffix == ".json" else "table")
 
 
 class Document:

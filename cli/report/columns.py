@@ -85,7 +85,7 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column(f"move A by{unit}", _mtv, folds=True),
         column(f"volume ({known}^3)" if known else "volume", _volume, right=True),
         column("contact", contacts, folds=True),
-        column("in motion", in_motion, folds=True),
+        column("in motion", lambda finding: in_motion(finding, known), folds=True),
         column("quality", lambda finding: finding.quality or ""),
     ]
     if timings:

@@ -9,10 +9,19 @@ from typing import TYPE_CHECKING
 from rich.text import Text
 
 from satcheck.cli.report.numbers import bounds, number
-from satcheck.cli.report.words import by_surfaces, counted, issue_line, place
+from satcheck.cli.report.words import (
+    by_surfaces,
+    counted,
+    is_overlap,
+    issue_line,
+    place,
+    with_unit,
+)
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.audit.report.report import BodyReport, Finding, Report
+    from satcheck.scene import Rule
 
 _ISSUE_COLOURS = {"warning": "yellow", "note": ""}
 
@@ -26,7 +35,7 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
             *_band(finding),
             *_undecided(finding, report),
             *_ruled(finding, report),
-            *_moving(finding),
+            *_moving(finding, unit_of(report.units)),
         )
     ]
     lines += [Text(line) for line in _of_bodies(report)]
@@ -64,14 +73,29 @@ def _ruled(finding: Finding, report: Report) -> list[str]:
     pair = f"{finding.a} and {finding.b}"
     if finding.undecided == "limit":
         return [f"{pair}: {finding.reason}"]
-    reasons = {rule.name: rule.reason for rule in report.rules}
-    if finding.rule not in reasons:
+    rule = next((rule for rule in report.rules if rule.name == finding.rule), None)
+    if rule is None:
         return []
-    why = f" ({reasons[finding.rule]})" if reasons[finding.rule] else ""
-    return [f"{pair}: {finding.severity} by {finding.rule}{why}"]
+    limits = _limits(rule, unit_of(report.units), overlap=is_overlap(finding))
+    why = f" ({rule.reason})" if rule.reason else ""
+    return [f"{', '.join([f'{pair}: {finding.severity} by {rule.name}', *limits])}{why}"]
 
 
-def _moving(finding: Finding) -> list[str]:
+def _limits(rule: Rule, unit: str | None, *, overlap: bool) -> list[str]:
+    """What the rule asks of such a pair: `clearance 5 mm`, or what an overlap is held against."""
+    asked = (
+        {"max_depth": (rule.max_depth, ""), "max_volume": (rule.max_volume, "^3")}
+        if overlap
+        else {"clearance": (rule.clearance, "")}
+    )
+    return [
+        f"{name} {with_unit(number(limit), unit and unit + power)}"
+        for name, (limit, power) in asked.items()
+        if limit is not None
+    ]
+
+
+def _moving(finding: Finding, unit: str | None) -> list[str]:
     """The worst pose of bodies that hit while they move, and what a sweep left open."""
     swept, pair = finding.motion, f"{finding.a} and {finding.b}"
     if swept is None:
@@ -80,8 +104,9 @@ def _moving(finding: Finding) -> list[str]:
         return [f"{pair}, while they move: {swept.reason}"]
     if swept.worst is None or swept.worst.depth is None:
         return []
-    where = ", ".join(place(one) for one in swept.worst.at)
-    return [f"{pair}, while they move: deepest at {where}, {bounds(*swept.worst.depth)}"]
+    where = ", ".join(place(one, unit) for one in swept.worst.at)
+    deep = with_unit(bounds(*swept.worst.depth), unit)
+    return [f"{pair}, while they move: deepest at {where}, {deep}"]
 
 
 def _of_bodies(report: Report) -> Iterator[str]:

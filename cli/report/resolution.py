@@ -61,9 +61,8 @@ def _moves(moves: Sequence[Move], *, unicode: bool) -> Table:
 
 
 def _left_line(left: Left) -> str:
-    return (
-        f"left: {left.a} and {left.b} {_RELATIONS.get(left.relation, left.relation)}: {left.reason}"
-    )
+    how = _RELATIONS.get(left.relation, left.relation)
+    return f"not resolved: {left.a} and {left.b} {how}: {left.reason}"
 
 
 _RELATIONS = {

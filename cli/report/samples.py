@@ -12,7 +12,8 @@ from rich.text import Text
 
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.words import counted, depth, in_motion, issue_line
+from satcheck.cli.report.words import counted, depth, in_motion, issue_line, with_unit
+from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -37,7 +38,7 @@ def render(found: Samples, page: Page) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr."""
     console = Canvas(page)
     if len(found.samples) <= FEW_POSES:
-        console.print(_poses(found.samples, unicode=page.unicode))
+        console.print(_poses(found.samples, unit_of(found.units), unicode=page.unicode))
     else:
         met = sorted(
             (pair for pair in found.pairs if not pair.settled),
@@ -80,7 +81,7 @@ def summary_line(found: Samples) -> str:
     return f"{line} No collision." if found.verdict == "pass" else line
 
 
-def _poses(samples: Sequence[Sample], *, unicode: bool) -> Table:
+def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Table:
     table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
     table.add_column("#", justify="right")
     table.add_column("pose", overflow="fold")
@@ -91,15 +92,15 @@ def _poses(samples: Sequence[Sample], *, unicode: bool) -> Table:
             str(sample.number),
             _pose(sample),
             Text(sample.verdict, style=_COLOURS[sample.verdict]),
-            "\n".join(_found(sample.findings)),
+            "\n".join(_found(sample.findings, unit)),
         )
     return table
 
 
-def _found(findings: Sequence[Finding]) -> list[str]:
+def _found(findings: Sequence[Finding], unit: str | None) -> list[str]:
     """`base and left penetrating 0.25`, one a line, and how many more are left open."""
     wrong = [finding for finding in findings if finding.severity == "error"]
-    lines = [_line(each) for each in wrong[:FOUND]]
+    lines = [_line(each, unit) for each in wrong[:FOUND]]
     if len(wrong) > FOUND:
         lines.append(f"{counted(len(wrong) - FOUND, 'more pair')}")
     if undecided := sum(finding.severity == "warning" for finding in findings):
@@ -107,16 +108,16 @@ def _found(findings: Sequence[Finding]) -> list[str]:
     return lines
 
 
-def _line(finding: Finding) -> str:
+def _line(finding: Finding, unit: str | None) -> str:
     pair = f"{finding.a} and {finding.b}"
     if finding.relation == "separated" and finding.motion is not None:
-        return f"{pair}, while they move: {in_motion(finding)}"
-    return f"{pair} {finding.relation}{_depth(finding)}"
+        return f"{pair}, while they move: {in_motion(finding, unit)}"
+    return f"{pair} {finding.relation}{_depth(finding, unit)}"
 
 
-def _depth(finding: Finding) -> str:
+def _depth(finding: Finding, unit: str | None) -> str:
     known = finding.relation in OVERLAPS and finding.depth is not None
-    return f" {depth(finding)}" if known else ""
+    return f" {with_unit(depth(finding), unit)}" if known else ""
 
 
 def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bool) -> Table:

@@ -10,7 +10,7 @@ from xml.sax.saxutils import quoteattr
 
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import number
-from satcheck.cli.report.words import counted
+from satcheck.cli.report.words import counted, with_unit
 from satcheck.scene.rules import Selector
 from satcheck.scene.units import unit_of
 
@@ -139,7 +139,7 @@ def _contact(pair: Suggestion, unit: str | None) -> str:
     low, high = pair.depth_bounds
     exactly = number(low) == number(high)
     figure = number(high) if exactly else f"at most {number(high)}"
-    return f"{pair.relation} by {figure}" + (f" {unit}" if unit else "")
+    return f"{pair.relation} by {with_unit(figure, unit)}"
 
 
 def _selector(body: str) -> str:

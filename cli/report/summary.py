@@ -6,11 +6,11 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from satcheck.audit.report.report import CROSS_CHECK, INTERNAL_ERROR, OVERLAPS, RELATIONS
-from satcheck.cli.report.words import by_surfaces, counted, depth
+from satcheck.cli.report.words import by_surfaces, counted, depth, is_hit, is_overlap, with_unit
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import Finding, Report
+    from satcheck.audit.report.report import Report
 
 _WORDS = {"contains": "containing"}
 
@@ -61,19 +61,10 @@ def _found(report: Report) -> list[str]:
     return found
 
 
-def _overlaps(finding: Finding) -> bool:
-    """As the bodies are placed, or on their way."""
-    return finding.relation in OVERLAPS or _is_hit(finding)
-
-
-def _is_hit(finding: Finding) -> bool:
-    return finding.motion is not None and finding.motion.relation == "penetrating"
-
-
 def _hits(report: Report) -> list[str]:
     """Of pairs that do not overlap as they are placed."""
     moving = [finding for finding in report.findings if finding.motion is not None]
-    hits = sum(_is_hit(f) and f.relation not in OVERLAPS for f in moving)
+    hits = sum(is_hit(f) and f.relation not in OVERLAPS for f in moving)
     return (
         [f"{counted(hits, 'pair')} {'hits' if hits == 1 else 'hit'} while moving."] if hits else []
     )
@@ -85,8 +76,7 @@ def _worst(report: Report) -> list[str]:
     if not deep:
         return ["Depth not asked: --depth."] if overlaps else []
     worst = max(deep, key=lambda f: f.depth_bounds or (0.0, f.depth or 0.0))
-    known = unit_of(report.units)
-    figure = depth(worst, bounded="at most ") + (f" {known}" if known else "")
+    figure = with_unit(depth(worst, bounded="at most "), unit_of(report.units))
     if len(deep) == 1:
         return [f"Depth {figure}."]
     sure = worst.depth_bounds is not None and all(
@@ -101,7 +91,7 @@ def _left_open(report: Report) -> list[str]:
     if surfaces := sum(by_surfaces(finding) for finding in report.findings):
         verb = "was" if surfaces == 1 else "were"
         limits.append(f"{counted(surfaces, 'pair')} {verb} checked by surfaces only")
-    unsure = Counter(_overlaps(f) for f in report.findings if f.undecided == "limit")
+    unsure = Counter(is_overlap(f) for f in report.findings if f.undecided == "limit")
     for overlap, what in ((True, "exceed {} limits"), (False, "be closer than {} clearance")):
         if count := unsure[overlap]:
             whose = "its" if count == 1 else "their"
@@ -121,13 +111,14 @@ def _left_open(report: Report) -> list[str]:
 
 
 def _why_failed(report: Report) -> list[str]:
-    """Where no overlap says it: bodies that touch keep no clearance, and notes may be asked for."""
-    if any(_overlaps(finding) for finding in report.findings):
-        return []
-    close = sum(finding.severity == "error" for finding in report.findings)
+    """What no count of relations says: clearances that are not kept, and notes that are asked
+    for."""
+    close = sum(f.severity == "error" and not is_overlap(f) for f in report.findings)
     if close:
         verb = "does" if close == 1 else "do"
         return [f"{counted(close, 'pair')} {verb} not keep the clearance."]
+    if any(is_overlap(finding) for finding in report.findings):
+        return []
     return [f"Failed by --fail-on {report.settings['fail_on']}."]
 
 

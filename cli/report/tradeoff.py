@@ -57,7 +57,7 @@ def _print_pair(console: Canvas, pair: PairTradeoff, page: Page) -> None:
         if row.settled_by not in (None, row.rung.name):
             early.setdefault(str(row.settled_by), []).append(row.rung.label)
     for rung, labels in early.items():
-        console.print(f"  the same as {rung}: {', '.join(labels)}")
+        console.print(f"  the same as {rung} but for noise in the time: {', '.join(labels)}")
     if pair.picked is not None:
         console.print(f"Default: settled by {pair.picked.rung}. {pair.picked.why}.")
     console.print()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import at_most, bounds, number
 
 if TYPE_CHECKING:
@@ -68,25 +69,39 @@ def by_surfaces(finding: Finding) -> bool:
     return UNSEEN in [stage.result for stage in finding.plan]
 
 
-def in_motion(finding: Finding) -> str:
-    """`hits at 60 deg`, `0.25 apart`, `touches`, `undecided from t = 0.4`; empty where neither
+def is_overlap(finding: Finding) -> bool:
+    """As the bodies are placed, or on their way."""
+    return finding.relation in OVERLAPS or is_hit(finding)
+
+
+def is_hit(finding: Finding) -> bool:
+    """On their way."""
+    return finding.motion is not None and finding.motion.relation == "penetrating"
+
+
+def in_motion(finding: Finding, unit: str | None) -> str:
+    """`hits at 60 deg`, `0.25 mm apart`, `touches`, `undecided from t = 0.4`; empty where neither
     body moves."""
     swept = finding.motion
     if swept is None:
         return ""
     if swept.relation == "penetrating":
-        return f"hits at {', '.join(place(one) for one in swept.at)}"
+        return f"hits at {', '.join(place(one, unit) for one in swept.at)}"
     if swept.relation == "indeterminate":
         return f"undecided from t = {number(swept.reached)}"
     if swept.relation == "touching":
         return "touches"
     distance = swept.worst and swept.worst.distance
-    return f"{bounds(*distance)} apart" if distance else "apart"
+    return f"{with_unit(bounds(*distance), unit)} apart" if distance else "apart"
 
 
-def place(one: Place) -> str:
-    """`60 deg`, `2.5 of travel`, `t = 0.3`."""
+def place(one: Place, unit: str | None) -> str:
+    """`60 deg`, `2.5 mm of travel`, `t = 0.3`."""
     value = number(one.value)
-    return {"degrees": f"{value} deg", "length": f"{value} of travel", "t": f"t = {value}"}[
-        one.term
-    ]
+    travelled = f"{with_unit(value, unit)} of travel"
+    return {"degrees": f"{value} deg", "length": travelled, "t": f"t = {value}"}[one.term]
+
+
+def with_unit(figure: str, unit: str | None) -> str:
+    """`2.5 mm`; the figure alone where nobody says what it is in."""
+    return f"{figure} {unit}" if unit else figure

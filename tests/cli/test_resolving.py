@@ -88,7 +88,7 @@ def test_what_cannot_be_resolved_is_said(tmp_path: Path) -> None:
     scene = scene_of_boxes(tmp_path, 0, 0.5)
     ran = satcheck("resolve", scene, "--pin", "*")
     assert ran.code == 1
-    assert "left: box0 and box1 penetrate: both bodies stay" in ran.out
+    assert "not resolved: box0 and box1 penetrate: both bodies stay" in ran.out
 
 
 def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
@@ -158,7 +158,7 @@ motion = [{bodies = "door", translation = [5, 0, 0]}]
 """)
     ran = satcheck("resolve", str(scene))
     assert ran.code == 1
-    assert "left: door and post penetrate: only while they move, and motions are" in ran.out
+    assert "not resolved: door and post penetrate: only while they move, and motions are" in ran.out
     assert "Nothing overlaps as the bodies are placed: nothing was moved." in ran.out
 
 

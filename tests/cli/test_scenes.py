@@ -84,3 +84,31 @@ def test_buffers_of_gltf_files_too_in_every_command_that_reads_them(tmp_path: Pa
         assert refused.code != code
         assert "outside" in refused.out + refused.err
         satcheck(*arguments, "--allow-outside", cwd=tmp_path)  # the report as it was
+
+
+def test_every_failure_is_counted_and_told_with_its_limit(tmp_path: Path) -> None:
+    """Beside an overlap within its limit, and one on the way, clearances are not lost."""
+    at = {"floor": [0, 0, 0], "near": [0, 0, 1.25], "deep": [5, 0, 0], "deeper": [5.75, 0, 0]}
+    at |= {"mover": [0, 9, 0], "post": [0, 11.5, 0]}
+    document = scene_of(
+        *({"id": id_, "shape": BOX, "position": position} for id_, position in at.items()),
+        units="mm",
+        rules=[
+            {"a": "floor", "b": "near", "clearance": 0.5, "reason": "heat"},
+            {"a": "deep", "b": "deeper", "max_depth": 0.375},
+        ],
+        motion=[{"bodies": "mover", "translation": [0, 3, 0]}],
+    )
+    write(tmp_path, document)
+    ran = satcheck("cell.json", cwd=tmp_path)
+    assert ran.code == 1
+    remarks = [line for line in ran.out.splitlines() if " by cell.json:" in line]
+    assert len(remarks) == 2
+    assert remarks[0].startswith("floor and near: error by ")
+    assert remarks[0].endswith(", clearance 0.5 mm (heat)")
+    assert remarks[1].endswith(", max_depth 0.375 mm")
+    assert "hits at 1.5 mm of travel" in ran.out
+    last = ran.out.splitlines()[-1]
+    assert last.endswith(
+        "1 pair hits while moving. Depth 0.25 mm. 1 pair does not keep the clearance."
+    )

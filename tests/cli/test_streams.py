@@ -29,6 +29,17 @@ def test_output_file(tmp_path: Path, name: str, start: str) -> None:
     assert name in ran.err
 
 
+@pytest.mark.parametrize("more", [(), ("--tolerance", "0")])
+def test_a_name_that_no_report_has_is_refused(tmp_path: Path, more: tuple[str, ...]) -> None:
+    page = tmp_path / "report.html"
+    ran = satcheck(*more, "-o", str(page), *PUSHED)
+    assert ran.code == 2
+    assert "report.html: a report is a table or .json" in ran.err
+    assert not page.exists()
+    assert satcheck("--format", "table", "-o", str(page), *PUSHED).code == 1
+    assert page.read_text(encoding="utf-8").startswith("╭")
+
+
 def test_warnings_do_not_vanish_with_the_output(tmp_path: Path) -> None:
     ran = satcheck("-o", str(tmp_path / "report.json"), "box.obj", "inside_out.stl")
     assert "satcheck: warning: inside_out: " in ran.err

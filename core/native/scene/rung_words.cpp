@@ -1,17 +1,17 @@
 #include "scene/rung_words.hpp"
 
-#include <cstdio>
+#include <charconv>
 
 #include "scene/words.hpp"
 
 namespace satcheck {
 namespace {
 
-// Of a length, for people: six significant digits.
+// Of a length, for people: six significant digits, with a point in every locale.
 std::string at_least(const char* what, double length) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s apart by at least %.6g", what, length);
-  return text;
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, length, std::chars_format::general, 6).ptr;
+  return std::string(what) + " apart by at least " + std::string(digits, end);
 }
 
 RungWords of_boxes(double gap, std::int64_t cost) {
