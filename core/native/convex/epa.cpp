@@ -72,18 +72,41 @@ Simplex thick_tetrahedron(const MinkowskiDifference& m, const Simplex& seed, Vec
   return s;
 }
 
+// An edge of A against an edge of B makes a parallelogram of A - B, of which a face is half. Turns such a face into
+// the other half. False for any other face.
+bool turn_to_other_half(Simplex& face) {
+  for (int corner = 0; corner < 3; ++corner) {
+    SupportPoint& c = face.vertex[corner];
+    const auto shares_both = [&](const SupportPoint& p, const SupportPoint& q) {
+      return p.index_a == c.index_a && q.index_b == c.index_b && c.index_a != Shape::kNoIndex && c.index_b != Shape::kNoIndex;
+    };
+    const SupportPoint &p = face.vertex[(corner + 1) % 3], &q = face.vertex[(corner + 2) % 3];
+    const bool forward = shares_both(p, q);
+    if (!forward && !shares_both(q, p)) continue;
+    const SupportPoint &of_b = forward ? p : q, &of_a = forward ? q : p;
+    c = {of_a.a - (of_b.a - of_b.w), of_a.a, of_a.index_a, of_b.index_b};
+    return true;
+  }
+  return false;
+}
+
+// The face weighted at the point of it that is closest to `foot`, a point of its plane.
+double weigh(Simplex& face, Vec3 foot) {
+  for (SupportPoint& p : face.vertex) p.w = p.w - foot;
+  const ClosestPoint closest = closest_point(face);
+  for (SupportPoint& p : face.vertex) p.w = p.w + foot;
+  keep(face, closest);
+  return closest.distance_squared;
+}
+
 // The facet with the weights of the origin's projection onto its plane, clamped to the facet.
 Simplex weighted_facet(const ExpandingPolytope& polytope, HalfEdge f) {
   const Vec3 foot = polytope.normal(f) * polytope.distance(f);
   Simplex facet;
-  for (int corner = 0; corner < 3; ++corner) {
-    SupportPoint p = polytope.vertex(f, corner);
-    p.w = p.w - foot;
-    facet.add(p);
-  }
-  const ClosestPoint closest = closest_point(facet);
-  for (SupportPoint& p : facet.vertex) p.w = p.w + foot;
-  keep(facet, closest);
+  for (int corner = 0; corner < 3; ++corner) facet.add(polytope.vertex(f, corner));
+  Simplex other = facet;
+  const double miss = weigh(facet, foot);
+  if (facet.count < 3 && turn_to_other_half(other) && weigh(other, foot) < miss) return other;
   return facet;
 }
 
