@@ -96,6 +96,7 @@ double weigh(Simplex& face, Vec3 foot) {
   const ClosestPoint closest = closest_point(face);
   for (SupportPoint& p : face.vertex) p.w = p.w + foot;
   keep(face, closest);
+  normalize_weights(face);
   return closest.distance_squared;
 }
 

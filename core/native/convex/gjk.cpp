@@ -30,18 +30,18 @@ SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
   GjkResult result;
   result.lower = -INFINITY;
   const Vec3 first = first_direction(m);
-  result.simplex.add(m.support(first));
-  result.v = result.simplex.vertex[0].w;
+  Simplex& simplex = result.simplex;
+  simplex.add(m.support(first));
+  result.v = simplex.vertex[0].w;
+  result.upper = norm(result.v);
   if (goal == GjkGoal::overlap) {  // pairs well apart are so along the line of their origins
     result.axis = first * (-1 / norm(first));
     result.lower = dot(result.axis, result.v);
     if (result.lower > noise) {
-      result.upper = norm(result.v);
       result.status = GjkResult::Status::separated;
       return result;
     }
   }
-  result.upper = norm(result.v);
   const double gap = m.curved ? kCurvedGap * m.scale : 4 * kUnitRoundoff * m.scale;
   while (result.upper > noise) {
     const SupportPoint w = m.support(-result.v);
@@ -53,23 +53,26 @@ SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
       result.axis = axis;
     }
     if (goal == GjkGoal::overlap && result.lower > noise) break;
-    if (result.upper - result.lower <= gap || result.simplex.contains(w)) break;
-    result.simplex.add(w);
-    const ClosestPoint closest = closest_point_with_last(result.simplex);
-    if (closest.count == 0 && closest.distance_squared == 0) {
+    if (result.upper - result.lower <= gap || simplex.contains(w)) break;
+    simplex.add(w);
+    const SupportPoint* p = simplex.vertex;
+    const ClosestPoint closest = closest_point<true>(p[0].w, p[1].w, p[2].w, p[3].w, simplex.count);
+    if (closest.encloses()) {
       result.v = {0, 0, 0};
+      result.enclosed_radius = enclosed_radius(p[0].w, p[1].w, p[2].w, p[3].w);
       result.status = GjkResult::Status::encloses;
       return result;
     }
     const double distance = std::sqrt(closest.distance_squared);
     if (!(distance < result.upper)) {
-      --result.simplex.count;
+      --simplex.count;
       break;
     }
-    keep(result.simplex, closest);
+    keep(simplex, closest);
     result.v = closest.v;
     result.upper = distance;
   }
+  normalize_weights(simplex);
   result.status = result.lower > noise ? GjkResult::Status::separated : GjkResult::Status::contact;
   return result;
 }

@@ -15,6 +15,7 @@ struct GjkResult {
   Simplex simplex;    // carries v; four vertices when it encloses
   Vec3 v;             // closest point of A - B to the origin found
   double upper = 0;   // |v|: the distance is at most this
+  double enclosed_radius = 0;  // of a ball around the origin that it encloses, without the rounding of the vertices
   double lower = 0;   // and at least this: the best support value along a queried axis
   Vec3 axis;          // unit; lower = min over A - B of axis . w
   int iterations = 0;

@@ -160,7 +160,7 @@ CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, double noise, Pai
     answer.feature = Feature::vertices;
     answer.upper = -g.lower;
     if (g.status == GjkResult::Status::separated) return answer;
-    if (g.status == GjkResult::Status::encloses) answer.lower = enclosed_radius(g.simplex) - m.support_error();
+    if (g.status == GjkResult::Status::encloses) answer.lower = g.enclosed_radius - m.support_error();
     if (answer.lower > noise) return answer;
   }
   if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
