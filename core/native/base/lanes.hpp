@@ -90,6 +90,20 @@ SATCHECK_INLINE int bits_of(LaneMask mask) {
 #endif
 }
 
+// Which lanes of up to kVectors vectors hold: bit 4 k + l of bits() is lane l of vector k. They meet in one register at
+// the end, not one by one.
+class ManyLaneBits {
+ public:
+  static constexpr int kVectors = 16;
+  SATCHECK_INLINE void add(LaneMask mask, int k) { bits_ |= mask & (LaneMask{1, 2, 4, 8} << 4 * k); }
+  SATCHECK_INLINE unsigned long long bits() const {
+    return static_cast<unsigned long long>((bits_[0] | bits_[2]) | (bits_[1] | bits_[3]));
+  }
+
+ private:
+  LaneMask bits_ = {0, 0, 0, 0};
+};
+
 }  // namespace satcheck
 
 #else  // plain code
@@ -152,6 +166,15 @@ Lanes shuffle(Lanes u, Lanes v) {
   return {{lane(a), lane(b), lane(c), lane(d)}};
 }
 inline int bits_of(LaneMask m) { return m.lane[0] | m.lane[1] << 1 | m.lane[2] << 2 | m.lane[3] << 3; }
+class ManyLaneBits {
+ public:
+  static constexpr int kVectors = 16;
+  void add(LaneMask mask, int k) { bits_ |= static_cast<unsigned long long>(bits_of(mask)) << 4 * k; }
+  unsigned long long bits() const { return bits_; }
+
+ private:
+  unsigned long long bits_ = 0;
+};
 
 }  // namespace satcheck
 

@@ -1,6 +1,7 @@
 // The vertex of a convex hull farthest along a direction: a scan over all vertices.
 #pragma once
 
+#include <bit>
 #include <vector>
 
 #include "base/lanes.hpp"
@@ -55,10 +56,37 @@ SATCHECK_INLINE std::uint32_t index_of_largest(LaneBest best) {
   return static_cast<std::uint32_t>(best.index[0]);
 }
 
+// Over all lanes, in each of them.
+SATCHECK_INLINE Lanes largest_in_all(Lanes v) {
+  v = larger(v, shuffle<2, 3, 0, 1>(v));
+  return larger(v, shuffle<1, 0, 3, 2>(v));
+}
+
+// First the largest height, then where it stands. A count of vectors that is known when this is compiled keeps the
+// heights of up to 32 points in registers.
+SATCHECK_INLINE std::uint32_t support_index_of_few(const double* x, const double* y, const double* z, int vectors,
+                                                   Vec3 direction) {
+  const LaneDirection d(direction);
+  Lanes height[ManyLaneBits::kVectors], best = height[0] = d.heights(x, y, z);
+  for (int k = 1; k < vectors; ++k) {
+    height[k] = d.heights(x + 4 * k, y + 4 * k, z + 4 * k);
+    best = larger(best, height[k]);
+  }
+  best = largest_in_all(best);
+  ManyLaneBits places;
+  for (int k = 0; k < vectors; ++k) places.add(height[k] == best, k);
+  // Where a height is no number there may be no bit: then any point.
+  return static_cast<std::uint32_t>(std::countr_zero(places.bits() | 1ull << (4 * vectors - 1)));
+}
+
 // Index of the largest dot product with `direction` among `padded` points, a multiple of 8 above 0; the first of
 // them in a tie.
 SATCHECK_INLINE std::uint32_t support_index(const double* x, const double* y, const double* z, std::size_t padded,
                                             Vec3 direction) {
+  if (padded == 16) return support_index_of_few(x, y, z, 4, direction);
+  if (padded == 32) return support_index_of_few(x, y, z, 8, direction);
+  if (padded == 8) return support_index_of_few(x, y, z, 2, direction);
+  if (padded <= 4 * ManyLaneBits::kVectors) return support_index_of_few(x, y, z, static_cast<int>(padded / 4), direction);
   const LaneDirection d(direction);
   Lanes at0 = {0, 1, 2, 3}, at1 = {4, 5, 6, 7};
   LaneBest best0 = {d.heights(x, y, z), at0}, best1 = {d.heights(x + 4, y + 4, z + 4), at1};
