@@ -13,8 +13,18 @@ from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
     from satcheck.verify import Checked, Verification
+    from satcheck.verify.document import Outcome
 
 MOST_BYTES = 1 << 30
+# At most this many files that are not there are named.
+MOST_NAMED = 3
+# Outcomes that are not "accepted", in the words of the last line.
+_CALLED: dict[Outcome, str] = {
+    "rejected": "rejected",
+    "not certified": "not certified",
+    "open": "indeterminate",
+    "no file": "not checked for want of files",
+}
 
 
 def run(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -> int:
@@ -33,8 +43,12 @@ def run(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -
         raise SatcheckError("bad-report", f"{report}: {why}") from None
     text = json_text(_values(found)) if form == "json" else _table(found)
     document.write(text, utf8=form == "json")
+    if found.missing:
+        talk(f"satcheck: {_missing(found, root)}")
     if not found.certified:
         talk(f"satcheck: {report}: no certificates: was it made with --certificate?")
+        return exit_codes.ERROR
+    if found.missing and not found.rejected:
         return exit_codes.ERROR
     return exit_codes.CLEAN if found.accepted else exit_codes.FINDINGS
 
@@ -67,12 +81,26 @@ def _values(found: Verification) -> dict[str, Any]:
         "not_certified": list(found.beyond),
         "pruned": found.pruned,
         "exempt": found.exempt,
+        "missing": list(found.missing),
     }
+
+
+def _missing(found: Verification, root: Path) -> str:
+    from satcheck.cli.report.words import counted
+
+    first = ", ".join(found.missing[:MOST_NAMED])
+    more = len(found.missing) - MOST_NAMED
+    files = first + (f" and {more:,} more" if more > 0 else "")
+    return (
+        f"{counted(len(found.missing), 'file is', 'files are')} not there, looked for from "
+        f"{root.absolute()} on: {files}; --root names the folder where the check ran"
+    )
 
 
 def _table(found: Verification) -> str:
     """What was not accepted, line by line, and a sentence about all."""
-    lines = [_line(finding) for finding in found.findings if finding.outcome != "accepted"]
+    unsaid = ("accepted", "no file")  # a line on stderr speaks of all files
+    lines = [_line(finding) for finding in found.findings if finding.outcome not in unsaid]
     lines += [f"rejected: {fault}" for fault in found.faults]
     lines += [f"not certified: {what}" for what in found.beyond]
     lines.append(_summary(found))
@@ -88,10 +116,9 @@ def _summary(found: Verification) -> str:
 
     accepted = [f for f in found.findings if f.outcome == "accepted"]
     parts = [f"{counted(len(accepted), 'verdict')} accepted"]
-    for outcome in ("rejected", "not certified", "open"):
-        count = sum(f.outcome == outcome for f in found.findings)
-        if count:
-            parts.append(f"{count:,} {'indeterminate' if outcome == 'open' else outcome}")
+    for outcome, called in _CALLED.items():
+        if count := sum(f.outcome == outcome for f in found.findings):
+            parts.append(f"{count:,} {called}")
     if found.faults:
         parts.append(f"{counted(len(found.faults), 'fault')} in the rest of the report")
     if found.pruned:

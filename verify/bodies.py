@@ -33,9 +33,17 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
+class Missing:
+    """A file that is not there, as the report names it."""
+
+    file: str
+
+
+@dataclass(frozen=True, slots=True)
 class Placed:
     """A body of the report, a mesh in the world or a curved shape, or why it cannot be had.
-    resolution: world units, recomputed. convex: also of every curved shape."""
+    resolution: world units, recomputed. convex: also of every curved shape. missing: the file that
+    is not there, as the report names it."""
 
     id: str
     groups: frozenset[str]
@@ -46,6 +54,7 @@ class Placed:
     reason: str | None = None
     claims: bool = True  # False: the report calls it unreadable
     curved: Curved | None = None
+    missing: str | None = None
 
     @property
     def bounds(self) -> tuple[Floats, Floats] | None:
@@ -85,6 +94,9 @@ class Bodies:
         if path is not None and not isinstance(path, str):
             raise Rejected("the path of a body within its file is a text")
         shape = self._read(file, path) if values is None else self._primitive(file, values)
+        if isinstance(shape, Missing):
+            reason = "its file is not there"
+            return Placed(name, groups, None, static=static, reason=reason, missing=shape.file)
         if isinstance(shape, str):
             return Placed(name, groups, None, static=static, reason=shape)
         if shape.file.sha256 != digest:
@@ -95,7 +107,7 @@ class Bodies:
         except Rejected as why:
             return Placed(name, groups, None, static=static, reason=str(why))
 
-    def _read(self, file: str, path: str | None) -> Shape | str:
+    def _read(self, file: str, path: str | None) -> Shape | Missing | str:
         """The file, or the mesh of its node `path`."""
         location = self._root / file
         if path is None:
@@ -104,12 +116,7 @@ class Bodies:
             node = self._files.part(file, location, path)
             found = node if isinstance(node, MeshFileError) else node.file
         if isinstance(found, MeshFileError):
-            absent = found.code == "file-not-found"
-            return (
-                f"{found}, looked for from {self._root.absolute()} on (--root)"
-                if absent
-                else str(found)
-            )
+            return Missing(file) if found.code == "file-not-found" else str(found)
         key = (file, found.part, "")
         if key not in self._shapes:
             self._shapes[key] = _checked_shape(found)
@@ -169,7 +176,10 @@ def place_shape(
         if pose is not None and tuple(pose[12:]) != (0.0, 0.0, 0.0, 1.0):
             raise Rejected("the pose is not affine")
         curved = Curved(image_of(shape.curved, pose))
-    resolution = Body(name, name, shape.file, pose).resolution_world
+    try:
+        resolution = Body(name, name, shape.file, pose).resolution_world
+    except OverflowError:
+        resolution = np.inf
     if not np.isfinite(resolution):
         raise Rejected("its placement is out of range")
     return Placed(name, frozenset(groups), world, shape.convex, resolution, curved=curved)

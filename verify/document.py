@@ -23,12 +23,13 @@ UNDECIDED = (
     ("sweeps_undecided", "motion"),
 )
 CERTAINLY = 1 + 1e-12  # far more than a difference of two numbers can be off by
-Outcome = Literal["accepted", "rejected", "not certified", "open"]
+Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
 
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """One finding. open: indeterminate, so nothing is claimed. depth, mtv: proven too."""
+    """One finding. open: indeterminate, so nothing is claimed. no file: that of a body is not
+    there, so nothing is known. depth, mtv: proven too."""
 
     a: str
     b: str
@@ -44,7 +45,8 @@ class Verification:
     """faults: what is wrong with the report as a whole. beyond: what no certificate speaks of.
     exempt: pairs whose boxes meet that the report does not claim to have checked, because the scene
     exempts them. pruned: pairs that are not listed, whose boxes are apart. asked: whether the
-    report says that certificates were asked for.
+    report says that certificates were asked for. missing: files that are not there; with some, the
+    pairs that are not listed and the summary are not checked, and nothing is accepted as a whole.
     """
 
     findings: tuple[Checked, ...]
@@ -53,11 +55,17 @@ class Verification:
     pruned: int
     exempt: int
     asked: bool
+    missing: tuple[str, ...] = ()
 
     @property
     def accepted(self) -> bool:
         settled = all(f.outcome in ("accepted", "open") for f in self.findings)
-        return settled and not self.faults and not self.beyond
+        return settled and not (self.faults or self.beyond or self.missing)
+
+    @property
+    def rejected(self) -> bool:
+        """Whether something that was checked is false."""
+        return bool(self.faults) or any(f.outcome == "rejected" for f in self.findings)
 
     @property
     def certified(self) -> bool:
@@ -90,13 +98,22 @@ def verify(
         if progress is not None:
             progress(number_ + 1, len(entries))
     faults = list(report.faults)
-    pruned, exempt = report.check_unlisted(faults)
-    try:
-        report.check_summary(pruned)
-    except Rejected as why:
-        faults.append(str(why))
-    asked, beyond = _asks_for_certificates(document), tuple(report.beyond)
-    return Verification(tuple(checked), tuple(faults), beyond, pruned, exempt, asked)
+    pruned = exempt = 0
+    if not report.missing:
+        pruned, exempt = report.check_unlisted(faults)
+        try:
+            report.check_summary(pruned)
+        except Rejected as why:
+            faults.append(str(why))
+    return Verification(
+        tuple(checked),
+        tuple(faults),
+        tuple(report.beyond),
+        pruned,
+        exempt,
+        asked=_asks_for_certificates(document),
+        missing=report.missing,
+    )
 
 
 def _asks_for_certificates(document: dict[str, Any]) -> bool:
@@ -119,6 +136,10 @@ def _object(document: Any, key: str) -> dict[str, Any]:
     return value
 
 
+class _NoFile(Exception):
+    """What is claimed may be true: the file of a body is not there."""
+
+
 class _Report:
     def __init__(self, document: Any, reader: Bodies) -> None:
         if not isinstance(document, dict) or document.get("schema") != SCHEMA:
@@ -134,7 +155,9 @@ class _Report:
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
         self.listed_apart = 0  # of these, pairs that may be apart by their boxes
-        unplaced = [body for body in placed if body.claims and body.reason]
+        absent = [body.missing for body in placed if body.missing is not None]
+        self.missing = tuple(dict.fromkeys(absent))
+        unplaced = [b for b in placed if b.claims and b.reason and b.missing is None]
         self.faults = [f"{b.id}: {b.reason}" for b in unplaced]
         self.beyond: list[str] = []
         if document.get("motions"):
@@ -146,6 +169,8 @@ class _Report:
         a, b, relation = (str(entry.get(key)) for key in ("a", "b", "relation"))
         try:
             proven = self._check(entry)
+        except _NoFile as why:
+            return Checked(a, b, relation, "no file", str(why))
         except Rejected as why:
             outcome: Outcome = "rejected" if entry.get("certificate") else "not certified"
             return Checked(a, b, relation, outcome, str(why))
@@ -174,6 +199,9 @@ class _Report:
             if tuple(claims) != ("warning", "relation", None):
                 raise Rejected("an indeterminate pair is a warning, and proves nothing")
             return None
+        for body in (a, b):
+            if body.missing is not None:
+                raise _NoFile(f"{body.missing} is not there")
         return check_finding(entry, a, b, asked)
 
     def asked_of(self, a: Placed, b: Placed) -> Asked:

@@ -34,7 +34,7 @@ def command(report: Path, root: Path, form: str, allow_outside: bool, debug: boo
     a certificate (an estimate below --accuracy exact, for instance) is not certified, and no pass.
 
     Exit codes: 0, every verdict is accepted; 1, one is rejected or not certified; 2, wrong usage,
-    an unreadable report, no certificate in it, or an internal error.
+    an unreadable report, no certificate in it, a mesh file that is not there, or an internal error.
     """
     from satcheck.cli.verifying import run
 

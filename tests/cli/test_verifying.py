@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satcheck
@@ -26,9 +27,43 @@ def test_an_honest_report_is_accepted(tmp_path: Path) -> None:
 def test_paths_start_at_the_root(tmp_path: Path) -> None:
     path = report(tmp_path, *PUSHED)
     elsewhere = satcheck("verify", str(path), cwd=tmp_path)
-    assert elsewhere.code == 1
-    assert f"no such file, looked for from {tmp_path} on (--root)" in elsewhere.out
+    assert elsewhere.code == 2
+    assert elsewhere.err == (
+        f"satcheck: 2 files are not there, looked for from {tmp_path} on: box.obj, box_pushed.stl; "
+        "--root names the folder where the check ran\n"
+    )
+    assert elsewhere.out == "0 verdicts accepted, 1 not checked for want of files.\n"
     assert satcheck("verify", "--root", str(SAMPLES), str(path), cwd=tmp_path).code == 0
+
+
+def test_what_is_missing_is_never_accepted_and_hides_no_rejection(tmp_path: Path) -> None:
+    for name in (*PUSHED, "cube.off"):
+        shutil.copy(SAMPLES / name, tmp_path)
+    files = [str(tmp_path / name) for name in (*PUSHED, "cube.off")]
+    path = report(tmp_path, *files)
+    (tmp_path / "cube.off").unlink()
+    ran = satcheck("verify", "--format", "json", str(path))
+    assert ran.code == 2
+    assert ran.document["accepted"] is False
+    assert ran.document["missing"] == [files[2]]
+    outcomes = [one["outcome"] for one in ran.document["findings"]]
+    assert outcomes[0] == "accepted"
+    assert set(outcomes[1:]) <= {"no file"}
+    honest = path.read_text("utf-8")
+    forged = json.loads(honest)
+    forged["findings"][0].update(relation="separated", exact_relation="separated")
+    path.write_text(json.dumps(forged), "utf-8")
+    assert satcheck("verify", str(path)).code == 1
+    unlisted = json.loads(honest)  # only the pair with the missing file is gone from the list
+    unlisted["findings"] = unlisted["findings"][:1]
+    path.write_text(json.dumps(unlisted), "utf-8")
+    assert satcheck("verify", str(path)).code == 2
+    path.write_text(honest, "utf-8")
+    with (tmp_path / "box.obj").open("a") as file:
+        file.write("# changed\n")
+    ran = satcheck("verify", str(path))
+    assert ran.code == 1
+    assert "has changed: its SHA-256 is another" in ran.out
 
 
 def test_a_forged_verdict_is_rejected(tmp_path: Path) -> None:
