@@ -28,17 +28,28 @@ std::uint64_t hash_coordinates(Vec3 p) {
   return h;
 }
 
-// For each vertex the first one of equal coordinates. -0.0 must have been made +0.0.
+// A table of points, for the first one with the coordinates of another.
+class FirstOfEqual {
+ public:
+  explicit FirstOfEqual(std::size_t count) : slot_(std::bit_ceil(count * 2 + 1), none) {}
+
+  // Of those asked about so far, this one included.
+  std::uint32_t of(const std::vector<Vec3>& points, std::uint32_t i) {
+    const Vec3 p = points[i] + Vec3{};  // -0.0 + 0.0 == +0.0
+    std::size_t at = hash_coordinates(p) & (slot_.size() - 1);
+    while (slot_[at] != none && !(points[slot_[at]] == p)) at = (at + 1) & (slot_.size() - 1);
+    if (slot_[at] == none) slot_[at] = i;
+    return slot_[at];
+  }
+
+ private:
+  std::vector<std::uint32_t> slot_;
+};
+
 std::vector<std::uint32_t> first_of_equal(const std::vector<Vec3>& points) {
   std::vector<std::uint32_t> first(points.size());
-  const std::size_t capacity = std::bit_ceil(points.size() * 2 + 1);
-  std::vector<std::uint32_t> slot(capacity, none);
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    std::size_t at = hash_coordinates(points[i]) & (capacity - 1);
-    while (slot[at] != none && !(points[slot[at]] == points[i])) at = (at + 1) & (capacity - 1);
-    if (slot[at] == none) slot[at] = i;
-    first[i] = slot[at];
-  }
+  FirstOfEqual known(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) first[i] = known.of(points, i);
   return first;
 }
 
@@ -153,9 +164,9 @@ std::vector<Triangle> sorted_triangles(const std::vector<Triangle>& triangles, c
 }  // namespace
 
 bool is_welded(const Mesh& mesh) {
-  const std::vector<std::uint32_t> first = first_of_equal(without_negative_zeros(mesh.vertices));
-  for (std::uint32_t i = 0; i < first.size(); ++i) {
-    if (first[i] != i) return false;
+  FirstOfEqual first(mesh.vertices.size());
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (first.of(mesh.vertices, i) != i) return false;
   }
   return true;
 }

@@ -42,15 +42,20 @@ class Traversal {
  private:
   bool ended() const { return found_.crossing && at_crossing_ == AtCrossing::stop; }
 
+  // As with box_at(), which would be a copy.
+  static bool meets(const Surface& s, std::uint32_t place, const Aabb& box) {
+    return place < s.bvh.boxes.size() ? meet(s.bvh.boxes[place], box) : meet(box_at(s.bvh, s.mesh, place), box);
+  }
+
   void test_leaves(const BvhNode& m, const BvhNode& n) {
     for (std::uint32_t k = m.first; k < m.first + m.count; ++k) {
+      if (!meets(a_, k, n.box)) continue;
       const Aabb box = box_at(a_.bvh, a_.mesh, k);
-      if (!meet(box, n.box)) continue;
       const std::uint32_t ta = a_.bvh.order[k];
       const Corners ca = corners(a_.mesh, ta);
       const TrianglePlane plane(ca[0], ca[1], ca[2]);
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
-        if (!meet(box, box_at(b_.bvh, b_.mesh, l))) continue;
+        if (!meets(b_, l, box)) continue;
         const std::uint32_t tb = b_.bvh.order[l];
         ++found_.triangle_tests;
         const TriangleContact contact = classify(plane, corners(b_.mesh, tb));
