@@ -6,7 +6,6 @@
 #include <memory>
 #include <numeric>
 
-#include "base/key_sort.hpp"
 #include "base/large_pages.hpp"
 #include "base/patches.hpp"
 #include "exact/predicates.hpp"
@@ -14,85 +13,111 @@
 namespace satcheck {
 namespace {
 
-// A half-edge at its lower corner: the upper corner, whether it ascends, the triangle.
-using Side = std::uint64_t;
-constexpr std::uint32_t kAscends = 0x80000000;
+// A half-edge at its lower corner.
+struct Side {
+  std::uint32_t upper, triangle;
+};
 
-Side make_side(std::uint32_t upper, bool ascends, std::uint32_t triangle) {
-  return Side{upper} << 32 | (ascends ? kAscends : 0) | triangle;
-}
-std::uint32_t upper(Side side) { return static_cast<std::uint32_t>(side >> 32); }
-bool ascends(Side side) { return (side & kAscends) != 0; }
-std::uint32_t triangle(Side side) { return static_cast<std::uint32_t>(side) & ~kAscends; }
-
-// The sides across from the lowest corners.
+// The sides across from the lowest corners, those that ascend from a vertex apart from those that descend to it.
 class ThirdSides {
  public:
   ThirdSides(std::size_t vertex_count, const std::vector<Triangle>& triangles)
-      : start_(vertex_count + 1), sides_(unwritten<Side>(triangles.size())) {
-    for (const Triangle& t : triangles) ++start_[std::min(t[1], t[2])];
+      : start_(2 * vertex_count + 1), sides_(unwritten<Side>(triangles.size())) {
+    for (const Triangle& t : triangles) ++start_[list_of(t)];
     std::inclusive_scan(start_.begin(), start_.end(), start_.begin());
     // From the back, so that each start ends up where its list starts.
     for (std::size_t t = triangles.size(); t-- > 0;) {
       const auto [a, b, c] = triangles[t];
-      sides_[--start_[std::min(b, c)]] = make_side(std::max(b, c), b < c, static_cast<std::uint32_t>(t));
+      sides_[--start_[list_of(triangles[t])]] = {std::max(b, c), static_cast<std::uint32_t>(t)};
     }
   }
 
-  std::span<const Side> of(std::size_t vertex) const {
-    return {sides_.get() + start_[vertex], sides_.get() + start_[vertex + 1]};
-  }
+  std::span<const Side> ascending(std::size_t vertex) const { return list(2 * vertex); }
+  std::span<const Side> descending(std::size_t vertex) const { return list(2 * vertex + 1); }
 
  private:
+  static std::size_t list_of(const Triangle& t) { return 2 * std::size_t{std::min(t[1], t[2])} + (t[1] > t[2] ? 1 : 0); }
+  std::span<const Side> list(std::size_t number) const {
+    return {sides_.get() + start_[number], sides_.get() + start_[number + 1]};
+  }
+
   std::vector<std::uint32_t> start_;
   std::unique_ptr<Side[]> sides_;
 };
 
-// Unites the triangles on either side of each edge of a list; -1 where an edge has not two that fit, else how many
-// were not yet connected.
-std::ptrdiff_t pair_up(std::vector<Side>& sides, const std::vector<Triangle>& triangles, DisjointSets& sets) {
-  sort_list(sides.data(), sides.data() + sides.size());
-  if (sides.size() % 2 != 0) return -1;
-  std::ptrdiff_t united = 0;
-  for (std::size_t i = 0; i < sides.size(); i += 2) {
-    const Side one = sides[i], other = sides[i + 1];
-    if (upper(one) != upper(other) || ascends(one) || !ascends(other)) return -1;
-    if (i > 0 && upper(sides[i - 1]) == upper(one)) return -1;
+// Finds the two triangles of each edge of a vertex after the other, and unites them.
+class Pairing {
+ public:
+  Pairing(std::size_t vertex_count, const std::vector<Triangle>& triangles)
+      : triangles_(triangles), open_(zeroed<Open>(vertex_count)), sets_(triangles.size()), parts_(triangles.size()) {}
+
+  // Up from this vertex; false where another one does.
+  bool begin(std::uint32_t vertex, Side ascending) {
+    Open& open = open_[ascending.upper];
+    if (open.behind == vertex + 1) return false;
+    open = {vertex + 1, ascending.triangle};
+    ++waiting_;
+    return true;
+  }
+
+  // Down to this vertex; false where no side that waits runs the other way, or that of a copy of the triangle.
+  bool end(std::uint32_t vertex, Side descending) {
+    Open& open = open_[descending.upper];
+    if (open.behind != vertex + 1) return false;
+    open.behind = 0;
+    --waiting_;
     // They share two corners, so these sums tell whether the third ones differ.
-    const auto corner_sum = [&](Side side) {
-      const Triangle& t = triangles[triangle(side)];
+    const auto corner_sum = [&](std::uint32_t triangle) {
+      const Triangle& t = triangles_[triangle];
       return std::uint64_t{t[0]} + t[1] + t[2];
     };
-    if (corner_sum(one) == corner_sum(other)) return -1;
-    united += sets.unite(triangle(one), triangle(other)) ? 1 : 0;
+    parts_ -= sets_.unite(open.triangle, descending.triangle) ? 1 : 0;
+    return corner_sum(open.triangle) != corner_sum(descending.triangle);
   }
-  return united;
+
+  bool all_paired() const { return waiting_ == 0; }
+  std::size_t parts() const { return parts_; }
+
+ private:
+  // The side that waits at its upper corner for one that runs the other way.
+  struct Open {
+    std::uint32_t behind;  // the number after that of its lower corner; 0: none waits
+    std::uint32_t triangle;
+  };
+
+  const std::vector<Triangle>& triangles_;
+  std::unique_ptr<Open[], Free> open_;
+  DisjointSets sets_;
+  std::size_t waiting_ = 0, parts_;
+};
+
+// How many parts the triangles make; nothing where an edge has not two that fit.
+std::optional<std::size_t> count_parts(std::size_t vertex_count, const std::vector<Triangle>& triangles) {
+  const ThirdSides thirds(vertex_count, triangles);
+  Pairing pairing(vertex_count, triangles);
+  std::uint32_t first = 0, last = 0;  // the triangles whose lowest corner is the vertex
+  for (std::uint32_t v = 0; v < vertex_count; ++v, first = last) {
+    bool fits = true;
+    for (; last < triangles.size() && triangles[last][0] == v; ++last) fits &= pairing.begin(v, {triangles[last][1], last});
+    for (const Side side : thirds.ascending(v)) fits &= pairing.begin(v, side);
+    for (std::uint32_t t = first; t < last; ++t) fits &= pairing.end(v, {triangles[t][2], t});
+    for (const Side side : thirds.descending(v)) fits &= pairing.end(v, side);
+    if (!fits || !pairing.all_paired()) return std::nullopt;
+  }
+  return pairing.parts();
 }
 
 }  // namespace
 
 std::optional<Topology> measure_sorted_manifold(const Mesh& sorted) {
   const std::vector<Triangle>& triangles = sorted.triangles;
-  if (triangles.empty() || triangles.size() >= kAscends) return std::nullopt;
-  if (std::any_of(triangles.begin(), triangles.end(), repeats_a_corner)) return std::nullopt;
-  const ThirdSides thirds(sorted.vertices.size(), triangles);
-  DisjointSets sets(triangles.size());
+  if (triangles.empty() || std::any_of(triangles.begin(), triangles.end(), repeats_a_corner)) return std::nullopt;
+  const std::optional<std::size_t> parts = count_parts(sorted.vertices.size(), triangles);
+  if (!parts) return std::nullopt;
   Topology topology;
   topology.vertices = sorted.vertices.size();
-  topology.triangles = topology.components = triangles.size();
-  std::vector<Side> sides;
-  std::uint32_t t = 0;
-  for (std::uint32_t v = 0; v < sorted.vertices.size(); ++v) {
-    const auto third = thirds.of(v);
-    sides.assign(third.begin(), third.end());
-    for (; t < triangles.size() && triangles[t][0] == v; ++t) {
-      sides.push_back(make_side(triangles[t][1], true, t));
-      sides.push_back(make_side(triangles[t][2], false, t));
-    }
-    const std::ptrdiff_t united = pair_up(sides, triangles, sets);
-    if (united < 0) return std::nullopt;
-    topology.components -= static_cast<std::size_t>(united);
-  }
+  topology.triangles = triangles.size();
+  topology.components = *parts;
   topology.closed = topology.manifold = topology.oriented = true;
   for (const Triangle& corner : triangles) {
     const bool flat = collinear(sorted.vertices[corner[0]], sorted.vertices[corner[1]], sorted.vertices[corner[2]]);
