@@ -54,6 +54,9 @@ class Inspection:
     def repaired(self) -> Topology: ...
 
 def inspect(mesh: Mesh, orient: bool) -> Inspection: ...
+def inspect_bytes(
+    vertices: bytes | memoryview, triangles: bytes | memoryview, orient: bool
+) -> Inspection: ...
 
 class Polytope:
     @property

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.core import Mesh, Topology, inspect
+from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes
 from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 
@@ -55,7 +55,15 @@ def examine(mesh: Mesh, *, orient: bool = True) -> Examined:
     Its vertices and triangles come in an order of their own, so that no answer depends on the
     order in the file. Raises MeshFileError (without a file name) when no triangle has an area.
     """
-    found = inspect(mesh, orient)
+    return _judged(inspect(mesh, orient))
+
+
+def examine_bytes(vertices: bytes | memoryview, triangles: bytes | memoryview) -> Examined:
+    """examine(Mesh.from_bytes(vertices, triangles)), without the mesh between."""
+    return _judged(inspect_bytes(vertices, triangles, True))
+
+
+def _judged(found: Inspection) -> Examined:
     topology, after, turned = found.topology, found.repaired, found.turned
     if topology.degenerate_triangles == topology.triangles:
         raise MeshFileError(

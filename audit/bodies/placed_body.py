@@ -81,10 +81,11 @@ class SharedMesh:
         "triangles",
     )
 
-    def __init__(self, file: MeshFile, settings: Settings) -> None:
+    def __init__(self, file: MeshFile, settings: Settings, bounds: Box | None = None) -> None:
+        """bounds: of the mesh, where known."""
         self.file = file
         self.triangles = file.mesh.triangle_count
-        self.largest = largest_coordinate(file.mesh.bounds)
+        self.largest = largest_coordinate(bounds or file.mesh.bounds)
         self.geometry = core.Geometry(file.mesh, file.health.solid, file.topology.plain_solid)
         self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))

@@ -79,7 +79,8 @@ class Known:
             return earlier
         key = mesh_key(body.file)
         if key not in self.meshes:
-            self.meshes[key] = SharedMesh(body.file, settings)
+            in_file = bounds if body.transform is None else None
+            self.meshes[key] = SharedMesh(body.file, settings, in_file)
         self.placed[body.id] = PlacedBody(body, self.meshes[key], bounds)
         return self.placed[body.id]
 

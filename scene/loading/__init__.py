@@ -8,7 +8,7 @@ from satcheck.core import Mesh
 from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.health import examine
+from satcheck.scene.health import examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
@@ -43,7 +43,7 @@ def load_mesh_file(path: str, location: Path, allowed: ReadLimits) -> MeshFile:
     source = open_source(path, location, allowed)
     scene = read_scene(source, allowed, flat=True)
     raw = _only_mesh(scene)
-    return mesh_file(source, raw, mesh_of(source, raw))
+    return mesh_file(source, raw)
 
 
 def open_source(path: str, location: Path, allowed: ReadLimits) -> Source:
@@ -103,15 +103,20 @@ def mesh_of(source: Source, raw: RawMesh) -> Mesh:
 
 
 def mesh_file(
-    source: Source, raw: RawMesh, mesh: Mesh, part: str | None = None, *, placed: bool = False
+    source: Source,
+    raw: RawMesh,
+    mesh: Mesh | None = None,
+    part: str | None = None,
+    *,
+    placed: bool = False,
 ) -> MeshFile:
-    """A mesh of a file, inspected. raw: what was read, of which it is all or a piece.
+    """A mesh of a file, inspected. raw: what was read. mesh: a piece of it; None: all.
 
     part: its name in the file. placed: by the file itself. Raises MeshFileError.
     """
     path = source.path
     try:
-        examined = examine(mesh)
+        examined = examine(mesh) if mesh else examine_bytes(raw.vertices, raw.triangles)
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from error.__cause__
     except (MemoryError, OverflowError, ValueError) as error:

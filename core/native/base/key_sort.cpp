@@ -33,7 +33,7 @@ std::span<Item> sort_by_digits(std::span<Item> from, std::span<Item> to, std::si
 }
 
 // By coordinates from this axis on, those before it being equal; of equal points the first comes first.
-void order_from_axis(const std::vector<Vec3>& points, int axis, std::span<std::uint32_t> order) {
+void order_from_axis(std::span<const Vec3> points, int axis, std::span<std::uint32_t> order) {
   const auto compare_all = [&] {
     std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
       return points[i] != points[k] ? coordinates_less(points[i], points[k]) : i < k;
@@ -84,7 +84,7 @@ void sort_by_key(std::span<Keyed> items) {
   if (sorted.data() != items.data()) std::copy(sorted.begin(), sorted.end(), items.begin());
 }
 
-std::vector<std::uint32_t> order_by_coordinates(const std::vector<Vec3>& points) {
+std::vector<std::uint32_t> order_by_coordinates(std::span<const Vec3> points) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
   if (strictly_ascending(points)) return order;
@@ -92,7 +92,7 @@ std::vector<std::uint32_t> order_by_coordinates(const std::vector<Vec3>& points)
   return order;
 }
 
-bool strictly_ascending(const std::vector<Vec3>& points) {
+bool strictly_ascending(std::span<const Vec3> points) {
   return std::adjacent_find(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
            return !coordinates_less(a, b);
          }) == points.end();

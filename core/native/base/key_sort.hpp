@@ -36,10 +36,10 @@ void sort_list(Item* first, Item* last) {
 void sort_by_key(std::span<Keyed> items);
 
 // The numbers of the points by x, then y, then z; points of equal coordinates in the order they have.
-std::vector<std::uint32_t> order_by_coordinates(const std::vector<Vec3>& points);
+std::vector<std::uint32_t> order_by_coordinates(std::span<const Vec3> points);
 
 // Whether each point comes after the one before it, so that no two are equal.
-bool strictly_ascending(const std::vector<Vec3>& points);
+bool strictly_ascending(std::span<const Vec3> points);
 
 // In lexicographic order. Every corner is below `vertex_count`.
 void sort_triangles(std::vector<Triangle>& triangles, std::size_t vertex_count);

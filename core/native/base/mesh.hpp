@@ -1,6 +1,7 @@
 // A triangle mesh: plain arrays, no topology and no cache.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/vec.hpp"
@@ -10,6 +11,15 @@ namespace satcheck {
 struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
+};
+
+// The same in memory of somebody else.
+struct MeshView {
+  std::span<const Vec3> vertices;
+  std::span<const Triangle> triangles;
+
+  MeshView(std::span<const Vec3> v, std::span<const Triangle> t) : vertices(v), triangles(t) {}
+  MeshView(const Mesh& mesh) : MeshView(mesh.vertices, mesh.triangles) {}  // wherever a mesh will do
 };
 
 }  // namespace satcheck

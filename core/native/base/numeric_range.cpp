@@ -53,13 +53,13 @@ SATCHECK_WIDE Extent measure(const Vec3* points, std::size_t count) {
 
 }  // namespace
 
-bool are_in_range(const std::vector<Vec3>& points) {
+bool are_in_range(std::span<const Vec3> points) {
   const Extent extent = measure(points.data(), points.size());
   const double size = points.empty() ? 0 : max_abs(extent.box.max - extent.box.min);
   return extent.all_in_range && (size == 0 || size >= kSmallestSize);
 }
 
-void require_in_range(const std::vector<Vec3>& points, const char* what) {
+void require_in_range(std::span<const Vec3> points, const char* what) {
   if (are_in_range(points)) return;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = points[i];

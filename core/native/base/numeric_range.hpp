@@ -6,7 +6,7 @@
 // differences are multiples of 1e-291, which float64 holds.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "base/vec.hpp"
 
@@ -22,10 +22,10 @@ inline bool in_range(double coordinate) {
 }
 
 // Whether require_in_range() accepts points that were computed, not given.
-bool are_in_range(const std::vector<Vec3>& points);
+bool are_in_range(std::span<const Vec3> points);
 
 // Names the first offender: std::invalid_argument where it is not finite, std::overflow_error where it, or
 // the whole, is out of range.
-void require_in_range(const std::vector<Vec3>& points, const char* what);
+void require_in_range(std::span<const Vec3> points, const char* what);
 
 }  // namespace satcheck

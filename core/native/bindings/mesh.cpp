@@ -96,6 +96,18 @@ Mesh mesh_from_bytes(const Bytes& vertices, const Bytes& triangles) {
   return mesh;
 }
 
+Inspection inspect_bytes(const Bytes& vertices, const Bytes& triangles, bool orient) {
+  const auto is_aligned = [](const Bytes& bytes) {
+    return reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(Vec3) == 0 && bytes.size() > 0;
+  };
+  const bool is_whole = vertices.size() % sizeof(Vec3) == 0 && triangles.size() % sizeof(Triangle) == 0;
+  if (!is_whole || !is_aligned(vertices) || !is_aligned(triangles)) return inspect(mesh_from_bytes(vertices, triangles), orient);
+  const MeshView mesh({reinterpret_cast<const Vec3*>(vertices.data()), vertices.size() / sizeof(Vec3)},
+                      {reinterpret_cast<const Triangle*>(triangles.data()), triangles.size() / sizeof(Triangle)});
+  require_valid(mesh);
+  return inspect(mesh, orient);
+}
+
 nb::tuple mesh_to_bytes(const Mesh& mesh) {
   return nb::make_tuple(nb::bytes(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vec3)),
                         nb::bytes(mesh.triangles.data(), mesh.triangles.size() * sizeof(Triangle)));
@@ -219,8 +231,10 @@ turned: whether orienting it then changed anything; topology: before that, repai
       .def_ro("turned", &Inspection::turned)
       .def_ro("topology", &Inspection::topology)
       .def_ro("repaired", &Inspection::repaired);
-  m.def("inspect", &inspect, "mesh"_a, "orient"_a, ReleaseGil(), R"(mesh.welded().sorted(), its topology, and, where it is closed and `orient` says so, oriented(), for less than these
+  m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient); }, "mesh"_a, "orient"_a, ReleaseGil(), R"(mesh.welded().sorted(), its topology, and, where it is closed and `orient` says so, oriented(), for less than these
 one after another.)");
+  m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a, ReleaseGil(),
+        "inspect(Mesh.from_bytes(vertices, triangles), orient), for less than the two.");
 }
 
 void bind_polytope(nb::module_& m) {

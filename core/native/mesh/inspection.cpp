@@ -5,7 +5,7 @@
 #include "mesh/sorted_manifold.hpp"
 
 namespace satcheck {
-Inspection inspect(const Mesh& mesh, bool orient_it) {
+Inspection inspect(MeshView mesh, bool orient_it) {
   Inspection found;
   found.mesh = weld_and_sort(mesh);
   found.turned = false;

@@ -13,6 +13,6 @@ struct Inspection {
   Topology repaired;  // of `mesh`; the same where nothing was turned
 };
 
-Inspection inspect(const Mesh& mesh, bool orient_it);
+Inspection inspect(MeshView mesh, bool orient_it);
 
 }  // namespace satcheck

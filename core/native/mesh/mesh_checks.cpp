@@ -10,7 +10,7 @@
 
 namespace satcheck {
 
-void require_valid(const Mesh& mesh) {
+void require_valid(MeshView mesh) {
   // Half-edges are numbered 3 t + i in 32 bits.
   constexpr std::size_t kMaxTriangles = std::numeric_limits<std::uint32_t>::max() / 3 - 1;
   if (mesh.triangles.size() > kMaxTriangles) throw std::invalid_argument("too many triangles");

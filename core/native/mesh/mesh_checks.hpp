@@ -6,7 +6,7 @@
 namespace satcheck {
 
 // Throws std::invalid_argument on a coordinate (numeric_range.hpp) or an index out of range.
-void require_valid(const Mesh& mesh);
+void require_valid(MeshView mesh);
 
 // Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.
 bool is_flat(const Mesh& mesh);

@@ -64,19 +64,20 @@ struct Welding {
   std::size_t duplicate_vertices = 0, unreferenced_vertices = 0;
 };
 
-std::vector<bool> find_referenced(const Mesh& mesh) {
-  std::vector<bool> referenced(mesh.vertices.size(), false);
+// 0 or 1 of each vertex; bytes, as of a bit its neighbours would have to be read.
+std::vector<unsigned char> find_referenced(MeshView mesh) {
+  std::vector<unsigned char> referenced(mesh.vertices.size(), 0);
   for (const Triangle& t : mesh.triangles) {
-    for (const std::uint32_t v : t) referenced[v] = true;
+    for (const std::uint32_t v : t) referenced[v] = 1;
   }
   return referenced;
 }
 
 Welding weld_and_count(const Mesh& mesh) {
   Welding result;
-  const std::vector<bool> referenced = find_referenced(mesh);
+  const std::vector<unsigned char> referenced = find_referenced(mesh);
   std::vector<Vec3> points = without_negative_zeros(mesh.vertices);
-  if (strictly_ascending(points) && std::find(referenced.begin(), referenced.end(), false) == referenced.end()) {
+  if (strictly_ascending(points) && std::find(referenced.begin(), referenced.end(), 0) == referenced.end()) {
     result.mesh = {std::move(points), mesh.triangles};
     return result;
   }
@@ -150,7 +151,7 @@ void count_triangles(Topology& topology, const Mesh& welded, const EdgeTable& ed
 }
 
 // With vertex v at place[v], each triangle from its lowest corner on, in ascending order.
-std::vector<Triangle> sorted_triangles(const std::vector<Triangle>& triangles, const std::uint32_t* place,
+std::vector<Triangle> sorted_triangles(std::span<const Triangle> triangles, const std::uint32_t* place,
                                        std::size_t vertex_count) {
   std::vector<Triangle> result = with_room<Triangle>(triangles.size());
   for (const Triangle& t : triangles) {
@@ -185,9 +186,9 @@ Mesh sort(const Mesh& mesh) {
   return result;
 }
 
-Mesh weld_and_sort(const Mesh& mesh) {
-  const std::vector<Vec3>& points = mesh.vertices;
-  const std::vector<bool> referenced = find_referenced(mesh);
+Mesh weld_and_sort(MeshView mesh) {
+  const std::span<const Vec3> points = mesh.vertices;
+  const std::vector<unsigned char> referenced = find_referenced(mesh);
   Mesh result;
   result.vertices = with_room<Vec3>(points.size());
   const auto place = unwritten<std::uint32_t>(points.size());

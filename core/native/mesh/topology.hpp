@@ -48,7 +48,7 @@ bool is_welded(const Mesh& mesh);
 Mesh sort(const Mesh& mesh);
 
 // sort(weld(mesh)), for less.
-Mesh weld_and_sort(const Mesh& mesh);
+Mesh weld_and_sort(MeshView mesh);
 
 // The parts connected through shared edges of the welded mesh, in order of their first triangle.
 std::vector<Mesh> split_components(const Mesh& mesh);

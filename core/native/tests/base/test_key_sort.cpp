@@ -49,8 +49,8 @@ void coordinates() {
     return coordinates_less(crowded[i], crowded[k]);
   });
   CHECK(order_by_coordinates(crowded) == expected);
-  CHECK(strictly_ascending({{0, 0, 0}, {0, 0, 1}, {0, 1, -5}}));
-  CHECK(!strictly_ascending({{0.0, 0, 0}, {-0.0, 0, 0}}));
+  CHECK(strictly_ascending(std::vector<Vec3>{{0, 0, 0}, {0, 0, 1}, {0, 1, -5}}));
+  CHECK(!strictly_ascending(std::vector<Vec3>{{0.0, 0, 0}, {-0.0, 0, 0}}));
 }
 
 void triangles() {
