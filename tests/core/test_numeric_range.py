@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from satcheck import core
 
+README = Path(__file__).resolve().parents[2] / "README.md"
 TETRAHEDRON = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], dtype=np.int64)
 
@@ -33,6 +36,16 @@ def test_beyond_it_meshes_hulls_and_poses_are_refused(coordinate: float) -> None
     ball = core.Sphere(1.0)
     with pytest.raises(OverflowError, match="out of range"):
         core.check_pair(ball, ball, pose_b=(coordinate, 0, 0))
+
+
+def test_the_limits_are_those_of_the_readme() -> None:
+    corner = np.array([[1e-80, 0, 0], [1e-45, 0, 0], [0, 1e-45, 0], [0, 0, 1e45]])
+    assert len(core.Mesh(corner, FACES).vertices) == 4
+    with pytest.raises(OverflowError, match="below 1e-45"):
+        core.Mesh(TETRAHEDRON * 9e-46, FACES)
+    limits = next(line for line in README.read_text("utf-8").splitlines() if "1e-80" in line)
+    assert "between 1e-80 and 1e45" in limits
+    assert "at least 1e-45 across" in limits
 
 
 def test_a_body_too_small_is_refused() -> None:
