@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 from satcheck.audit.bodies.boxes import holds as box_holds
 from satcheck.audit.curved.signed import convex_pair
 from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.report.report import NOT_AVAILABLE, ON_TRIANGLES
 
 if TYPE_CHECKING:
     from satcheck.audit.asked.plan import Plan
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.bodies.placed_body import PlacedBody
     from satcheck.audit.curved.signed import Signed
-    from satcheck.audit.report.report import Effect, Relation, Vector
+    from satcheck.audit.report.report import Relation, Vector
 
 STAGE = "curved"
 PROOF = "curved-exact"
 TOO_CLOSE = "one may lie within the other: too close to its surface to tell"
-ON_MESHES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
 OPEN_BOUNDS = "the bounds of a curved shape did not close"
 CLOSE_CONTACT = "a curved shape in contact as far as its bounds tell"
 
@@ -49,9 +49,9 @@ def frees(pair: Pair, move: Vector) -> bool:
 def without_meshes(reason: str | None, pair: Pair, plan: Plan) -> str | None:
     """The reason of a finding, which says too that what is found on meshes alone is not known of a
     curved shape."""
-    missing = [effect for effect in ON_MESHES if pair.asked.wants(effect)]
+    missing = [effect for effect in ON_TRIANGLES if pair.asked.wants(effect)]
     for effect in missing:
-        plan.record(effect, "not available", "a curved shape has no triangles")
+        plan.record(effect, NOT_AVAILABLE, "a curved shape has no triangles")
     if missing:
         return reason or f"{' and '.join(missing)}: not available for curved shapes"
     return reason

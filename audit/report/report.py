@@ -45,6 +45,9 @@ EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
 CROSS_CHECK = "cross-check"
+# The result of an effect that is found on triangles, of a pair with a curved shape.
+NOT_AVAILABLE = "not available"
+ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
 # The field that a document without timings lacks.
 TIME = "microseconds"
 # The code of an issue about a pair that failed by a fault of satcheck itself.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
+from satcheck.audit.report.report import NOT_AVAILABLE, ON_TRIANGLES
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
     by_surfaces,
@@ -38,7 +39,7 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
             *_moving(finding, unit_of(report.units)),
         )
     ]
-    lines += [Text(line) for line in _of_bodies(report)]
+    lines += [Text(line) for line in (*_curved(report), *_of_bodies(report))]
     for issue in report.issues:
         if issue.severity != "error":
             lines.append(Text(issue_line(issue), style=_ISSUE_COLOURS[issue.severity]))
@@ -107,6 +108,21 @@ def _moving(finding: Finding, unit: str | None) -> list[str]:
     where = ", ".join(place(one, unit) for one in swept.worst.at)
     deep = with_unit(bounds(*swept.worst.depth), unit)
     return [f"{pair}, while they move: deepest at {where}, {deep}"]
+
+
+def _curved(report: Report) -> Iterator[str]:
+    """A line for each effect that curved shapes do not have, on all of their pairs."""
+    if not any(effect.asked_by and effect.effect in ON_TRIANGLES for effect in report.effects):
+        return
+    pairs = Counter(
+        stage.stage
+        for finding in report.findings
+        for stage in finding.plan
+        if stage.result == NOT_AVAILABLE
+    )
+    for effect, count in pairs.items():
+        where = counted(count, "pair")
+        yield f"{effect}: not known of {where} with a curved shape, which has no triangles"
 
 
 def _of_bodies(report: Report) -> Iterator[str]:

@@ -112,3 +112,13 @@ def test_every_failure_is_counted_and_told_with_its_limit(tmp_path: Path) -> Non
     assert last.endswith(
         "1 pair hits while moving. Depth 0.25 mm. 1 pair does not keep the clearance."
     )
+
+
+def test_what_curved_shapes_lack_is_said_once_for_all_pairs(tmp_path: Path) -> None:
+    ball = '[[bodies]]\nid = "{}"\nshape = {{type = "sphere", radius = 1}}\n'
+    scene = 'schema = "satcheck.scene/1"\n' + "".join(map(ball.format, "abc"))
+    (tmp_path / "c.toml").write_text(scene, encoding="utf-8")
+    ran = satcheck("--volume", str(tmp_path / "c.toml"))
+    said = "volume: not known of 3 pairs with a curved shape, which has no triangles"
+    assert ran.out.splitlines().count(said) == 1
+    assert "not known" not in satcheck(str(tmp_path / "c.toml")).out
