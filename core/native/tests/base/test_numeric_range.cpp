@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <vector>
+
 #include "tests/check.hpp"
 
 using namespace satcheck;
