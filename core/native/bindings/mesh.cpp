@@ -56,7 +56,7 @@ Vec3 finite_point(const Tuple3& t) {
 
 std::vector<Vec3> copy_vertices(const double* data, std::size_t count) {
   std::vector<Vec3> vertices(count);
-  if (count != 0) std::memcpy(vertices.data(), data, count * sizeof(Vec3));
+  if (count != 0) std::memcpy(static_cast<void*>(vertices.data()), data, count * sizeof(Vec3));
   return vertices;
 }
 
