@@ -6,6 +6,7 @@ import json
 import math
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import pytest
@@ -184,9 +185,9 @@ def test_what_a_mesh_has_is_made_once_for_all_poses(monkeypatch: pytest.MonkeyPa
     made: list[str] = []
     make = SharedMesh.__init__
 
-    def counted(self: SharedMesh, file: MeshFile, settings: Settings) -> None:
+    def counted(self: SharedMesh, file: MeshFile, *rest: Any) -> None:
         made.append(file.sha256 + str(file.part))
-        make(self, file, settings)
+        make(self, file, *rest)
 
     monkeypatch.setattr(SharedMesh, "__init__", counted)
     check_poses(ARM, joint_samples(ROBOTS, 10, 3), QUICK)
