@@ -197,3 +197,40 @@ def test_needle_far_away() -> None:
     result = check_pair(Hull(needle), Hull(cube))
     width = float(needle[:, 0].max() - cube[:, 0].min())
     assert distance_of(result) == pytest.approx(-width, abs=EXACT)
+
+
+# Two splinters 2.7e-14 apart: GJK ends around the origin, EPA then finds a gap.
+SPLINTER = (
+    (-0.2916226806406031, -0.6817073229871919, 0.6709928002010347),
+    (-0.29162268064060565, -0.6817073229852073, 0.67099280020305),
+    (0.2916226806392516, 0.6817073229864927, -0.6709928002023325),
+    (0.2916226806419571, 0.6817073229859065, -0.6709928002017521),
+)
+SPLINTER_BESIDE = (
+    (-0.18244449134203333, -0.4264885896842243, 0.4197853879490403),
+    (-0.18244449134031449, -0.4264885896841034, 0.4197853879512832),
+    (1.395446119902908, -0.26387175483155223, -0.7983348786780129),
+    (1.395446119903164, -0.26387175483436875, -0.7983348786780571),
+)
+
+
+@pytest.mark.parametrize("power", [0, -1, -2, -9, 7])
+def test_witness_points_of_splinters_go_along_with_the_scale(power: int) -> None:
+    def found(factor: float) -> Any:
+        hulls = [
+            Hull([[x * factor for x in point] for point in points])
+            for points in (SPLINTER, SPLINTER_BESIDE)
+        ]
+        return check_pair(*hulls)
+
+    factor = 2.0**power
+    one, scaled = found(1.0), found(factor)
+    assert scaled.distance == one.distance * factor
+    for mine, theirs in ((scaled.witness_a, one.witness_a), (scaled.witness_b, one.witness_b)):
+        assert mine == tuple(x * factor for x in theirs)
+    # On both needles, which are 1e-11 wide at most.
+    for witness, points in ((one.witness_a, SPLINTER), (one.witness_b, SPLINTER_BESIDE)):
+        start, end = np.array(points[0]), np.array(points[2])
+        share = np.dot(np.subtract(witness, start), end - start) / np.dot(end - start, end - start)
+        assert 0 <= share <= 1
+        assert np.linalg.norm(start + share * (end - start) - witness) < 1e-11

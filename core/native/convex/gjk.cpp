@@ -58,6 +58,8 @@ SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
     const SupportPoint* p = simplex.vertex;
     const ClosestPoint closest = closest_point<true>(p[0].w, p[1].w, p[2].w, p[3].w, simplex.count);
     if (closest.encloses()) {
+      simplex.weight[3] = 0;  // the best point so far; where all around the origin is rounding, it is the answer
+      normalize_weights(simplex);
       result.v = {0, 0, 0};
       result.enclosed_radius = enclosed_radius(p[0].w, p[1].w, p[2].w, p[3].w);
       result.status = GjkResult::Status::encloses;
