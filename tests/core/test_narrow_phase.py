@@ -217,11 +217,11 @@ SPLINTER_BESIDE = (
 @pytest.mark.parametrize("power", [0, -1, -2, -9, 7])
 def test_witness_points_of_splinters_go_along_with_the_scale(power: int) -> None:
     def found(factor: float) -> Any:
-        hulls = [
+        a, b = (
             Hull([[x * factor for x in point] for point in points])
             for points in (SPLINTER, SPLINTER_BESIDE)
-        ]
-        return check_pair(*hulls)
+        )
+        return check_pair(a, b)
 
     factor = 2.0**power
     one, scaled = found(1.0), found(factor)
