@@ -42,7 +42,8 @@ def frozen(cls: type[T] | None = None, /, *, kw_only: bool = False) -> Any:
 
     kw_only: they are given by name alone. Instances compare, hash and match by their fields, have
     slots and no other attributes, and call `__post_init__` where there is one. A class has the
-    fields that it names itself, not those of a base.
+    fields that it names itself, not those of a base, and a subclass is called only where it is
+    `@frozen` itself.
     """
     if cls is None:
         return lambda named: _frozen(named, kw_only)
