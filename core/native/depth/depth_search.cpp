@@ -5,16 +5,17 @@
 #include "depth/depth_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
 
 #include "base/tolerances.hpp"
+#include "depth/corner_plane.hpp"
 #include "depth/forbidden_set.hpp"
 #include "depth/overlap_proof.hpp"
-#include "exact/predicates.hpp"
-#include "exact/triangle_pair.hpp"
+#include "depth/translation_box.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/moved_surface.hpp"
 #include "mesh_pair/wall_corner.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 // Measured, in nanoseconds.
 constexpr std::uint64_t kPlaneWork = 2, kBoxWork = 300, kPairWork = 100, kVertexWork = 5,
-                        kJudgedWork = 10'000;
+                        kJudgedWork = 10'000, kPollWork = 50'000'000;
 
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
@@ -38,8 +39,6 @@ constexpr std::size_t kSetsLeft = 24;
 constexpr double kIntoTheOpen = 1.0 / 16;
 // A way out that ends at a face is shortened to that face where the two agree to this share of it.
 constexpr double kSnap = 1e-6;
-// The first box is larger than it has to be by an odd number, so that halving it does not end at facets.
-constexpr double kRootSize = 1.0309;
 // Boxes below this share of the known way out lie on a seam of two sets, if no set holds them.
 constexpr double kSeam = 1e-5;
 
@@ -49,36 +48,6 @@ constexpr double kSmallestSphere = 64, kSphereRatio = 1.2, kScanStep = 0.05;
 
 // Rounding of the norm of a point.
 constexpr double kNormError = 4 * kUnitRoundoff;
-
-// Few enough digits that the centres of boxes are exact after some 90 halvings, 30 an axis.
-constexpr int kShortDigits = 20;
-double short_number_above(double x) {
-  int exponent = 0;
-  const double fraction = std::frexp(x, &exponent);
-  return std::ldexp(std::ceil(std::ldexp(fraction, kShortDigits)), exponent - kShortDigits);
-}
-
-struct Box {
-  double key;  // distance of its nearest point from the origin
-  Vec3 centre, half;
-  std::vector<std::uint32_t> sets;  // which of the first `seen` may hold a part of it
-  std::uint32_t seen;
-  std::uint64_t number;
-};
-
-struct Later {
-  bool operator()(const Box& a, const Box& b) const { return a.key != b.key ? a.key > b.key : a.number > b.number; }
-};
-
-Vec3 nearest_to_origin(const Box& box) {
-  const auto clamp = [](double c, double h) { return c - h > 0 ? c - h : c + h < 0 ? c + h : 0.0; };
-  return {clamp(box.centre.x, box.half.x), clamp(box.centre.y, box.half.y), clamp(box.centre.z, box.half.z)};
-}
-
-bool is_in(const Box& box, Vec3 t) {
-  const Vec3 d = t - box.centre;
-  return std::fabs(d.x) <= box.half.x && std::fabs(d.y) <= box.half.y && std::fabs(d.z) <= box.half.z;
-}
 
 // Unit vectors all round: towards the points of a lattice on the surface of a cube.
 std::vector<Vec3> ways() {
@@ -102,10 +71,10 @@ class Search {
 
   DepthInterval run() {
     ask_meshes({0, 0, 0});
-    push({0, 0, 0}, in_plane(Vec3{1, 1, 1} * short_number_above(kRootSize * result_.upper)), {}, 0);
+    push({0, 0, 0}, in_plane(Vec3{1, 1, 1} * root_half(result_.upper)), {}, 0);
     double open_from = result_.upper;
     while (!open_.empty()) {
-      Box box = open_.top();
+      TranslationBox box = open_.top();
       open_.pop();
       open_from = box.key;
       if (std::fmax(std::fmin(open_from, covered_to_), goal_.lower) >= enough()) break;
@@ -119,9 +88,10 @@ class Search {
         continue;
       }
       ++result_.boxes;
+      poll();
       open_from = result_.upper;
       if (is_covered(box)) continue;
-      Vec3 t = nearest_to_origin(box);
+      Vec3 t = box.nearest_to_origin();
       if (is_on_seam(box)) {
         fit(on_facets(box));
       } else if (find_open(box, t) || is_open(box, t = box.centre)) {
@@ -152,14 +122,14 @@ class Search {
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
   void push(Vec3 centre, Vec3 half, std::vector<std::uint32_t> sets, std::uint32_t seen) {
-    Box box{0, centre, half, std::move(sets), seen, next_number_++};
-    box.key = norm(nearest_to_origin(box));
+    TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++};
+    box.key = norm(box.nearest_to_origin());
     if (box.key >= result_.upper) return;
     result_.work += kBoxWork;
     open_.push(std::move(box));
   }
 
-  void split(const Box& box) {
+  void split(const TranslationBox& box) {
     const Vec3 h = box.half;
     const int axis = h.x >= h.y && h.x >= h.z ? 0 : h.y >= h.z ? 1 : 2;
     Vec3 half = h, shift;
@@ -170,8 +140,8 @@ class Search {
   }
 
   // Whether one set forbids all translations in the box that are short enough to matter.
-  bool is_covered(Box& box) {
-    const Aabb bounds{box.centre - box.half, box.centre + box.half};
+  bool is_covered(TranslationBox& box) {
+    const Aabb bounds = box.bounds();
     for (; box.seen < sets_.size(); ++box.seen) {
       if (meet(sets_[box.seen].box, bounds)) box.sets.push_back(box.seen);
     }
@@ -193,7 +163,7 @@ class Search {
   }
 
   // Whether no set holds t, and it is short enough to matter.
-  bool is_open(const Box& box, Vec3 t) {
+  bool is_open(const TranslationBox& box, Vec3 t) {
     return norm(t) < enough() && std::none_of(box.sets.begin(), box.sets.end(), [&](std::uint32_t i) {
       result_.work += kPlaneWork * sets_[i].normal.size();
       return sets_[i].exit(t).depth > 0;
@@ -201,7 +171,7 @@ class Search {
   }
 
   // The point nearest to t that no set holds, if it is in the box and short enough to matter.
-  bool find_open(const Box& box, Vec3& t) {
+  bool find_open(const TranslationBox& box, Vec3& t) {
     const Vec3 start = t;
     const double beyond = kIntoTheOpen * max_abs(box.half);
     std::vector<Wall> walls;
@@ -212,7 +182,7 @@ class Search {
         const ForbiddenSet::Exit exit = sets_[i].exit(t);
         if (exit.depth > deepest.depth) deepest = exit;
       }
-      if (!(deepest.depth > 0)) return is_in(box, t);
+      if (!(deepest.depth > 0)) return box.contains(t);
       if (walls.size() >= kSetsLeft) return false;
       walls.push_back({deepest.normal, dot(deepest.normal, t - start) + deepest.depth + beyond});
       const std::optional<Vec3> next = nearest_beyond(walls);
@@ -222,9 +192,16 @@ class Search {
     return false;
   }
 
-  bool is_on_seam(const Box& box) const { return max_abs(box.half) < kSeam * result_.upper; }
+  void poll() {
+    if (!goal_.poll || result_.work < next_poll_) return;
+    next_poll_ = result_.work + kPollWork;
+    goal_.poll();
+  }
+
+  bool is_on_seam(const TranslationBox& box) const { return max_abs(box.half) < kSeam * result_.upper; }
 
   MeshRelation relation_at(Vec3 t) {
+    poll();
     ++result_.mesh_tests;
     const MeshRelation r = mesh_relation(moved_.at(t), b_);
     result_.work += kVertexWork * a_.mesh.vertices.size() + kPairWork * (r.box_tests + r.triangle_tests) +
@@ -294,8 +271,8 @@ class Search {
   }
 
   // The box's nearest point, shifted onto the facets that cut the box.
-  Vec3 on_facets(const Box& box) const {
-    Vec3 t = nearest_to_origin(box);
+  Vec3 on_facets(const TranslationBox& box) const {
+    Vec3 t = box.nearest_to_origin();
     for (const std::uint32_t i : box.sets) {
       for (std::size_t k = 0; k < sets_[i].normal.size(); ++k) {
         const Vec3 n = sets_[i].normal[k];
@@ -312,13 +289,12 @@ class Search {
     for (int step = 0; step < kStepsOut; ++step) {
       const MeshRelation relation = relation_at(t);
       if (is_free(relation)) return take(t);
-      Touch nearest{INFINITY, -1, {}};
-      for (const Touch& touch : touches(relation)) {
-        const double shift = std::fabs(touch.height - dot(touch.normal, t));
-        if (shift > 0 && shift < std::fabs(nearest.height - dot(nearest.normal, t))) nearest = touch;
+      CornerPlane nearest{INFINITY, -1, {}};
+      for (const CornerPlane& plane : met_planes(relation)) {
+        if (plane.distance(t) > 0 && plane.distance(t) < nearest.distance(t)) nearest = plane;
       }
-      if (!(std::fabs(nearest.height - dot(nearest.normal, t)) <= kSeam * result_.upper)) break;
-      t = in_plane(moved_to(t, nearest));
+      if (!(nearest.distance(t) <= kSeam * result_.upper)) break;
+      t = in_plane(nearest.nearest_to(t));
     }
     ask_meshes(t);
   }
@@ -327,45 +303,17 @@ class Search {
   void snap() {
     if (!result_.found) return;
     const double length = norm(result_.way_out);
-    for (const Touch& touch : touches(relation_at(result_.way_out * (1 - kSnap)))) {
-      const Vec3 t = in_plane(touch.normal * touch.height);
+    for (const CornerPlane& plane : met_planes(relation_at(result_.way_out * (1 - kSnap)))) {
+      const Vec3 t = in_plane(plane.normal * plane.height);
       const bool agrees = norm(t - result_.way_out) <= kSnap * length;
       if (agrees && norm(t) < result_.upper && is_free(relation_at(t))) take(t);
     }
   }
 
-  // A translation t with normal . t = height puts a corner of one triangle into the plane of the other.
-  struct Touch {
-    double height;
-    int axis;  // along which the plane's normal is, or -1
-    Vec3 normal;
-  };
-
-  static Vec3 moved_to(Vec3 t, const Touch& touch) {
-    switch (touch.axis) {
-      case 0: return {touch.height * touch.normal.x, t.y, t.z};
-      case 1: return {t.x, touch.height * touch.normal.y, t.z};
-      case 2: return {t.x, t.y, touch.height * touch.normal.z};
-      default: return t + touch.normal * (touch.height - dot(touch.normal, t));
-    }
-  }
-
-  std::vector<Touch> touches(const MeshRelation& relation) const {
-    std::vector<Touch> found;
-    if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return found;
-    const Corners p = corners(a_.mesh, relation.triangle_a), q = corners(b_.mesh, relation.triangle_b);
-    for (const bool of_a : {true, false}) {
-      const Corners& plane = of_a ? p : q;
-      const Vec3 normal = rounded_normal(plane[0], plane[1], plane[2]);
-      if (!(norm(normal) > 0)) continue;
-      const Vec3 unit = normal * (1 / norm(normal));
-      const int axis = unit.y == 0 && unit.z == 0 ? 0 : unit.z == 0 && unit.x == 0 ? 1 : unit.x == 0 && unit.y == 0 ? 2 : -1;
-      for (int k = 0; k < 3; ++k) {
-        const Vec3 t = of_a ? q[k] - plane[0] : plane[0] - p[k];
-        found.push_back({dot(unit, t), axis, unit});
-      }
-    }
-    return found;
+  // Of the triangles at which the relation was decided.
+  std::vector<CornerPlane> met_planes(const MeshRelation& relation) const {
+    if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return {};
+    return corner_planes(corners(a_.mesh, relation.triangle_a), corners(b_.mesh, relation.triangle_b));
   }
 
   const Surface& a_;
@@ -375,8 +323,8 @@ class Search {
   DepthInterval result_;
   double covered_to_ = INFINITY;  // the boxes that were dropped hold no shorter way out
   std::vector<ForbiddenSet> sets_;
-  std::priority_queue<Box, std::vector<Box>, Later> open_;
-  std::uint64_t next_number_ = 0;
+  std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
+  std::uint64_t next_number_ = 0, next_poll_ = kPollWork;
   bool scanned_ = false;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "mesh/surface.hpp"
 
@@ -14,6 +15,7 @@ struct DepthGoal {
   double width = 0.01;     // the interval may stay this wide, relative to its upper end
   std::uint64_t work = 0;  // units that may be spent, each about a nanosecond; the same on every machine
   int across = -1;         // an axis of the world along which nothing is moved: the depth in the plane; -1: none
+  std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
 };
 
 enum class DepthStop : std::uint8_t {

@@ -1,0 +1,34 @@
+// Boxes in the space of translations, which the search for the depth cuts in halves.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.hpp"
+
+namespace satcheck {
+
+struct TranslationBox {
+  double key;  // distance of its nearest point from the origin
+  Vec3 centre, half;
+  std::vector<std::uint32_t> sets;  // which of the first `seen` forbidden sets may hold a part of it
+  std::uint32_t seen;
+  std::uint64_t number;
+
+  Vec3 nearest_to_origin() const;
+  bool contains(Vec3 t) const;
+  Aabb bounds() const { return {centre - half, centre + half}; }
+};
+
+// The order of a queue whose top is the box nearest to the origin; of equals, the one with the least number.
+struct Later {
+  bool operator()(const TranslationBox& a, const TranslationBox& b) const {
+    return a.key != b.key ? a.key > b.key : a.number > b.number;
+  }
+};
+
+// Half the side of a cube round the origin that holds all translations of at most this length, with few enough
+// digits that the centres of its halves are exact after some 90 halvings, 30 an axis.
+double root_half(double length);
+
+}  // namespace satcheck
