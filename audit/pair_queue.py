@@ -153,5 +153,10 @@ class _Workers:
             from concurrent.futures import ThreadPoolExecutor
 
             self._pool = ThreadPoolExecutor(self._threads)
-            self._stack.callback(self._pool.shutdown, cancel_futures=True)
+            self._stack.push(self._end)
         return self._pool
+
+    def _end(self, kind: type[BaseException] | None, *_: object) -> None:
+        """After an error, Ctrl-C for one, nobody waits for what is under way."""
+        if self._pool is not None:
+            self._pool.shutdown(wait=kind is None, cancel_futures=True)

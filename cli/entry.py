@@ -15,6 +15,9 @@ COMPLETION_VARIABLE = "_SATCHECK_COMPLETE"
 
 def main() -> None:
     code = _run()
+    if code == exit_codes.INTERRUPTED:
+        # Threads may still be at work: the interpreter would wait for them.
+        os._exit(code)
     # All that is left goes with the process: the interpreter's last search for cycles finds nothing
     # worth a tenth of a small check.
     gc.freeze()

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from queue import SimpleQueue
+from threading import Event
 
 import pytest
 
@@ -96,3 +98,22 @@ def test_what_another_check_needs_is_kept():
 
 def test_no_pairs_at_all():
     assert list(InTurn(0).each([], steps(id))) == []
+
+
+def test_after_an_error_nobody_waits_for_the_others():
+    _, pairs = chain(PARALLEL_PAIRS + 2)
+    in_order = []
+    list(InTurn(jobs=1).each(pairs, steps(in_order.append)))
+    started, answered, heard = Event(), Event(), SimpleQueue()
+
+    def examine(pair):
+        if pair is in_order[0]:
+            assert started.wait(timeout=20)
+            raise KeyboardInterrupt
+        started.set()
+        heard.put(answered.wait(timeout=20))
+
+    with pytest.raises(KeyboardInterrupt):
+        list(InTurn(jobs=2).each(pairs, steps(examine, heavy=lambda _: True)))
+    answered.set()
+    assert heard.get(timeout=20)

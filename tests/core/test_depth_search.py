@@ -5,6 +5,8 @@ from __future__ import annotations
 import itertools
 import math
 import random
+import signal
+import threading
 from typing import Any
 
 import numpy as np
@@ -230,3 +232,17 @@ def test_what_is_no_goal_is_refused(wrong: dict[str, Any]) -> None:
     goal: dict[str, Any] = {"upper": 1.0, "lower": 0.0, "width": 0.01} | wrong
     with pytest.raises(ValueError, match="must"):
         search_depth(cube, cube, work=1, **goal)
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="no signals to a thread")
+def test_ctrl_c_ends_a_search() -> None:
+    """It has work for an hour; who does not hear the signal never comes back."""
+    a, b = torus(24, 12), torus(20, 10).translated(CROSSED)
+    main = threading.get_ident()
+    later = threading.Timer(0.2, signal.pthread_kill, (main, signal.SIGINT))
+    later.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            search(a, b, upper=6.0, width=0.0, work=3_600_000_000_000)
+    finally:
+        later.cancel()

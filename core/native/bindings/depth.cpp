@@ -16,6 +16,12 @@ namespace {
 
 using Tuple3 = std::tuple<double, double, double>;
 
+// Ctrl-C would not be heard before the end of a long search.
+void raise_interrupts() {
+  const nb::gil_scoped_acquire held;
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+}
+
 DepthInterval checked_search(const Surface& a, const Surface& b, double upper, double lower, double width,
                              std::uint64_t work, int across) {
   if (!(upper >= 0 && std::isfinite(upper))) throw std::invalid_argument("upper must be a finite length >= 0");
@@ -23,7 +29,7 @@ DepthInterval checked_search(const Surface& a, const Surface& b, double upper, d
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
   if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
   if (a.mesh.triangles.empty() || b.mesh.triangles.empty()) throw std::invalid_argument("a surface is empty");
-  return search_depth(a, b, {upper, lower, width, work, across});
+  return search_depth(a, b, {upper, lower, width, work, across, raise_interrupts});
 }
 
 }  // namespace
@@ -50,7 +56,8 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
         R"(The depth of two overlapping meshes as a proven interval, at most `width` wide relative to its upper end unless
 `work` units, each about a nanosecond, are spent first. upper: a known way out is this long; lower: a known bound.
 across: an axis of the world along which nothing is moved, as bodies that are prisms along it need it; -1: none.
-The same input gives the same result on every machine. ValueError on a length that is none, or an empty surface.)");
+The same input gives the same result on every machine. In the main thread a signal handler may raise, KeyboardInterrupt for one.
+ValueError on a length that is none, or an empty surface.)");
 }
 
 }  // namespace satcheck
