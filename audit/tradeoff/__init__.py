@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from satcheck.audit.tradeoff.figure import Figure, Truth
 from satcheck.audit.tradeoff.measure import Budget, measure_pair
-from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, Times, Tradeoff
-from satcheck.audit.tradeoff.rungs import RUNGS, Rung
+from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, Tradeoff, choices
+from satcheck.audit.tradeoff.rungs import RUNGS, Rung, labels_of
+from satcheck.audit.tradeoff.times import Times
 from satcheck.audit.tradeoff.tradeoff import tradeoff
 
 __all__ = [
@@ -22,6 +23,8 @@ __all__ = [
     "Times",
     "Tradeoff",
     "Truth",
+    "choices",
+    "labels_of",
     "measure_pair",
     "tradeoff",
 ]

@@ -59,8 +59,16 @@ class Truth:
         return overlap or relation in (None, self.relation)
 
 
+def is_of_bodies(finding: Finding) -> bool:
+    """Whether it says how the bodies relate, not their surfaces alone, or nothing."""
+    return finding.undecided not in ("relation", "inside")
+
+
 def figure_of(finding: Finding, contact: Contact) -> Figure | None:
-    """contact: of the same ladder, for what it proves and nobody asked to report."""
+    """contact: of the same ladder, for what it proves and nobody asked to report. None: no figure
+    of the bodies; how far their surfaces are apart says nothing of one that may lie inside."""
+    if not is_of_bodies(finding):
+        return None
     if finding.depth_bounds is not None:
         low, high = finding.depth_bounds
         # An overlap that is not proven may be a gap, of any width.
@@ -79,7 +87,7 @@ def figure_of(finding: Finding, contact: Contact) -> Figure | None:
 
 def truth_of(finding: Finding, figure: Figure | None, pad: float) -> Truth:
     relation = plain(finding.relation)
-    if finding.exact_relation is None or finding.undecided in ("relation", "inside"):
+    if finding.exact_relation is None or not is_of_bodies(finding):
         return Truth(None, None, pad, finding.reason or "the exact rung has not proven it")
     known = figure is not None and figure.width is not None and math.isfinite(figure.width)
     return Truth(relation, figure if known else None, pad, finding.reason)

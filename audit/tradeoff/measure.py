@@ -12,11 +12,12 @@ from pathlib import Path
 from time import monotonic
 
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.report.report import OVERLAPS, Stage
+from satcheck.audit.report.report import OVERLAPS, Finding
 from satcheck.audit.tradeoff.asking import Asked, Bodies, Measured, ask, ask_parts, ask_volume
-from satcheck.audit.tradeoff.figure import Truth, figure_of, plain, truth_of
-from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, State, Times, with_front
+from satcheck.audit.tradeoff.figure import Truth, figure_of, is_of_bodies, plain, truth_of
+from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, State, with_front
 from satcheck.audit.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
+from satcheck.audit.tradeoff.times import Times
 from satcheck.core.frozen import replace
 
 SPENT = "budget"
@@ -112,17 +113,17 @@ def measure_pair(
     plainly = _plain_check(bodies, budget)
     apart = plainly is not None and plainly.finding.relation not in OVERLAPS
     for group in (group for group in GROUPS for _ in range(repeat)):
-        _warm_up(bodies, budget)
         for gauge in (gauges[rung] for rung in group if rung in gauges):
             _leave_out(gauge, gauges)
             if gauge.wants_more and gauge.left(budget) > gauge.longest:
+                _warm_up(bodies, budget)
                 _run(gauge, bodies, budget, apart=apart)
             if told is not None:
                 told()
     truth = _truth(gauges[EXACT])
     rows = [_row(gauge, truth) for gauge in gauges.values()]
-    picked = None if plainly is None else _picked(plainly.finding.plan)
-    return PairTradeoff(a, b, truth, picked, with_front(rows))
+    picked = None if plainly is None else _picked(plainly.finding)
+    return PairTradeoff(a, b, truth, picked, with_front(rows, truth.pad))
 
 
 def _leave_out(gauge: Gauge, gauges: dict[Rung, Gauge]) -> None:
@@ -152,10 +153,11 @@ def _plain_check(bodies: Bodies, budget: Budget) -> Asked | None:
 
 
 def _warm_up(bodies: Bodies, budget: Budget) -> None:
-    """A question that is not counted: after a child process the next one is slower."""
+    """The cheapest question, not counted, before each run: what ran before, a dear rung or a child
+    process, makes the next question slower, whichever it is."""
     if budget.left > 0:
         with suppress(Exception):  # the row of the rung will say it
-            ask(bodies, Settings(depth=True, accuracy="hull"))
+            ask(bodies, Settings(depth=True, accuracy="aabb"))
 
 
 def _import_early() -> None:
@@ -260,20 +262,27 @@ def _row(gauge: Gauge, truth: Truth) -> Row:
         return _with_volume(row, answer, truth)
     finding = answer.finding
     relation = plain(finding.relation)
-    overlap = None if relation == "indeterminate" else relation in OVERLAPS
+    known = is_of_bodies(finding) and relation != "indeterminate"
+    overlap = relation in OVERLAPS if known else None
     figure = figure_of(finding, answer.contact)
     return replace(
         row,
         overlap=overlap,
         relation=relation,
-        proven=finding.exact_relation is not None,
+        proven=known and finding.exact_relation is not None,
         right=truth.is_right(overlap, relation),
         figure=figure,
         error=truth.error(figure),
         hulls=answer.hulls,
-        settled_by=_picked(finding.plan).rung,
-        reason=finding.reason if relation == "indeterminate" else None,
+        settled_by=_ended(answer),
+        reason=None if known else finding.reason,
     )
+
+
+def _ended(answer: Asked) -> str:
+    """The rung of its last step; parts that nobody could make are the hulls of the bodies."""
+    rung = _picked(answer.finding).rung
+    return "hull" if rung == "parts" and not answer.split else rung
 
 
 def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
@@ -289,12 +298,17 @@ def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
     )
 
 
-def _picked(plan: tuple[Stage, ...]) -> Picked:
-    """The last stage that is a rung settled it; those before say why they could not."""
-    climbed = [stage for stage in plan if stage.stage in STAGES]
+def _picked(finding: Finding) -> Picked:
+    """The last stage that is a rung ended the climb; those before say why they could not."""
+    climbed = [stage for stage in finding.plan if stage.stage in STAGES]
     why = "; ".join(
         f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
         for stage in climbed
     )
     ran = [STAGES[stage.stage] for stage in climbed if stage.result != SKIPPED]
-    return Picked(ran[-1] if ran else "none", why)
+    settled = finding.exact_relation is not None and is_of_bodies(finding)
+    return Picked(ran[-1] if ran else "none", settled, why if settled else _unsettled(finding, why))
+
+
+def _unsettled(finding: Finding, why: str) -> str:
+    return "; ".join(said for said in (why, finding.reason) if said)

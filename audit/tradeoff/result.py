@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from statistics import median
+from collections.abc import Sequence
 from typing import Any, Literal
 
 from satcheck.audit.report.report import OVERLAPS, Relation, Tool
 from satcheck.audit.tradeoff.figure import Figure, Truth
 from satcheck.audit.tradeoff.pareto import front
 from satcheck.audit.tradeoff.rungs import Rung
+from satcheck.audit.tradeoff.times import Times
 from satcheck.core.frozen import frozen, replace
 
 SCHEMA = "satcheck.tradeoff/1"
@@ -16,29 +17,14 @@ SCHEMA = "satcheck.tradeoff/1"
 State = Literal["answered", "failed", "not run"]
 
 
-@frozen
-class Times:
-    """Seconds of every run, in the order in which they ran; one at least."""
-
-    runs: tuple[float, ...]
-
-    @property
-    def median(self) -> float:
-        return median(self.runs)
-
-    def to_dict(self) -> dict[str, Any]:
-        low, high = min(self.runs), max(self.runs)
-        micro = {"median": self.median, "low": low, "high": high}
-        return {key: 1e6 * value for key, value in micro.items()} | {"runs": len(self.runs)}
-
-
 @frozen(kw_only=True)
 class Row:
     """A rung and what came of it.
 
-    reason: why it failed or was not run. overlap: None where it cannot say. relation: None for the
-    Boolean, which knows only whether there is a volume in common. proven: it has proven its
-    relation. right: held against the truth; None: one of the two is not known. figure: the signed
+    reason: why it failed, was not run, or cannot say. overlap: None where it cannot say. relation:
+    None for the Boolean, which knows only whether there is a volume in common; where the inside of
+    a body could not be checked, that of the surfaces. proven: it has proven how the bodies relate.
+    right: held against the truth; None: one of the two is not known. figure: the signed
     distance. error: see Truth.error. hulls: convex bodies that stood for A and B. settled_by: the
     rung at which its climb ended. cold: nothing kept from before; cached: with the parts on disk,
     or the child process running. cpu: of the cold runs, child processes included; None: not known.
@@ -66,12 +52,13 @@ class Row:
     on_front: bool = False
 
     @property
-    def time(self) -> float | None:
-        return None if self.cold is None else self.cold.median
-
-    @property
     def size_of_error(self) -> float | None:
         return None if self.error is None else abs(self.error)
+
+    @property
+    def ended_lower(self) -> bool:
+        """Its climb ended before its own rung."""
+        return self.settled_by not in (None, self.rung.name)
 
     @property
     def standing(self) -> int:
@@ -109,10 +96,15 @@ class Row:
 
 @frozen
 class Picked:
-    """The rung by which a plain check settles the relation, and what each step before it said."""
+    """The rung at which a plain check ends its climb, whether that settles the relation, and what
+    each step said."""
 
     rung: str
+    settled: bool
     why: str
+
+    def to_dict(self) -> dict[str, Any]:
+        return {"rung": self.rung, "settled": self.settled, "why": self.why}
 
 
 @frozen
@@ -139,9 +131,7 @@ class PairTradeoff:
                 "bounds": None if figure is None else [figure.low, figure.high],
                 "reason": truth.reason,
             },
-            "default": None
-            if self.picked is None
-            else {"rung": self.picked.rung, "why": self.picked.why},
+            "default": None if self.picked is None else self.picked.to_dict(),
             "rungs": [row.to_dict() for row in self.rows],
         }
 
@@ -178,15 +168,15 @@ class Tradeoff:
         }
 
 
-def with_front(rows: list[Row]) -> tuple[Row, ...]:
-    """The rows with their marks. One that ended its climb at a lower rung with the same answer is
-    that rung again, and only noise could put it on the front."""
-    figures = {row.rung.name: row.figure for row in rows}
+def choices(rows: Sequence[Row]) -> list[Row]:
+    """Without those that climbed no further than a lower rung and say what that says: they are that
+    rung again."""
+    figures: dict[str | None, Figure | None] = {row.rung.name: row.figure for row in rows}
+    return [row for row in rows if not row.ended_lower or row.figure != figures.get(row.settled_by)]
 
-    def is_again(row: Row) -> bool:
-        lower = row.settled_by
-        return lower not in (None, row.rung.name) and row.figure == figures.get(lower or "")
 
-    compared = [row for row in rows if not is_again(row)]
-    on_front = {row.rung for row, mark in zip(compared, front(compared), strict=True) if mark}
+def with_front(rows: Sequence[Row], pad: float) -> tuple[Row, ...]:
+    """The rows with their marks. pad: of the truth."""
+    compared = choices(rows)
+    on_front = {row.rung for row, mark in zip(compared, front(compared, pad), strict=True) if mark}
     return tuple(replace(row, on_front=row.rung in on_front) for row in rows)

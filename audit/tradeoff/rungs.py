@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from satcheck.audit.asked.settings import Accuracy
 from satcheck.core.frozen import frozen
 
@@ -41,3 +43,19 @@ GROUPS: tuple[tuple[Rung, ...], ...] = (
     (EXACT, *(rung for rung in RUNGS if rung.name not in ("parts", "exact"))),
     tuple(rung for rung in RUNGS if rung.name == "parts"),
 )
+
+
+def labels_of(rungs: Collection[Rung]) -> str:
+    """`obb, parts 0.5 .. 0.1, exact`: in the order of RUNGS, neighbouring thresholds as one."""
+    found: list[list[Rung]] = []
+    for before, rung in zip((None, *RUNGS), RUNGS, strict=False):
+        if rung not in rungs:
+            continue
+        if found and found[-1][-1] == before and found[-1][-1].name == rung.name:
+            found[-1].append(rung)
+        else:
+            found.append([rung])
+    return ", ".join(
+        run[0].label if len(run) == 1 else f"{run[0].label} .. {run[-1].threshold:g}"
+        for run in found
+    )

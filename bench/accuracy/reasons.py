@@ -17,7 +17,10 @@ _BUDGET = (
     (re.compile(r"^budget: stopped after"), "stopped at its budget"),
     (re.compile(r"^budget$"), "the budget of the pair was spent, or too little left"),
 )
-_OF_A_PAIR = re.compile(r"^(no volume: )?(body '[^']*':? |[^ ]+ and [^ ]+: )?")
+_OF_A_PAIR = re.compile(
+    r"^(no volume: )?(body '[^']*':? |[^ ]+ and [^ ]+: )?"
+    r"|(?<=the inside) of .+?(?= was not checked)"
+)
 _WORDS = {"failed": "refused", "not run": "not run", "answered": "undecided"}
 
 

@@ -25,6 +25,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "report": ("writing",),
 }
 OTHER = "other"
+NOTHING = "nothing"
 SETTLED_EARLY, APART, OVERLAPPING = (
     "boxes or hulls settle it",
     "triangles: apart",
@@ -44,9 +45,9 @@ class StageTimes:
 
 
 def settled_by(records: Sequence[Record]) -> dict[str, int]:
-    """How often each rung settled the relation in a plain check."""
-    found = Counter(one["pair"]["default"]["rung"] for one in records if one["pair"]["default"])
-    return dict(found)
+    """How often each rung settled the relation in a plain check, and how often none did."""
+    ended = [one["pair"]["default"] for one in records if one["pair"]["default"]]
+    return dict(Counter(one["rung"] if one["settled"] else NOTHING for one in ended))
 
 
 def grouped(record: Record) -> dict[str, float]:

@@ -8,14 +8,16 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.audit.tradeoff import labels_of
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import DIGITS, bounds, duration, number
+from satcheck.cli.report.tradeoff_steps import steps
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.audit.tradeoff import Figure, PairTradeoff, Row, Times, Tradeoff
+    from satcheck.audit.tradeoff import Figure, PairTradeoff, Row, Rung, Times, Tradeoff
     from satcheck.cli.output import Page
 
 _MICROSECONDS = 1e6
@@ -38,8 +40,9 @@ def render(found: Tradeoff, page: Page) -> str:
     if found.left_out:
         console.print(f"{counted(found.left_out, 'more pair')} with boxes that meet: see --pairs.")
     console.print(
-        "* on the Pareto front: no rung is faster, nearer and as sure. Error: signed distance said "
-        "minus proven; below 0: closer or deeper than it is."
+        "* on the Pareto front: no rung is as near, as sure and faster by more than its runs "
+        "spread (middle half). Error: signed distance said minus proven; below 0: closer or deeper "
+        "than it is."
     )
     spent = f"{number(round(found.spent, 1))} s of {number(found.budget)} s"
     console.print(f"Medians of up to {counted(found.repeat, 'run')} in turn, {spent}.")
@@ -49,18 +52,26 @@ def render(found: Tradeoff, page: Page) -> str:
 def _print_pair(console: Canvas, pair: PairTradeoff, page: Page) -> None:
     console.print(f"{pair.a} against {pair.b}: {_truth(pair)}")
     console.print(_table(pair, page))
+    for line in _remarks(pair):
+        console.print(f"  {line}")
+    for line in steps(pair):
+        console.print(f"* {line}")
+    if pair.picked is not None:
+        ended = "settled by" if pair.picked.settled else "not settled, ends at"
+        console.print(f"Default: {ended} {pair.picked.rung}. {pair.picked.why}.")
+    console.print()
+
+
+def _remarks(pair: PairTradeoff) -> list[str]:
+    """Why rungs do not answer, and which climbed no further than a lower one."""
+    silent: dict[str, list[Rung]] = {}
+    early: dict[str, list[Rung]] = {}
     for row in pair.rows:
         if row.reason:
-            console.print(f"  {row.rung.label}: {row.state}, {row.reason}")
-    early: dict[str, list[str]] = {}
-    for row in pair.rows:
-        if row.settled_by not in (None, row.rung.name):
-            early.setdefault(str(row.settled_by), []).append(row.rung.label)
-    for rung, labels in early.items():
-        console.print(f"  the same as {rung} but for noise in the time: {', '.join(labels)}")
-    if pair.picked is not None:
-        console.print(f"Default: settled by {pair.picked.rung}. {pair.picked.why}.")
-    console.print()
+            silent.setdefault(f"{row.state}, {row.reason}", []).append(row.rung)
+        if row.ended_lower:
+            early.setdefault(f"climbed no further than {row.settled_by}", []).append(row.rung)
+    return [f"{labels_of(rungs)}: {said}" for said, rungs in (silent | early).items()]
 
 
 def _truth(pair: PairTradeoff) -> str:
@@ -131,6 +142,8 @@ def _relation(row: Row) -> str:
         return words[row.overlap]
     if row.proven or row.relation == "indeterminate":
         return row.relation
+    if row.overlap is None:
+        return f"surfaces {row.relation}"
     return f"possibly {row.relation}"
 
 

@@ -1,7 +1,8 @@
 """One pair as a picture: error against time, both logarithmic, an SVG fragment.
 
 Errors of 0 have no logarithm: they lie on a lane of their own below the axis, and what gives no
-distance at all, the Boolean, on one below that.
+distance at all, the Boolean, on one below that. Rungs that climbed no further than a lower one are
+named, not drawn.
 """
 
 from __future__ import annotations
@@ -11,12 +12,14 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
+from satcheck.audit.tradeoff import choices, labels_of
 from satcheck.cli.report.numbers import duration, number
 from satcheck.cli.report.tradeoff_labels import around, baseline, place
+from satcheck.cli.report.tradeoff_steps import steps
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
-    from satcheck.audit.tradeoff import PairTradeoff, Row
+    from satcheck.audit.tradeoff import PairTradeoff, Picked, Row, Rung
 
 WIDTH = 760.0
 _LEFT, _RIGHT = 96.0, 24.0
@@ -24,6 +27,7 @@ _TITLE, _LANE, _FOOT, _LINE = 34.0, 34.0, 28.0, 15.0
 _ABOVE = 21.0  # labels of the topmost points lie above the grid
 _DECADE, _LEAST_HEIGHT, _MOST_HEIGHT = 42.0, 84.0, 210.0
 _MICROSECONDS = 1e6
+_LETTERS = 104  # that fit on a line below the plot
 _NEAR = 20.0  # points of one kind within so many pixels share a label
 _KINDS = {0: "proven", 1: "guess", 2: "wrong"}
 
@@ -59,6 +63,7 @@ class _Errors:
 
     decades: tuple[int, int] | None
     height: float
+    lanes: tuple[str, ...]
 
     def y(self, error: float | None) -> float:
         top = _TITLE + self.height
@@ -71,7 +76,7 @@ class _Errors:
 
     @property
     def bottom(self) -> float:
-        return _TITLE + self.height + 2 * _LANE
+        return _TITLE + self.height + len(self.lanes) * _LANE
 
 
 @frozen
@@ -84,46 +89,71 @@ class _Dot:
 
 def panel(pair: PairTradeoff, time: TimeAxis) -> tuple[str, float]:
     """The fragment, from y = 0 down, and its height."""
-    drawn = [row for row in pair.rows if row.cold is not None and row.state == "answered"]
+    answered = [row for row in pair.rows if row.cold is not None and row.state == "answered"]
+    drawn = choices(answered)
     errors = _error_axis(drawn)
     dots = list(_dots(drawn, time, errors))
-    silent = [row for row in pair.rows if row not in drawn]
-    foot = errors.bottom + _FOOT
-    parts = [
-        f'<text class="title" x="{_LEFT:g}" y="18">{escape(_title(pair))}</text>',
+    said = steps(pair)
+    plot = [
         *_grid(time, errors),
         *_front(dots),
         *_links(dots),
         *(_marker(dot) for dot in dots),
         *_labels([dot for dot in dots if not dot.cached], dots, errors.bottom),
-        *(
-            f'<text class="label" x="{_LEFT:g}" y="{foot + k * _LINE:.1f}">{escape(_silence(row))}'
-            "</text>"
-            for k, row in enumerate(silent, 1)
-        ),
     ]
-    return "\n".join(parts), foot + _LINE * (len(silent) + 1)
+    top = _LINE * len(said)
+    foot = top + errors.bottom + _FOOT
+    remarks = list(_remarks(pair, answered, drawn))
+    parts = [
+        f'<text class="title" x="{_LEFT:g}" y="18">{escape(_title(pair))}</text>',
+        *_lines("label", said, 18),
+        f'<g transform="translate(0 {top:g})">',
+        *plot,
+        "</g>",
+        *_lines("label", remarks, foot),
+    ]
+    return "\n".join(parts), foot + _LINE * (len(remarks) + 1)
+
+
+def _lines(kind: str, said: Sequence[str], above: float) -> Iterator[str]:
+    for k, line in enumerate(said, 1):
+        y = above + k * _LINE
+        yield f'<text class="{kind}" x="{_LEFT:g}" y="{y:.1f}">{escape(line)}</text>'
 
 
 def _title(pair: PairTradeoff) -> str:
     truth = pair.truth.relation or "truth not known"
-    picked = f"; the default stops at: {pair.picked.rung}" if pair.picked else ""
-    return f"{pair.a} against {pair.b}: {truth}{picked}"
+    return f"{pair.a} against {pair.b}: {truth}{_end(pair.picked)}"
 
 
-def _silence(row: Row) -> str:
-    reason = row.reason or ""
-    return f"{row.rung.label}: {row.state}, {reason if len(reason) < 80 else reason[:79] + '…'}"
+def _end(picked: Picked | None) -> str:
+    if picked is None:
+        return ""
+    return f"; the default {'settles it by' if picked.settled else 'ends at'}: {picked.rung}"
+
+
+def _remarks(pair: PairTradeoff, answered: Sequence[Row], drawn: Sequence[Row]) -> Iterator[str]:
+    """What is not drawn, and why."""
+    found: dict[str, list[Rung]] = {}
+    for row in pair.rows:
+        if row not in answered:
+            found.setdefault(f"{row.state}, {row.reason}", []).append(row.rung)
+        elif row not in drawn:
+            found.setdefault(f"climbed no further than {row.settled_by}", []).append(row.rung)
+    for said, rungs in found.items():
+        line = f"{labels_of(rungs)}: {said}"
+        yield line if len(line) <= _LETTERS else f"{line[: _LETTERS - 1]}…"
 
 
 def _error_axis(rows: Sequence[Row]) -> _Errors:
     sizes = [size for row in rows if (size := row.size_of_error)]
+    lanes = ("0", *(("no distance",) if any(row.error is None for row in rows) else ()))
     if not sizes:
-        return _Errors(None, 0.0)
+        return _Errors(None, 0.0, lanes)
     first = math.floor(math.log10(min(sizes)))
     last = max(math.ceil(math.log10(max(sizes))), first + 1)
     height = min(max(_DECADE * (last - first), _LEAST_HEIGHT), _MOST_HEIGHT)
-    return _Errors((first, last), height)
+    return _Errors((first, last), height, lanes)
 
 
 def _dots(rows: Sequence[Row], time: TimeAxis, errors: _Errors) -> Iterator[_Dot]:
@@ -145,12 +175,11 @@ def _grid(time: TimeAxis, errors: _Errors) -> Iterator[str]:
         first, last = errors.decades
         step = max(1, math.ceil((last - first) / 6))
         heights = [(errors.y(10.0**d), number(10.0**d)) for d in range(last, first - 1, -step)]
-    lanes = ((errors.y(0.0), "exact (0)"), (errors.y(None), "no distance"))
     yield _y_tick(14.0, "error")
     for y, text in heights:
         yield _line("grid", _LEFT, y, right, y)
         yield _y_tick(y, text)
-    for y, text in lanes:
+    for y, text in zip((errors.y(0.0), errors.y(None)), errors.lanes, strict=False):
         yield _line("lane", _LEFT, y - 0.5 * _LANE, right, y - 0.5 * _LANE)
         yield _y_tick(y, text)
     yield _line("lane", _LEFT, errors.bottom, right, errors.bottom)
@@ -211,7 +240,7 @@ def _labels(named: Sequence[_Dot], dots: Sequence[_Dot], bottom: float) -> Itera
     taken = [around(dot.x, dot.y) for dot in dots]
     frame = (_LEFT, _ABOVE, WIDTH, bottom)
     for group in _groups(named):
-        name = _name(group)
+        name = labels_of([dot.row.rung for dot in group])
         left, right = min(dot.x for dot in group), max(dot.x for dot in group)
         box = place(name, (left, right, group[-1].y), taken, frame)
         taken.append(box)
@@ -229,10 +258,3 @@ def _groups(dots: Sequence[_Dot]) -> list[list[_Dot]]:
         else:
             found.append([dot])
     return found
-
-
-def _name(group: Sequence[_Dot]) -> str:
-    """`hull`, `parts 0.5 .. 0.05`."""
-    coarse_first = sorted(group, key=lambda dot: -(dot.row.rung.threshold or 0.0))
-    first, last = coarse_first[0].row.rung, coarse_first[-1].row.rung
-    return first.label if first is last else f"{first.label} .. {last.threshold:g}"

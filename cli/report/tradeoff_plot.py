@@ -10,7 +10,11 @@ from satcheck.cli.report.tradeoff_panel import WIDTH, panel, shape, time_axis
 if TYPE_CHECKING:
     from satcheck.audit.tradeoff import PairTradeoff
 
-_HEAD = 58.0
+_HEAD = 84.0
+_RUNGS = (
+    "aabb, obb: boxes; hull: convex hulls; parts: convex parts, coarse to fine; exact: triangles; "
+    "boolean: volume in common"
+)
 # Paper, ink, faint ink, grid, lanes, and what is proven, guessed, wrong: light, then dark.
 _LIGHT = ("#ffffff", "#1f2328", "#656d76", "#e4e8ec", "#b8c0c8", "#0a62c9", "#8f5f00", "#cf222e")
 _DARK = ("#0d1117", "#e6edf3", "#9198a1", "#21262d", "#4a525c", "#58a6ff", "#e3b341", "#ff7b72")
@@ -27,7 +31,7 @@ text { font: 12px system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
 _LEGEND = (
     ("proven", False, "proven"),
     ("guess", False, "not proven"),
-    ("wrong", False, "wrong"),
+    ("wrong", False, "wrong verdict"),
     ("proven", True, "cached"),
 )
 
@@ -49,6 +53,7 @@ def svg(pairs: Sequence[PairTradeoff]) -> str:
         '<text class="head" x="16" y="24">What accuracy costs: error of the distance or depth, '
         "against time</text>",
         *_legend(),
+        f'<text class="label" x="16" y="70">{_RUNGS}</text>',
         *panels,
         "</svg>",
     ]

@@ -17,6 +17,10 @@ from tests.bench.made import record, row, silent
         ("budget: more than 3,000 triangles", "too many triangles"),
         ("no volume: body 'a b': is no solid", "is no solid"),
         ("no volume: a and b: the intersection took too long", "the intersection took too long"),
+        (
+            "the inside of a was not checked: it is not closed",
+            "the inside was not checked: it is not closed",
+        ),
         (None, "the volume lies within its own error"),
     ],
 )

@@ -28,8 +28,8 @@ def test_shares_of_a_kind_add_up_to_one() -> None:
 
 
 def test_what_settled_a_pair_is_counted_and_a_process_by_its_median() -> None:
-    records = [record(), record(picked="hull"), record()]
-    assert settled_by(records) == {"exact": 2, "hull": 1}
+    records = [record(), record(picked="hull"), record(relation=None), record()]
+    assert settled_by(records) == {"exact": 2, "hull": 1, "nothing": 1}
     records[0]["process"] = [{"cpu": s, "wall": s, "megabytes": s} for s in (9.0, 0.3, 0.2)]
     found = process(records, "cpu")
     assert found is not None

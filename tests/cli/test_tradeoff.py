@@ -35,19 +35,26 @@ def test_a_spent_budget_is_a_document_too_and_exits_with_three(tmp_path: Path) -
     Draft202012Validator(SCHEMA).validate(document)
     assert {row["state"] for row in document["pairs"][0]["rungs"]} == {"not run"}
     drawn = "".join(ElementTree.fromstring(plot.read_text(encoding="utf-8")).itertext())
-    assert all(f"{name}: not run, budget" in drawn for name in ("aabb", "exact", "boolean"))
+    assert "aabb, obb, hull, parts 0.5 .. 0.01, exact, boolean: not run, budget" in drawn
 
 
 def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
     plot = tmp_path / "plot.html"
     ran = satcheck("tradeoff", *PUSHED, "--repeat", "1", "--plot", str(plot))
     assert ran.code == 0, ran.err
-    for said in (*RUNGS, "parts 0.01", "volume 2.625", "Default: settled by hull"):
+    for said in (
+        *RUNGS,
+        "parts 0.01",
+        "volume 2.625",
+        "Default: settled by hull",
+        "obb: climbed no further than aabb",
+        "parts 0.5 .. 0.01, exact: climbed no further than hull",
+    ):
         assert said in ran.out
     page = plot.read_text(encoding="utf-8")
     drawing = page[page.index("<svg") : page.index("</svg>") + len("</svg>")]
     hints = "".join(ElementTree.fromstring(drawing).itertext())
-    for said in ("aabb: error 0", "parts 0.01: error 0", "boolean: no distance"):
+    for said in ("aabb: error 0", "hull: error 0", "boolean: no distance", "times the time"):
         assert said in hints
     assert "prefers-color-scheme: dark" in drawing
 

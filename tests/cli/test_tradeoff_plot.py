@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
-from satcheck.audit.tradeoff import RUNGS, Figure, PairTradeoff, Picked, Row, Times, Truth
+from satcheck.audit.tradeoff import (
+    RUNGS,
+    Figure,
+    PairTradeoff,
+    Picked,
+    Row,
+    Times,
+    Truth,
+    labels_of,
+)
 from satcheck.cli.report.tradeoff_plot import page, svg
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -31,7 +40,7 @@ def made(**of_rung: tuple[float, float | None]) -> PairTradeoff:
                 cached=Times((0.5 * seconds,)) if rung.name == "parts" else None,
             )
         )
-    return PairTradeoff("a & <b>", "c", TRUTH, Picked("exact", ""), tuple(rows))
+    return PairTradeoff("a & <b>", "c", TRUTH, Picked("exact", True, ""), tuple(rows))
 
 
 def markers(drawing: ElementTree.Element) -> dict[str, tuple[str, float, float]]:
@@ -79,8 +88,11 @@ def test_what_is_wrong_is_a_cross() -> None:
 def test_every_rung_is_named_whatever_became_of_it() -> None:
     for pairs in ([PAIR], [made()], [made(exact=(0.1, 0.0)), PAIR]):
         text = "\n".join(ElementTree.fromstring(svg(pairs)).itertext())
-        for rung in RUNGS:
-            assert rung.label in text
+        for pair in pairs:
+            drawn = [row.rung for row in pair.rows if row.state == "answered"]
+            assert all(rung.label in text for rung in drawn)
+            left_out = labels_of([rung for rung in RUNGS if rung not in drawn])
+            assert f"{left_out}: not run, budget" in text
         assert text.count("a & <b> against c: separated") == len(pairs)
 
 

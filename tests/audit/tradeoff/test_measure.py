@@ -49,7 +49,7 @@ def test_boxes_are_exact_on_every_rung_from_oriented_boxes_on() -> None:
     assert seen["hull"].on_front
     assert seen["boolean"].volume == pytest.approx(1.0 * 1.75 * 1.5, abs=1e-9)
     assert pair.picked is not None
-    assert pair.picked.rung == "hull"
+    assert (pair.picked.rung, pair.picked.settled) == ("hull", True)
     assert "both convex" in pair.picked.why
 
 
@@ -137,6 +137,21 @@ def test_what_is_no_solid_has_no_volume() -> None:
     # The cube lies in a box without a lid: nobody can say whether that is an overlap.
     assert pair.truth.relation is None
     assert rows(pair)["hull"].right is None
+
+
+def test_what_was_checked_by_surfaces_only_is_no_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(measuring, "RUNGS", [*RUNGS[:3], measuring.EXACT])
+    run = found("open_box.off", "cube.off")
+    (pair,) = run.pairs
+    assert not run.complete
+    exact = rows(pair)["exact"]
+    assert exact.relation == "separated"
+    assert (exact.overlap, exact.proven, exact.right, exact.figure) == (None, False, None, None)
+    assert exact.reason == pair.truth.reason
+    assert "was not checked" in (exact.reason or "")
+    assert pair.picked is not None
+    assert (pair.picked.rung, pair.picked.settled) == ("exact", False)
+    assert "was not checked" in pair.picked.why
 
 
 def test_of_a_scene_the_pairs_whose_boxes_meet(monkeypatch: pytest.MonkeyPatch) -> None:
