@@ -138,3 +138,23 @@ def test_early_out_needs_fewer_axes() -> None:
     assert far.axes_tested < deep.axes_tested
     assert far.distance is None
     assert deep.distance is None
+
+
+def test_slivers_between_faces_back_to_back() -> None:
+    """Coplanar but for rounding: the arcs of the edges around are half circles, on either side."""
+    rng = np.random.default_rng(6)
+    quad = np.array([(2.0, 0, 0), (0, 2, 0), (-2, 0, 0), (0, -2, 0)])
+    overlaps = 0
+    for _ in range(200):
+        sliver, other = Hull(apply(random_pose(rng, 0.5), quad)), Hull(random_hull(rng, 4))
+        by_sat = check_pair(sliver, other, method="sat")
+        by_gjk = check_pair(sliver, other, method="gjk")
+        assert by_sat.outcome == by_gjk.outcome
+        assert by_sat.lower is not None
+        assert by_sat.upper is not None
+        assert by_gjk.lower is not None
+        assert by_gjk.upper is not None
+        assert by_sat.lower <= by_gjk.upper
+        assert by_gjk.lower <= by_sat.upper
+        overlaps += by_sat.outcome == "penetrating" and by_sat.method == "sat"
+    assert overlaps > 50

@@ -32,10 +32,13 @@ Arcs classify_arcs(const EdgeArc& a, const EdgeArc& b) {
   const double a_least = std::fmin(std::fabs(a_left), std::fabs(a_right));
   if (a_left * a_right > 0 && a_least > kArcUncertain) return Arcs::apart;
   if (std::fmin(a_least, b_least) <= kArcUncertain) return Arcs::uncertain;
-  // Both arcs cross the other's great circle; they meet unless they do so on opposite sides.
+  // Both arcs cross the other's great circle; they meet unless they do so on opposite sides. Half a circle, between the
+  // faces of a sliver, may lie on either.
   const Vec3 n = cross(a.direction, b.direction);
-  const bool same_side = (dot(n, a.normal_left + a.normal_right) > 0) == (dot(n, b.normal_left + b.normal_right) > 0);
-  return same_side ? Arcs::cross : Arcs::apart;
+  const double a_side = dot(n, a.normal_left + a.normal_right), b_side = dot(n, b.normal_left + b.normal_right);
+  const double least = std::fmin(std::fabs(a_side), std::fabs(b_side));
+  if (least * least <= kArcUncertain * kArcUncertain * norm_squared(n)) return Arcs::uncertain;
+  return (a_side > 0) == (b_side > 0) ? Arcs::cross : Arcs::apart;
 }
 
 SATCHECK_WIDE double support_along(const MinkowskiDifference& m, Vec3 axis) { return dot(axis, m.support(axis).w); }
