@@ -6,7 +6,8 @@ Each rung of the ladder is asked about the same pair and held against what the e
 from __future__ import annotations
 
 from satcheck.audit.tradeoff.figure import Figure, Truth
-from satcheck.audit.tradeoff.measure import Budget, measure_pair
+from satcheck.audit.tradeoff.gauge import Budget
+from satcheck.audit.tradeoff.measure import measure_pair
 from satcheck.audit.tradeoff.result import PairTradeoff, Picked, Row, Tradeoff, choices
 from satcheck.audit.tradeoff.rungs import RUNGS, Rung, labels_of
 from satcheck.audit.tradeoff.times import Times

@@ -10,7 +10,8 @@ from satcheck.audit.check import Progress
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.summary import tool
 from satcheck.audit.tradeoff.asking import Bodies
-from satcheck.audit.tradeoff.measure import Budget, measure_pair
+from satcheck.audit.tradeoff.gauge import Budget
+from satcheck.audit.tradeoff.measure import measure_pair
 from satcheck.audit.tradeoff.result import PairTradeoff, Tradeoff
 from satcheck.audit.tradeoff.rungs import RUNGS
 from satcheck.core.errors import SatcheckError

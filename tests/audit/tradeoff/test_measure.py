@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.audit.tradeoff import RUNGS, PairTradeoff, Row, Rung, Tradeoff, tradeoff
+from satcheck.audit.tradeoff import RUNGS, Budget, PairTradeoff, Row, Rung, Tradeoff, tradeoff
 from satcheck.audit.tradeoff import measure as measuring
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
@@ -95,7 +95,7 @@ def test_a_spent_budget_is_said_of_every_rung() -> None:
 
 def test_a_rung_that_is_stopped_is_not_begun_with_finer_parts() -> None:
     a, b = load_scene([SAMPLES / "l_bracket.obj", SAMPLES / "peg_in_notch.ply"]).bodies
-    seen = rows(measuring.measure_pair((a, b), 2, measuring.Budget(60.0, per_rung=1e-3)))
+    seen = rows(measuring.measure_pair((a, b), 2, Budget(60.0, per_rung=1e-3)))
     stopped = "stopped after 0.001 s"
     assert {label: row.reason for label, row in seen.items() if row.state == "not run"} == {
         "parts 0.5": f"budget: {stopped}",
