@@ -14,8 +14,10 @@ from satcheck.audit.finding import examine
 from satcheck.audit.ladder.ladder import Contact, settle
 from satcheck.audit.report.report import Finding
 from satcheck.audit.tolerances import rounding_pad
+from satcheck.audit.tradeoff.climbed import picked
 from satcheck.audit.tradeoff.cpu import CpuClock
 from satcheck.audit.tradeoff.memory import ChildMemory
+from satcheck.audit.tradeoff.room import own_room, room
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
 from satcheck.scene import Body
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
 
 Bodies = tuple[Body, Body]
+Rooms = tuple[float | None, float | None]
 
 
 @frozen
@@ -33,10 +36,11 @@ class Asked:
     contact: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
     can make of a length here. seconds: from the meshes in memory to the finding, hulls and
     hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
-    so long, on all threads and in child processes together; None: not known. hulls: how many convex
-    bodies stood for A and for B, where hulls answered. split: convex parts were asked for;
-    from_cache: and found there. megabytes: of the child that made them. failure: why there are
-    none.
+    so long, on all threads and in child processes together; None: not known. ended: the rung at
+    which the climb ended. room: volume of the shapes that it put in the place of A and of B. hulls:
+    how many convex bodies stood for A and for B, where hulls answered. split: convex parts were
+    asked for; from_cache: and found there. megabytes: of the child that made them. failure: why
+    there are none.
     """
 
     finding: Finding
@@ -44,6 +48,8 @@ class Asked:
     pad: float
     seconds: float
     cpu: float | None
+    ended: str
+    room: Rooms
     hulls: tuple[int, int] | None
     split: bool = False
     from_cache: bool = False
@@ -73,8 +79,8 @@ def ask(bodies: Bodies, settings: Settings) -> Asked:
     seconds, cpu = perf_counter() - start, clock.seconds(children=False)
     stages = {stage.stage for stage in finding.plan}
     contact = settle(pair, Plan())
-    pad = rounding_pad(pair.largest_coordinate)
-    return Asked(finding, contact, pad, seconds, cpu, _one_each(stages))
+    pad, ended = rounding_pad(pair.largest_coordinate), picked(finding).rung
+    return Asked(finding, contact, pad, seconds, cpu, ended, _rooms(ended, pair), _one_each(stages))
 
 
 def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
@@ -95,18 +101,29 @@ def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
             1 if one is None or isinstance(one, SatcheckError) else len(one.parts) for one in known
         )
         hulls = (a, b)
+    ended = picked(finding).rung
+    if ended == "parts" and not made:
+        ended = "hull"  # nobody could make any
     return Asked(
         finding,
         settle(pair, Plan()),
         rounding_pad(pair.largest_coordinate),
         seconds,
         cpu,
+        ended,
+        _rooms(ended, pair),
         hulls,
         split=bool(made),
         from_cache=bool(parts) and all(one.from_cache for one in parts),
         megabytes=memory.megabytes if made else None,
         failure=failures[0] if failures else None,
     )
+
+
+def own_rooms(bodies: Bodies) -> Rooms:
+    """Volumes of the bodies themselves."""
+    a, b = (own_room(Known().place(body, Settings(), None)) for body in bodies)
+    return a, b
 
 
 def ask_volume(bodies: Bodies, settings: Settings) -> Measured | str:
@@ -143,6 +160,10 @@ def _pair(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) 
     known = Known()
     a, b = (known.place(body, settings, None) for body in bodies)
     return Pair(a, b, settings, asked_by(settings), meter)
+
+
+def _rooms(ended: str, pair: Pair) -> Rooms:
+    return room(ended, pair.a), room(ended, pair.b)
 
 
 def _one_each(stages: set[str]) -> tuple[int, int] | None:

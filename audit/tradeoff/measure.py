@@ -11,10 +11,12 @@ from pathlib import Path
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.report.report import OVERLAPS
-from satcheck.audit.tradeoff.asking import Asked, Bodies, ask, ask_parts, ask_volume
+from satcheck.audit.tradeoff.asking import Asked, Bodies, ask, ask_parts, ask_volume, own_rooms
+from satcheck.audit.tradeoff.climbed import picked
 from satcheck.audit.tradeoff.gauge import SPENT, Budget, Gauge
+from satcheck.audit.tradeoff.memory import growth
 from satcheck.audit.tradeoff.result import PairTradeoff, with_front
-from satcheck.audit.tradeoff.rows import picked, row_of, truth_by
+from satcheck.audit.tradeoff.rows import row_of, truth_by
 from satcheck.audit.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
 from satcheck.core.frozen import replace
 
@@ -46,10 +48,12 @@ def measure_pair(
             if gauge.wants_more and gauge.left(budget) > gauge.longest:
                 _warm_up(bodies, budget)
                 _run(gauge, bodies, budget, apart=apart)
+                _weigh(gauge, bodies, budget, apart=apart)
             if told is not None:
                 told()
     truth = truth_by(gauges[EXACT])
-    rows = [row_of(gauge, truth) for gauge in gauges.values()]
+    own = (None, None) if plainly is None else own_rooms(bodies)
+    rows = [row_of(gauge, truth, own) for gauge in gauges.values()]
     default = None if plainly is None else picked(plainly.finding)
     return PairTradeoff(a, b, truth, default, with_front(rows, truth.pad))
 
@@ -108,6 +112,16 @@ def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
         gauge.fail(f"internal error: {type(error).__name__}: {error}")
     took = budget.spent - start
     gauge.longest, gauge.spent = max(gauge.longest, took), gauge.spent + took
+
+
+def _weigh(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
+    """One more run of a rung that starts no child process, not timed: for its memory."""
+    first = len(gauge.cold) == 1 and gauge.state == "answered"
+    if not first or gauge.rung.accuracy in (None, "parts") or gauge.left(budget) < gauge.longest:
+        return
+    start, settings = budget.spent, _settings(gauge.rung, bodies, apart=apart)
+    gauge.megabytes = growth(lambda: ask(bodies, settings))
+    gauge.spent += budget.spent - start
 
 
 def _settings(rung: Rung, bodies: Bodies, *, apart: bool) -> Settings:

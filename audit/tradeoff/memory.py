@@ -1,16 +1,42 @@
-"""How much memory the child processes of this one took, where the system says so (Linux)."""
+"""How much memory this process and its children took, where the system says so (Linux)."""
 
 from __future__ import annotations
 
+import ctypes
 import threading
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-_TASKS = Path("/proc/self/task")
+_SELF = Path("/proc/self")
+_TASKS = _SELF / "task"
+_RESET = "5"  # written to clear_refs it makes the mark the size of this moment
 _PEAK = "VmHWM:"  # the high-water mark of the resident set, in KiB
 _WORKER = b"satcheck.core.worker_child"
 _KIB_PER_MIB = 1024.0
 _PERIOD = 0.02  # seconds; the mark only rises, so no more than the last rise is missed
+
+
+def growth(work: Callable[[], object]) -> float | None:
+    """MiB by which this process grew at most while `work` ran; None where nobody says.
+
+    What is free goes back to the system before (glibc), or it would be used again, and not seen.
+    """
+    before = _fresh_mark()
+    if before is None:
+        return None
+    work()
+    after = _mark(_SELF)
+    return None if after is None else after - before
+
+
+def _fresh_mark() -> float | None:
+    try:
+        ctypes.CDLL(None).malloc_trim(0)
+        (_SELF / "clear_refs").write_text(_RESET, encoding="ascii")
+        return _mark(_SELF)
+    except (OSError, AttributeError, TypeError):  # another system, or another library
+        return None
 
 
 class ChildMemory:
@@ -61,8 +87,12 @@ def _peak(process: str) -> float | None:
         # Until it has become a worker it is a copy of this process.
         if _WORKER not in (folder / "cmdline").read_bytes():
             return None
-        status = (folder / "status").read_text(encoding="utf-8", errors="replace")
+        return _mark(folder)
     except OSError:  # it has ended
         return None
+
+
+def _mark(folder: Path) -> float | None:
+    status = (folder / "status").read_text(encoding="utf-8", errors="replace")
     lines = (line.split() for line in status.splitlines() if line.startswith(_PEAK))
     return next((int(words[1]) / _KIB_PER_MIB for words in lines), None)

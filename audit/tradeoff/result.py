@@ -25,11 +25,13 @@ class Row:
     None for the Boolean, which knows only whether there is a volume in common; where the inside of
     a body could not be checked, that of the surfaces. proven: it has proven how the bodies relate.
     right: held against the truth; None: one of the two is not known. figure: the signed
-    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. settled_by: the
+    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. excess: by what
+    share of its volume the shapes that stood for A and for B take more than the body; None: not
+    known. settled_by: the
     rung at which its climb ended. cold: nothing kept from before; cached: with the parts on disk,
     or the child process running. cpu: of the cold runs, child processes included; None: not known.
-    megabytes: peak of the child process, in MiB. on_front: of error
-    against time.
+    megabytes: MiB that it takes at most, beside what this process holds: by which that grows, or,
+    where there is one, of the child process. on_front: of error against time.
     """
 
     rung: Rung
@@ -44,6 +46,7 @@ class Row:
     volume: float | None = None
     volume_error: float | None = None
     hulls: tuple[int, int] | None = None
+    excess: tuple[float | None, float | None] | None = None
     settled_by: str | None = None
     cold: Times | None = None
     cached: Times | None = None
@@ -86,6 +89,7 @@ class Row:
             "volume_error": self.volume_error,
             "settled_by": self.settled_by,
             "hulls": None if self.hulls is None else list(self.hulls),
+            "excess": None if self.excess is None else list(self.excess),
             "cold": None if self.cold is None else self.cold.to_dict(),
             "cached": None if self.cached is None else self.cached.to_dict(),
             "cpu": None if self.cpu is None else self.cpu.to_dict(),

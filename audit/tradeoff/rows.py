@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from satcheck.audit.report.report import OVERLAPS, Finding
-from satcheck.audit.tradeoff.asking import Asked, Measured
+from satcheck.audit.report.report import OVERLAPS
+from satcheck.audit.tradeoff.asking import Asked, Measured, Rooms
 from satcheck.audit.tradeoff.figure import Truth, figure_of, is_of_bodies, plain, truth_of
 from satcheck.audit.tradeoff.gauge import Gauge
-from satcheck.audit.tradeoff.result import Picked, Row
+from satcheck.audit.tradeoff.result import Row
+from satcheck.audit.tradeoff.rungs import EXACT
 from satcheck.audit.tradeoff.times import Times
 from satcheck.core.frozen import replace
-
-# Stages of a plan that are rungs, and how they are called here.
-STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
-STAGES |= {"curved-exact": "hull", "parts": "parts", "triangles": "exact"}
-# What a stage records that had nothing to add to the one below.
-SKIPPED = "skipped"
 
 
 def truth_by(exact: Gauge) -> Truth:
@@ -24,7 +19,8 @@ def truth_by(exact: Gauge) -> Truth:
     return truth_of(answer.finding, figure_of(answer.finding, answer.contact), answer.pad)
 
 
-def row_of(gauge: Gauge, truth: Truth) -> Row:
+def row_of(gauge: Gauge, truth: Truth, own: Rooms) -> Row:
+    """own: volumes of the bodies."""
     row = Row(
         rung=gauge.rung,
         state=gauge.state,
@@ -53,15 +49,10 @@ def row_of(gauge: Gauge, truth: Truth) -> Row:
         figure=figure,
         error=truth.error(figure),
         hulls=answer.hulls,
-        settled_by=_ended(answer),
+        excess=_excess(own if answer.ended == EXACT.name else answer.room, own),
+        settled_by=answer.ended,
         reason=None if known else finding.reason,
     )
-
-
-def _ended(answer: Asked) -> str:
-    """The rung of its last step; parts that nobody could make are the hulls of the bodies."""
-    rung = picked(answer.finding).rung
-    return "hull" if rung == "parts" and not answer.split else rung
 
 
 def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
@@ -77,17 +68,9 @@ def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
     )
 
 
-def picked(finding: Finding) -> Picked:
-    """The last stage that is a rung ended the climb; those before say why they could not."""
-    climbed = [stage for stage in finding.plan if stage.stage in STAGES]
-    why = "; ".join(
-        f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
-        for stage in climbed
+def _excess(room: Rooms, own: Rooms) -> tuple[float | None, float | None]:
+    a, b = (
+        None if taken is None or not true else taken / true - 1.0
+        for taken, true in zip(room, own, strict=True)
     )
-    ran = [STAGES[stage.stage] for stage in climbed if stage.result != SKIPPED]
-    settled = finding.exact_relation is not None and is_of_bodies(finding)
-    return Picked(ran[-1] if ran else "none", settled, why if settled else _unsettled(finding, why))
-
-
-def _unsettled(finding: Finding, why: str) -> str:
-    return "; ".join(said for said in (why, finding.reason) if said)
+    return a, b

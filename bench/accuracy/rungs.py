@@ -112,7 +112,9 @@ def summary(records: Sequence[Record], label: str) -> RungSummary:
         steadiness=spread(
             row["cold"]["high"] / row["cold"]["low"] for _, row in mine if _repeated(row)
         ),
-        megabytes=spread(row["peak_megabytes"] for _, row in mine if row["peak_megabytes"]),
+        megabytes=spread(
+            row["peak_megabytes"] for _, row in mine if row["peak_megabytes"] is not None
+        ),
         errors=_errors(mine),
     )
 

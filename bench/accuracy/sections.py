@@ -20,6 +20,7 @@ from bench.accuracy.stages import (
     stage_times,
 )
 from bench.accuracy.verdicts import OUTCOMES, agreement
+from satcheck.cli.report.numbers import mebibytes
 from satcheck.cli.report.words import counted
 
 Record = dict[str, Any]
@@ -72,7 +73,7 @@ def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record
 def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
     rows = []
     for rung in found.values():
-        memory = words.NONE if rung.megabytes is None else f"{rung.megabytes.median:.0f} MiB"
+        memory = words.NONE if rung.megabytes is None else mebibytes(rung.megabytes.median)
         cached = words.NONE if rung.cached is None else words.time(rung.cached.median)
         cpu = words.NONE if rung.cpu is None else words.time(rung.cpu.median)
         rows.append([rung.label, str(rung.pairs), *words.times(rung.cold), cpu, cached, memory])
@@ -97,7 +98,8 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
             "Wall time, cold: from meshes in memory to the answer, with hulls, trees and parts "
             "made anew; of the Boolean with the start of its child process. Cached: parts read "
             "from disk, the child process running. CPU: median of the cold runs, children "
-            "included. Memory: of the child process. Convex parts count where they were made.",
+            "included. Memory: of the child process, or by how much the process grows that asks; "
+            "median. Convex parts count where they were made.",
             words.table(head, rows),
             "Errors, in sizes of the smaller body (right: how many are 0 within rounding); the "
             "Boolean gives no distance:",

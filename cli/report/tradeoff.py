@@ -10,7 +10,7 @@ from rich.text import Text
 
 from satcheck.audit.tradeoff import labels_of
 from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.numbers import DIGITS, bounds, duration, number
+from satcheck.cli.report.numbers import DIGITS, bounds, duration, mebibytes, number
 from satcheck.cli.report.tradeoff_steps import steps
 from satcheck.cli.report.words import counted
 
@@ -24,7 +24,7 @@ _MICROSECONDS = 1e6
 _RIGHT = {True: "right", False: "WRONG", None: ""}
 _COLOURS = {"right": "green", "WRONG": "bold red"}
 # Left out, in this order, where a terminal is too narrow.
-_SPARE = ("memory", "runs", "width", "spread", "hulls", "cached")
+_SPARE = ("runs", "memory", "volume error", "width", "spread", "hulls", "cached")
 # Never broken between lines.
 _WHOLE = ("rung", "verdict", "error", "time")
 _FRAME = 3
@@ -42,7 +42,7 @@ def render(found: Tradeoff, page: Page) -> str:
     console.print(
         "* on the Pareto front: no rung is as near, as sure and faster by more than its runs "
         "spread (middle half). Error: signed distance said minus proven; below 0: closer or deeper "
-        "than it is."
+        "than it is. Volume error: of what stands for A, and for B. Memory: what a rung adds."
     )
     spent = f"{number(round(found.spent, 1))} s of {number(found.budget)} s"
     console.print(f"Medians of up to {counted(found.repeat, 'run')} in turn, {spent}.")
@@ -111,12 +111,13 @@ def _columns(pair: PairTradeoff) -> dict[str, list[str]]:
         "answer": column(_answer),
         "error": column(_error),
         "width": column(_width_of),
+        "volume error": column(_excess),
         "hulls": column(lambda row: "" if row.hulls is None else "{} + {}".format(*row.hulls)),
         "time": column(lambda row: _time(row.cold)),
         "spread": column(lambda row: _spread(row.cold)),
         "runs": column(lambda row: "" if row.cold is None else str(len(row.cold.runs))),
         "cached": column(lambda row: _time(row.cached)),
-        "memory": column(lambda row: "" if row.megabytes is None else f"{row.megabytes:.0f} MiB"),
+        "memory": column(lambda row: "" if row.megabytes is None else mebibytes(row.megabytes)),
     }
     return {name: cells for name, cells in made.items() if any(cells)}
 
@@ -182,6 +183,22 @@ def _width_of(row: Row) -> str:
         return ""
     width = row.figure.width
     return "open" if width is None else f"{width:.2g}"
+
+
+def _excess(row: Row) -> str:
+    """`+31 % + 0 %`: of A and of B."""
+    if row.excess is None or row.excess == (None, None):
+        return ""
+    return " + ".join("?" if share is None else _percent(share) for share in row.excess)
+
+
+def _percent(share: float) -> str:
+    """Two digits; 0 where rounding alone makes a difference."""
+    return "0" if abs(share) <= EXACT_WIDTH else f"{_plain(100 * share)} %"
+
+
+def _plain(value: float) -> str:
+    return f"{value:.0f}" if abs(value) >= 10 else f"{value:.2g}"
 
 
 def _time(times: Times | None) -> str:

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from satcheck.cli.report.numbers import ROUNDOFF, bounds, duration, number, vector
+from satcheck.cli.report.numbers import ROUNDOFF, bounds, duration, mebibytes, number, vector
 
 LENGTHS = st.floats(min_value=1e-30, max_value=1e30)
 
@@ -54,3 +54,10 @@ def test_vectors_are_rounded_as_a_whole(values: tuple[float, float, float], text
 )
 def test_durations(microseconds: float, text: str) -> None:
     assert duration(microseconds) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.0, "< 0.1 MiB"), (0.26, "0.3 MiB"), (9.94, "9.9 MiB"), (36.4, "36 MiB")]
+)
+def test_memory_has_two_digits(value: float, text: str) -> None:
+    assert mebibytes(value) == text

@@ -77,6 +77,12 @@ def test_a_peg_in_a_notch_is_apart_for_the_finer_rungs_only(
     assert part.hulls[0] >= 2
     assert part.cached is not None
     assert -0.1 < (part.error or 0.0) <= 0.0
+    # An L of 5 squares in a hull of 7 and a box of 9; parts cover it to what CoACD leaves.
+    for label, share in (("aabb", 0.8), ("hull", 0.4), ("exact", 0.0)):
+        assert seen[label].excess == pytest.approx((share, 0.0), abs=1e-12), label
+    assert part.excess is not None
+    assert part.excess == pytest.approx((0.0, 0.0), abs=0.05)  # the threshold
+    assert seen["boolean"].excess is None
     assert seen["exact"].error == 0.0
     assert seen["exact"].on_front
     assert pair.picked is not None

@@ -1,17 +1,19 @@
-"""The memory of child processes, as the system tells it."""
+"""The memory of this process and of its children, as the system tells it."""
 
 from __future__ import annotations
 
 import os
+import platform
 from pathlib import Path
 
 import pytest
 
-from satcheck.audit.tradeoff.memory import ChildMemory
+from satcheck.audit.tradeoff.memory import ChildMemory, growth
 from satcheck.core.worker import Worker
 
 SERVERS = Path(__file__).resolve().parents[2] / "core" / "serve_modules"
 EATEN, LIMIT = 96, 1024
+COUNTED_LATE = 1.0  # MiB: the system counts the pages of a thread in batches of 64
 on_linux = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="Linux alone says it")
 
 
@@ -28,3 +30,21 @@ def test_without_a_worker_there_is_none() -> None:
     with ChildMemory() as memory:
         memory.look()
     assert memory.megabytes is None
+
+
+@pytest.mark.skipif(
+    platform.libc_ver()[0] != "glibc" or not os.access("/proc/self/clear_refs", os.W_OK),
+    reason="glibc alone gives memory back, Linux alone says the mark",
+)
+def test_what_was_taken_and_given_back_is_seen() -> None:
+    grown = growth(lambda: len(b"x" * (EATEN << 20)))
+    assert grown is not None
+    assert abs(grown - EATEN) < COUNTED_LATE
+    nothing = growth(lambda: None)
+    assert nothing is not None
+    assert nothing < COUNTED_LATE
+
+
+def test_what_fails_fails_still() -> None:
+    with pytest.raises(ZeroDivisionError):
+        growth(lambda: 1 // 0)
