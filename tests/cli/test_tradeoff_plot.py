@@ -15,6 +15,7 @@ from satcheck.audit.tradeoff import (
     labels_of,
 )
 from satcheck.cli.report.tradeoff_plot import page, svg
+from satcheck.core.frozen import replace
 
 SVG = "{http://www.w3.org/2000/svg}"
 TRUTH = Truth("separated", Figure(1.0, 1.0, 1.0), 0.0)
@@ -94,6 +95,14 @@ def test_every_rung_is_named_whatever_became_of_it() -> None:
             left_out = labels_of([rung for rung in RUNGS if rung not in drawn])
             assert f"{left_out}: not run, budget" in text
         assert text.count("a & <b> against c: separated") == len(pairs)
+
+
+def test_the_price_of_each_step_is_written_over_the_plot() -> None:
+    worth = ("aabb", "hull", "exact")
+    rows = tuple(replace(row, on_front=row.rung.name in worth) for row in PAIR.rows)
+    text = "\n".join(ElementTree.fromstring(svg([replace(PAIR, rows=rows)])).itertext())
+    assert "aabb to hull: 10 times the time, error 4 to 0.5, wrong to proven" in text
+    assert "hull to exact: 100 times the time, error 0.5 to 0" in text
 
 
 def test_the_page_holds_the_drawing() -> None:
