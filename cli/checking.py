@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -68,8 +68,14 @@ def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
     refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     document = Document()
-    hashed = choices.form == "json"
-    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside, hashed)
+    scene = load(
+        choices.paths,
+        choices.packages,
+        choices.split,
+        choices.allow_outside,
+        hashed=choices.form == "json",
+        meanwhile=lambda: _import_what_follows(choices.form),
+    )
     if len(scene.bodies) > SMALL_BODIES or any(
         body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
     ):
@@ -92,6 +98,16 @@ def run(choices: Choices) -> int:
     document.deliver(lambda page: _render(report, choices, page), choices.output, utf8=utf8)
     _tell(report, scene, choices)
     return exit_codes.of_report(report, exit_zero=choices.exit_zero)
+
+
+def _import_what_follows(form: str) -> None:
+    """What a check and its document import anyway, for the time in which others read."""
+    import satcheck.audit
+
+    if form == "table":
+        import satcheck.cli.report.table
+    else:
+        import satcheck.cli.report.json  # noqa: F401
 
 
 def refuse_early(paths: tuple[str, ...], output: Path | None, others: tuple[str, ...] = ()) -> None:
@@ -117,19 +133,26 @@ def load(
     split: Split | None = None,
     allow_outside: bool = False,
     hashed: bool = True,
+    meanwhile: Callable[[], object] | None = None,
 ) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone, and
     for a split of what says itself what its bodies are; ClickException where nothing is left.
-    hashed: whether the document states the SHA-256 of files."""
-    from satcheck.cli.report.words import issue_line
+    hashed: whether the document states the SHA-256 of files. meanwhile: see load_scene."""
     from satcheck.scene import load_scene
     from satcheck.scene.loader import is_mesh
 
     if split and not any(map(is_mesh, paths)):
         raise wrong_usage("--split is about mesh files: a scene says what its bodies are")
     scene = load_scene(
-        paths, split=split, packages=packages, allow_outside=allow_outside, hashed=hashed
+        paths,
+        split=split,
+        packages=packages,
+        allow_outside=allow_outside,
+        hashed=hashed,
+        meanwhile=meanwhile,
     )
+    from satcheck.cli.report.words import issue_line
+
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
@@ -29,6 +29,7 @@ def load_scene(
     packages: Mapping[str, str | Path] | None = None,
     allow_outside: bool = False,
     hashed: bool = True,
+    meanwhile: Callable[[], object] | None = None,
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
@@ -45,7 +46,8 @@ def load_scene(
     Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
     the id of their file where there are several), with -2, -3, ... where they occur again.
     allow_outside: the files that a scene, a robot or a glTF file names may lie outside of its
-    folder. hashed: whether the SHA-256 of each file is taken, which some reports state.
+    folder. hashed: whether the SHA-256 of each file is taken, which some reports state. meanwhile:
+    what this thread may do while others read large files; called at most once.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file, or a node of one, that cannot be used becomes an Unreadable with an error issue and
@@ -63,7 +65,7 @@ def load_scene(
     if split is None:
         split = "nodes" if alone else "none"
     if split == "none":
-        files.read_ahead((path, Path(path)) for path in given if is_mesh(path))
+        files.read_ahead(((path, Path(path)) for path in given if is_mesh(path)), meanwhile)
     for path in given:
         suffix = _suffix(path)
         if suffix in SCENE_SUFFIXES:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +14,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import ReadLimits, load_mesh_file
 from satcheck.scene.loading.native import NATIVE_FORMATS
 from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.source import FORMATS
+from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK
 
 if TYPE_CHECKING:
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
-LARGE_FILE_BYTES = 1_000_000  # worth a thread of its own
 
 
 class MeshFiles:
@@ -60,11 +59,13 @@ class MeshFiles:
                 self._wholes[key] = error
         return self._wholes[key]
 
-    def read_ahead(self, given: Iterable[tuple[str, Path]]) -> None:
+    def read_ahead(
+        self, given: Iterable[tuple[str, Path]], meanwhile: Callable[[], object] | None = None
+    ) -> None:
         """Reads those of these files that are large at the same time; whole() then has them.
 
         given: name in messages and location. Only formats that are read in this process, without
-        the interpreter.
+        the interpreter. meanwhile: called in this thread while others read; not where none does.
         """
         waiting = {
             self._absolute(location): (path, location)
@@ -87,8 +88,12 @@ class MeshFiles:
         threads = [Thread(target=read) for _ in range(min(len(queue), os.cpu_count() or 1))]
         for thread in threads:
             thread.start()
-        for thread in threads:
-            thread.join()
+        try:
+            if meanwhile is not None:
+                meanwhile()
+        finally:
+            for thread in threads:
+                thread.join()
 
     def _load_whole(self, path: str, location: Path) -> MeshFile:
         load = load_mesh_file

@@ -19,7 +19,7 @@ NATIVE_FORMATS = frozenset(_READERS)
 
 def read_native(source: Source) -> RawMesh:
     """The mesh of a file in one of `NATIVE_FORMATS`; raises MeshFileError with line or byte."""
-    found = _READERS[source.format](source.data)
+    found = _read_in_pieces(source) if source.in_pieces else _READERS[source.format](source.data)
     if isinstance(found, _readers.ReadError):
         raise MeshFileError(found.code, f"{_place(found)}{found.message}", file=source.path)
     return RawMesh(
@@ -30,6 +30,15 @@ def read_native(source: Source) -> RawMesh:
         significant=found.significant,
         warnings=tuple((warning.code, warning.message) for warning in found.warnings),
     )
+
+
+def _read_in_pieces(source: Source) -> _readers.MeshData | _readers.ReadError:
+    try:
+        with source.location.open("rb", buffering=0) as file:
+            return _readers.read_binary_stl(file.fileno(), source.size)
+    except OSError as error:
+        reason = f"cannot be read: {error.strerror}"
+        raise MeshFileError("unreadable-file", reason, file=source.path) from None
 
 
 def _place(error: _readers.ReadError) -> str:

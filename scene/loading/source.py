@@ -23,6 +23,7 @@ FORMATS = {
     ".dae": "dae",
 }
 
+LARGE_FILE_BYTES = 1_000_000  # worth a thread of its own, and to be read in pieces
 _STL_HEADER_BYTES = 84
 _STL_FACET_BYTES = 50
 _STL_COUNT = slice(80, 84)
@@ -57,14 +58,20 @@ class Source:
     """A mesh file as it lies on disk.
 
     path: as given, for messages. location: where it was read from. sha256: of `data`, hex; None:
-    not asked for.
+    not asked for. size: bytes of the file. data: these bytes; of a large binary STL file whose
+    SHA-256 nobody wants the first ones, as its reader reads it in pieces.
     """
 
     path: str
     location: Path
     format: str
     sha256: str | None
+    size: int
     data: bytes
+
+    @property
+    def in_pieces(self) -> bool:
+        return len(self.data) < self.size
 
 
 def read_source(
@@ -95,21 +102,28 @@ def read_source(
             file=path,
         )
     try:
-        data = _read(location, size)
+        size, data = _read(location, size, in_pieces=file_format == "stl" and not hashed)
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
-    _refuse_other_content(path, file_format, data)
+    _refuse_other_content(path, file_format, size, data)
     digest = sha256(data) if hashed else None
-    return Source(path, location, file_format, digest, data)
+    return Source(path, location, file_format, digest, size, data)
 
 
-def _read(location: Path, size: int) -> bytes:
-    """All of it, whatever its size is in the meantime."""
+def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
+    """Its size and all of it, whatever its size is in the meantime; in_pieces: of a large binary
+    STL file the head will do."""
     with location.open("rb", buffering=0) as file:
+        if in_pieces and size >= LARGE_FILE_BYTES:
+            head = file.read(_TEXT_HEAD_BYTES)
+            if _is_binary_stl(size, head):
+                return size, head
+            file.seek(0)
         data = _readers.read_file(file.fileno(), size)
         more = file.read()
-    return data + more if more else data
+    data = data + more if more else data
+    return len(data), data
 
 
 def _size(path: str, location: Path) -> int:
@@ -119,8 +133,8 @@ def _size(path: str, location: Path) -> int:
         raise MeshFileError(error.code, error.message, file=path) from None
 
 
-def _refuse_other_content(path: str, file_format: str, data: bytes) -> None:
-    content, content_format = _sniff(data)
+def _refuse_other_content(path: str, file_format: str, size: int, data: bytes) -> None:
+    content, content_format = _sniff(size, data)
     if content is None and file_format == "stl":
         content = _other_text(data)
     if content is not None and content_format != file_format:
@@ -131,15 +145,19 @@ def _refuse_other_content(path: str, file_format: str, data: bytes) -> None:
         )
 
 
-def _sniff(data: bytes) -> tuple[str | None, str | None]:
+def _sniff(size: int, data: bytes) -> tuple[str | None, str | None]:
     """(what the content unmistakably is, the format of that name), or (None, None)."""
     for signature, name, signature_format in _SIGNATURES:
         if data.startswith(signature):
             return name, signature_format
-    count = int.from_bytes(data[_STL_COUNT], "little")
-    if count > 0 and len(data) == _STL_HEADER_BYTES + _STL_FACET_BYTES * count:
+    if _is_binary_stl(size, data):
         return "a binary STL file", "stl"
     return None, None
+
+
+def _is_binary_stl(size: int, data: bytes) -> bool:
+    count = int.from_bytes(data[_STL_COUNT], "little")
+    return count > 0 and size == _STL_HEADER_BYTES + _STL_FACET_BYTES * count
 
 
 def _other_text(data: bytes) -> str | None:

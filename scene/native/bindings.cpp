@@ -9,6 +9,8 @@
 #include <array>
 #include <bit>
 #include <cerrno>
+#include <span>
+#include <system_error>
 #if defined(_WIN32)
 #include <io.h>
 #else
@@ -55,32 +57,50 @@ std::int64_t read_some(int descriptor, char* to, std::size_t most) {
 #endif
 }
 
+// As many bytes of an open file as there is room for, fewer where it ends before; std::system_error where it cannot be read.
+std::size_t read_up_to(int descriptor, std::span<char> room) {
+  std::size_t have = 0;
+  while (have < room.size()) {
+    const std::int64_t got = read_some(descriptor, room.data() + have, room.size() - have);
+    if (got == 0) break;
+    if (got > 0) have += static_cast<std::size_t>(got);
+    if (got < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category());
+  }
+  return have;
+}
+
+[[noreturn]] void raise_os_error(const std::system_error& failure) {
+  errno = failure.code().value();
+  PyErr_SetFromErrno(PyExc_OSError);
+  nb::raise_python_error();
+}
+
 // Up to `size` bytes of an open file, fewer where it ends before.
 nb::bytes read_file(int descriptor, std::size_t size) {
   PyObject* room = PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(size));
   if (room == nullptr) nb::raise_python_error();
   char* const bytes = PyBytes_AsString(room);
   std::size_t have = 0;
-  int failure = 0;
-  {
+  try {
     nb::gil_scoped_release release;
     satcheck::prefer_large_pages(bytes, size);
-    while (have < size && failure == 0) {
-      const std::int64_t got = read_some(descriptor, bytes + have, size - have);
-      if (got == 0) break;
-      if (got > 0) have += static_cast<std::size_t>(got);
-      if (got < 0 && errno != EINTR) failure = errno;
-    }
-  }
-  if (failure == 0 && have < size) _PyBytes_Resize(&room, static_cast<Py_ssize_t>(have));
-  if (failure != 0) {
+    have = read_up_to(descriptor, {bytes, size});
+  } catch (const std::system_error& failure) {
     Py_DECREF(room);
-    errno = failure;
-    PyErr_SetFromErrno(PyExc_OSError);
-    nb::raise_python_error();
+    raise_os_error(failure);
   }
+  if (have < size) _PyBytes_Resize(&room, static_cast<Py_ssize_t>(have));
   if (room == nullptr) nb::raise_python_error();
   return nb::steal<nb::bytes>(room);
+}
+
+ReadOutcome read_stl_in_pieces(int descriptor, std::size_t size) {
+  try {
+    nb::gil_scoped_release release;
+    return read_binary_stl(size, [&](std::span<char> room) { return read_up_to(descriptor, room); });
+  } catch (const std::system_error& failure) {
+    raise_os_error(failure);
+  }
 }
 
 const char* precision_name(const MeshData& mesh) {
@@ -150,6 +170,9 @@ NB_MODULE(_readers, m) {
 
   m.def("read_obj", &read<read_obj>, nb::arg("data"), "Wavefront OBJ; polygons as fans.");
   m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.");
+  m.def("read_binary_stl", &read_stl_in_pieces, nb::arg("descriptor"), nb::arg("size"),
+        "What read_stl makes of the `size` bytes of an open file that is binary by its count of facets, without holding them; "
+        "OSError where it cannot be read.");
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
 

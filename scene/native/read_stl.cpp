@@ -1,5 +1,7 @@
 // Stereolithography files: "StereoLithography Interface Specification", 3D Systems, 1989. Facet normals and
 // attribute bytes are ignored: the corners carry the orientation.
+#include <vector>
+
 #include "base/large_pages.hpp"
 #include "builder.hpp"
 #include "bytes.hpp"
@@ -14,6 +16,7 @@ constexpr std::size_t header_size = 84;  // 80 bytes of text, then the facet cou
 constexpr std::size_t facet_size = 50;   // normal, three corners, two attribute bytes
 constexpr std::size_t normal_size = 12;
 constexpr std::size_t count_offset = 80;
+constexpr std::size_t facets_at_a_time = 10000;  // of a file that is read in pieces
 
 // Facets that are read before the corners of the first are looked up, which then need not wait for memory.
 constexpr std::size_t ahead = 16;
@@ -37,36 +40,53 @@ bool is_finite(const Facet& facet) {
                static_cast<std::int64_t>(offset + i * sizeof(float)));
 }
 
-MeshData read_binary(std::string_view bytes, std::size_t count) {
-  if (count > static_cast<std::size_t>(max_vertices) / 3) {
-    fail(code::too_large, std::to_string(count) + " facets are more than 32-bit vertex numbers can hold");
+// Facets one after the other, wherever they lie.
+class BinaryReader {
+ public:
+  explicit BinaryReader(std::size_t count) : corners_(vertices_of(count)) {
+    mesh_.precision = Precision::float32;
+    mesh_.vertices = with_room<double>(vertices_of(count) * 3);
+    mesh_.triangles = with_room<std::uint32_t>(count * 3);
   }
-  MeshData mesh;
-  mesh.precision = Precision::float32;
-  const std::size_t expected = count / 2;  // vertices: of a closed surface of few handles
-  mesh.vertices = with_room<double>(expected * 3);
-  mesh.triangles = with_room<std::uint32_t>(count * 3);
-  Corners<float> corners(expected);
+
+  void take(std::string_view facets) {
+    const std::size_t end = taken_ + facets.size() / facet_size;
+    for (const char* from = facets.data() + normal_size; taken_ < end; ++taken_, from += facet_size) {
+      if (taken_ >= ahead) number(waiting_[taken_ % ahead]);
+      auto& [facet, hash] = waiting_[taken_ % ahead];
+      std::memcpy(&facet, from, sizeof facet);
+      if (!is_finite(facet)) fail_at_coordinate(facet, taken_, header_size + taken_ * facet_size + normal_size);
+      for (std::size_t k = 0; k < 3; ++k) corners_.fetch(hash[k] = corners_.hash(from + k * sizeof facet[k]));
+    }
+  }
+
+  MeshData finish() {
+    for (std::size_t i = taken_ - std::min(taken_, ahead); i < taken_; ++i) number(waiting_[i % ahead]);
+    return std::move(mesh_);
+  }
+
+ private:
   struct Waiting {
     Facet facet;
     std::array<std::uint64_t, 3> hash;
   };
-  std::array<Waiting, ahead> waiting;
-  for (std::size_t i = 0; i < count + ahead; ++i) {
-    auto& [facet, hash] = waiting[i % ahead];
-    if (i >= ahead) {
-      for (std::size_t k = 0; k < 3; ++k) mesh.triangles.push_back(corners.number(facet[k], hash[k], mesh.vertices));
+
+  static std::size_t vertices_of(std::size_t count) {
+    if (count > static_cast<std::size_t>(max_vertices) / 3) {
+      fail(code::too_large, std::to_string(count) + " facets are more than 32-bit vertex numbers can hold");
     }
-    if (i < count) {
-      const std::size_t offset = header_size + i * facet_size + normal_size;
-      const char* from = bytes.data() + offset;
-      std::memcpy(&facet, from, sizeof facet);
-      if (!is_finite(facet)) fail_at_coordinate(facet, i, offset);
-      for (std::size_t k = 0; k < 3; ++k) corners.fetch(hash[k] = corners.hash(from + k * sizeof facet[k]));
-    }
+    return count / 2;  // of a closed surface of few handles
   }
-  return mesh;
-}
+
+  void number(const Waiting& next) {
+    for (std::size_t k = 0; k < 3; ++k) mesh_.triangles.push_back(corners_.number(next.facet[k], next.hash[k], mesh_.vertices));
+  }
+
+  MeshData mesh_;
+  Corners<float> corners_;
+  std::array<Waiting, ahead> waiting_;
+  std::size_t taken_ = 0;
+};
 
 // Words over line ends, as ASCII STL is free-form but for the names behind `solid` and `endsolid`.
 class StlWords {
@@ -165,40 +185,81 @@ bool looks_like_ascii(std::string_view bytes) {
   return starts_as_solid && bytes.find('\0') == std::string_view::npos;
 }
 
-std::string promise(std::size_t count, std::size_t body) {
-  return "the header promises " + std::to_string(count) + " facets, the file has room for " +
-         std::to_string(body / facet_size);
-}
+// What the head of a file, if it is long enough for one, and the size of all say about facets.
+struct Promise {
+  Promise(std::string_view head, std::size_t size) {
+    if (size < header_size) return;
+    count = load<std::uint32_t>(head.data() + count_offset);
+    body = size - header_size;
+    // The size decides, not the first word: exporters write binary files whose header starts with "solid".
+    is_kept = body % facet_size == 0 && body / facet_size == count;
+  }
+
+  [[noreturn]] void fail_unkept() const {
+    const std::string promise = "the header promises " + std::to_string(count) + " facets, the file has room for " +
+                                std::to_string(body / facet_size);
+    if (body / facet_size < count) {
+      fail_at_byte(code::truncated, "truncated, or not an STL file: " + promise, static_cast<std::int64_t>(header_size + body));
+    }
+    fail_at_byte(code::trailing_data, "trailing bytes, or not an STL file: " + promise,
+                 static_cast<std::int64_t>(header_size + count * facet_size));
+  }
+
+  std::size_t count = 0, body = 0;
+  bool is_kept = false;
+};
 
 MeshData read(std::string_view bytes) {
-  std::size_t count = 0, body = 0;
-  if (bytes.size() >= header_size) {
-    count = load<std::uint32_t>(bytes.data() + count_offset);
-    body = bytes.size() - header_size;
-    // The size decides, not the first word: exporters write binary files whose header starts with "solid".
-    if (body % facet_size == 0 && body / facet_size == count) return read_binary(bytes, count);
+  const Promise promise(bytes, bytes.size());
+  if (promise.is_kept) {
+    BinaryReader reader(promise.count);
+    reader.take(bytes.substr(header_size));
+    return reader.finish();
   }
   if (looks_like_ascii(bytes)) return AsciiStlReader(bytes).read();
   if (bytes.size() < header_size) {
     fail(code::not_this_format, "not an STL file: " + std::to_string(bytes.size()) +
                                     " bytes are too few for a binary header, and it does not start with solid");
   }
-  if (body / facet_size < count) {
-    fail_at_byte(code::truncated, "truncated, or not an STL file: " + promise(count, body),
-                 static_cast<std::int64_t>(bytes.size()));
+  promise.fail_unkept();
+}
+
+MeshData read_pieces(std::size_t size, const NextBytes& next) {
+  std::vector<char> room(facets_at_a_time * facet_size);
+  const auto require = [&](std::size_t have, std::size_t wanted, std::size_t from) {
+    if (have < wanted) fail_at_byte(code::truncated, "truncated while it was read", static_cast<std::int64_t>(from + have));
+  };
+  require(next({room.data(), header_size}), header_size, 0);
+  const Promise promise({room.data(), header_size}, size);
+  if (!promise.is_kept) promise.fail_unkept();
+  BinaryReader reader(promise.count);
+  for (std::size_t at = header_size; at < size;) {
+    const std::size_t wanted = std::min(size - at, room.size());
+    require(next({room.data(), wanted}), wanted, at);
+    reader.take({room.data(), wanted});
+    at += wanted;
   }
-  fail_at_byte(code::trailing_data, "trailing bytes, or not an STL file: " + promise(count, body),
-               static_cast<std::int64_t>(header_size + count * facet_size));
+  if (next({room.data(), 1}) > 0) fail_at_byte(code::trailing_data, "written to while it was read", static_cast<std::int64_t>(size));
+  return reader.finish();
+}
+
+template <class Read>
+ReadOutcome with_triangles(Read read) {
+  return run_reader([&] {
+    MeshData mesh = read();
+    require_triangles(mesh);
+    return mesh;
+  });
 }
 
 }  // namespace
 
 ReadOutcome read_stl(std::string_view bytes) {
-  return run_reader([&] {
-    MeshData mesh = read(bytes);
-    require_triangles(mesh);
-    return mesh;
-  });
+  return with_triangles([&] { return read(bytes); });
+}
+
+ReadOutcome read_binary_stl(std::size_t size, const NextBytes& next) {
+  return with_triangles([&] { return read_pieces(size, next); });
 }
 
 }  // namespace satcheck::scene

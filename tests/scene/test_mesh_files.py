@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import struct
+
 import pytest
 
 from satcheck.scene import MeshFile, MeshFileError, MeshFiles, load_scene, mesh_files
-from satcheck.scene.loading import limits
+from satcheck.scene.loading import ReadLimits, limits, open_source
+from satcheck.scene.loading import source as loading_source
+from satcheck.scene.loading.native import read_native
 from satcheck.scene.loading.nodes import Node
 from tests.scene import files, graphs
 
@@ -88,6 +92,69 @@ def test_buffers_outside_of_the_folder_are_read_where_that_is_allowed(
     assert isinstance(MeshFiles(allow_outside=True).whole("level.gltf", path), MeshFile)
     (body,) = load_scene([path], allow_outside=True).bodies
     assert body.file.health.solid
+
+
+def stl_of(triangles: int) -> bytes:
+    """A fan."""
+    facet = struct.Struct("<12f2x")
+    corners = ((0, 0, 0, k, 1, 0, k + 1, 1, 0, 0, 0, -1) for k in range(triangles))
+    return b" " * 80 + struct.pack("<I", triangles) + b"".join(facet.pack(*c) for c in corners)
+
+
+@pytest.mark.parametrize("damage", ["none", "infinite", "short", "long", "png", "text"])
+def test_a_large_stl_file_is_read_in_pieces_with_the_same_result(tmp_path, monkeypatch, damage):
+    monkeypatch.setattr(loading_source, "LARGE_FILE_BYTES", 1)
+    content = bytearray(stl_of(300))
+    if damage == "infinite":
+        content[84 + 50 * 200 + 12 : 84 + 50 * 200 + 16] = struct.pack("<f", float("inf"))
+    elif damage == "short":
+        del content[-1:]
+    elif damage == "long":
+        content += b"x"
+    elif damage == "png":
+        content[:6] = b"\x89PNG\r\n"
+    elif damage == "text":
+        content = bytearray(b"solid x\nendsolid x\n" * 10)
+    path = tmp_path / "fan.stl"
+    path.write_bytes(content)
+    pieces = MeshFiles(hashed=False).whole("fan.stl", path)
+    whole = MeshFiles().whole("fan.stl", path)
+    if damage == "none":
+        assert isinstance(pieces, MeshFile)
+        assert isinstance(whole, MeshFile)
+        assert open_source("", path, ReadLimits(1, 100, hashed=False)).in_pieces
+        assert pieces.sha256 is None
+        assert pieces.mesh.to_bytes() == whole.mesh.to_bytes()
+        assert (pieces.health, pieces.resolution) == (whole.health, whole.resolution)
+    else:
+        assert isinstance(pieces, MeshFileError)
+        assert isinstance(whole, MeshFileError)
+        assert (pieces.code, str(pieces)) == (whole.code, str(whole))
+
+
+def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(loading_source, "LARGE_FILE_BYTES", 1)
+    path = tmp_path / "fan.stl"
+    path.write_bytes(stl_of(300))
+    source = open_source("fan.stl", path, ReadLimits(1, 100, hashed=False))
+    path.write_bytes(stl_of(300)[:1000])
+    with pytest.raises(MeshFileError, match="byte 1000: truncated while it was read"):
+        read_native(source)
+    path.unlink()
+    with pytest.raises(MeshFileError, match="cannot be read: No such file"):
+        read_native(source)
+
+
+def test_what_may_be_done_meanwhile_is_done_where_large_files_are_read(tmp_path):
+    called = []
+    small, large = tmp_path / "small.stl", tmp_path / "large.stl"
+    small.write_bytes(stl_of(2))
+    large.write_bytes(stl_of(20_000))
+    MeshFiles().read_ahead([("a", small), ("b", large)], lambda: called.append("small"))
+    again = tmp_path / "again.stl"
+    again.write_bytes(large.read_bytes())
+    MeshFiles().read_ahead([("a", again), ("b", large)], lambda: called.append("large"))
+    assert called == ["large"]
 
 
 def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch):

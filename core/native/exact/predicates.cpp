@@ -253,21 +253,9 @@ void round_affine(const Vec3 (&row)[3], Vec3 offset, std::vector<Vec3>& points) 
 double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
   if (triangles.empty()) return 0;
   const Vec3 origin = vertices[triangles[0][0]];
-  double total = 0, correction = 0, permanent = 0;
-  for (const Triangle& t : triangles) {
-    const Vec3 a = vertices[t[0]] - origin, b = vertices[t[1]] - origin, c = vertices[t[2]] - origin;
-    const Rounded s = two_sum(total, dot(a, cross(b, c)));
-    total = s.value;
-    correction += s.error;
-    const Vec3 size_b{std::fabs(b.x), std::fabs(b.y), std::fabs(b.z)};
-    const Vec3 size_c{std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)};
-    permanent += std::fabs(a.x) * (size_b.y * size_c.z + size_b.z * size_c.y) +
-                 std::fabs(a.y) * (size_b.z * size_c.x + size_b.x * size_c.z) +
-                 std::fabs(a.z) * (size_b.x * size_c.y + size_b.y * size_c.x);
-  }
-  const double six_volumes = total + correction;
-  // The determinants' own bound, and as much again for the compensated sum of up to 2^32 terms.
-  if (std::fabs(six_volumes) > 2 * kDeterminantBound * permanent) return six_volumes / 6;
+  VolumeSum sum(origin);
+  for (const Triangle& t : triangles) sum.add(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+  if (const auto volume = sum.volume()) return *volume;
 
   std::vector<double> exact;  // an expansion of unlimited length
   for (const Triangle& t : triangles) {

@@ -7,10 +7,13 @@
 // Range: exact for the coordinates of numeric_range.hpp, which everything that calls them enforces.
 #pragma once
 
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "base/tolerances.hpp"
 #include "base/vec.hpp"
+#include "exact/double_double.hpp"
 
 namespace satcheck {
 
@@ -76,5 +79,35 @@ void round_affine(const Vec3 (&row)[3], Vec3 offset, std::vector<Vec3>& points);
 // Signed volume enclosed by a closed, consistently wound surface, positive when wound outwards.
 // Rounded, but its sign is exact: 0.0 only when the volume is exactly 0.
 double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
+
+// The same, a triangle after the other, for a pass over them that does more. origin: the first corner of the first one.
+class VolumeSum {
+ public:
+  explicit VolumeSum(Vec3 origin) : origin_(origin) {}
+
+  void add(Vec3 corner_a, Vec3 corner_b, Vec3 corner_c) {
+    const Vec3 a = corner_a - origin_, b = corner_b - origin_, c = corner_c - origin_;
+    const DoubleDouble s = exact_sum(total_, dot(a, cross(b, c)));
+    total_ = s.high;
+    correction_ += s.low;
+    const Vec3 size_b{std::fabs(b.x), std::fabs(b.y), std::fabs(b.z)};
+    const Vec3 size_c{std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)};
+    permanent_ += std::fabs(a.x) * (size_b.y * size_c.z + size_b.z * size_c.y) +
+                  std::fabs(a.y) * (size_b.z * size_c.x + size_b.x * size_c.z) +
+                  std::fabs(a.z) * (size_b.x * size_c.y + size_b.y * size_c.x);
+  }
+
+  // Nothing where the sign of the sum is not certain.
+  std::optional<double> volume() const {
+    const double six_volumes = total_ + correction_;
+    // The determinants' own bound, and as much again for the compensated sum of up to 2^32 terms.
+    if (!(std::fabs(six_volumes) > 2 * kDeterminantBound * permanent_)) return std::nullopt;
+    return six_volumes / 6;
+  }
+
+ private:
+  Vec3 origin_;
+  double total_ = 0, correction_ = 0, permanent_ = 0;
+};
 
 }  // namespace satcheck

@@ -119,11 +119,14 @@ std::optional<Topology> measure_sorted_manifold(const Mesh& sorted) {
   topology.triangles = triangles.size();
   topology.components = *parts;
   topology.closed = topology.manifold = topology.oriented = true;
-  for (const Triangle& corner : triangles) {
-    const bool flat = collinear(sorted.vertices[corner[0]], sorted.vertices[corner[1]], sorted.vertices[corner[2]]);
-    topology.degenerate_triangles += flat ? 1 : 0;
+  VolumeSum volume(sorted.vertices[triangles[0][0]]);
+  for (const Triangle& t : triangles) {
+    const Vec3 a = sorted.vertices[t[0]], b = sorted.vertices[t[1]], c = sorted.vertices[t[2]];
+    topology.degenerate_triangles += collinear(a, b, c) ? 1 : 0;
+    volume.add(a, b, c);
   }
-  topology.volume = signed_volume(sorted.vertices, triangles);
+  const auto certain = volume.volume();
+  topology.volume = certain ? *certain : signed_volume(sorted.vertices, triangles);
   topology.solid = topology.volume != 0;
   return topology;
 }

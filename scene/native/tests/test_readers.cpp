@@ -1,8 +1,12 @@
 // The readers without Python: what they return, and that no prefix or damage of a file harms them.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <initializer_list>
 #include <random>
+#include <span>
 #include <string>
 
 #include "readers.hpp"
@@ -129,15 +133,20 @@ void append_facet(std::string& bytes, std::initializer_list<float> corners) {
   append<std::uint16_t>(bytes, 0);
 }
 
-void test_corners_of_stl_are_vertices_once() {
-  constexpr std::uint32_t facets = 1024;  // a fan: more vertices than the first table is for
+// More vertices than the first table is for.
+std::string fan(std::uint32_t facets) {
   std::string bytes(80, ' ');
   append<std::uint32_t>(bytes, facets);
   for (std::uint32_t i = 0; i < facets; ++i) {
     const float x = static_cast<float>(i);
     append_facet(bytes, {x, 1, 0, x + 1, 1, 0, 0, 0, -1});
   }
-  const ReadOutcome outcome = read_stl(bytes);
+  return bytes;
+}
+
+void test_corners_of_stl_are_vertices_once() {
+  constexpr std::uint32_t facets = 1024;
+  const ReadOutcome outcome = read_stl(fan(facets));
   const MeshData* mesh = std::get_if<MeshData>(&outcome);
   CHECK(mesh && mesh->vertices.size() == 3 * (facets + 2));
   if (!mesh) return;
@@ -145,6 +154,44 @@ void test_corners_of_stl_are_vertices_once() {
     const auto at = [&](std::uint32_t corner) { return mesh->vertices[3 * mesh->triangles[3 * i + corner]]; };
     CHECK(at(0) == i && at(1) == i + 1 && mesh->triangles[3 * i + 2] == 2);
   }
+}
+
+// A file that had `size` bytes when it was looked at.
+ReadOutcome read_in_pieces(std::string_view file, std::size_t size) {
+  return read_binary_stl(size, [&](std::span<char> room) {
+    const std::size_t taken = std::min(room.size(), file.size());
+    std::copy_n(file.begin(), taken, room.begin());
+    file.remove_prefix(taken);
+    return taken;
+  });
+}
+
+bool are_equal(const ReadOutcome& a, const ReadOutcome& b) {
+  if (a.index() != b.index()) return false;
+  if (const ReadError* error = error_of(a)) {
+    return error->code == error_of(b)->code && error->message == error_of(b)->message && error->offset == error_of(b)->offset;
+  }
+  const MeshData &one = std::get<MeshData>(a), &other = std::get<MeshData>(b);
+  return one.vertices == other.vertices && one.triangles == other.triangles && one.precision == other.precision;
+}
+
+void test_pieces_of_stl_are_the_whole() {
+  constexpr std::size_t facets = 25000;  // three pieces
+  std::string bytes = fan(facets);
+  for (const std::uint32_t few : {0u, 1u, 15u, 16u, 17u}) CHECK(are_equal(read_in_pieces(fan(few), 84 + 50 * few), read_stl(fan(few))));
+  CHECK(are_equal(read_in_pieces(bytes, bytes.size()), read_stl(bytes)));
+  CHECK(is_sound(read_in_pieces(bytes, bytes.size())));
+  for (const std::size_t size : {0, 83, 84, 100, 500084, 700000}) {
+    const ReadOutcome cut = read_in_pieces(std::string_view(bytes).substr(0, size), bytes.size());
+    CHECK(error_of(cut) && error_of(cut)->code == code::truncated && error_of(cut)->offset == static_cast<std::int64_t>(size));
+  }
+  const ReadOutcome grown = read_in_pieces(bytes + "x", bytes.size());
+  CHECK(error_of(grown) && error_of(grown)->code == code::trailing_data);
+  CHECK(are_equal(read_in_pieces(bytes, bytes.size() - 50), read_stl(std::string_view(bytes).substr(0, bytes.size() - 50))));
+  const float infinite = INFINITY;
+  std::memcpy(bytes.data() + 84 + 50 * 24000 + 12 + 16, &infinite, sizeof infinite);
+  CHECK(error_of(read_stl(bytes)) && error_of(read_stl(bytes))->offset == 84 + 50 * 24000 + 12 + 16);
+  CHECK(are_equal(read_in_pieces(bytes, bytes.size()), read_stl(bytes)));
 }
 
 void test_numbers() {
@@ -172,6 +219,7 @@ int main() {
   test_random_damage();
   test_places();
   test_corners_of_stl_are_vertices_once();
+  test_pieces_of_stl_are_the_whole();
   test_numbers();
   std::printf("%d failures\n", failures);
   return failures == 0 ? 0 : 1;
