@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from satcheck.cli import exit_codes
 from satcheck.cli.output import Document, harmless, talk
 from satcheck.core.errors import SatcheckError
+from satcheck.scene.loading.regular_file import size_of
 
 if TYPE_CHECKING:
     from satcheck.verify import Checked, Verification
@@ -55,9 +56,11 @@ def run(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -
 
 def _read(report: Path) -> Any:
     try:
-        if report.stat().st_size > MOST_BYTES:
-            raise SatcheckError("bad-report", f"{report}: too large")
+        if size_of(report) > MOST_BYTES:
+            raise SatcheckError("bad-report", "too large")
         text = report.read_text("utf-8")
+    except SatcheckError as error:
+        raise SatcheckError(error.code, error.message, file=str(report)) from None
     except OSError as error:
         raise SatcheckError("unreadable-file", f"{report}: {error.strerror}") from None
     except UnicodeDecodeError:

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from pathlib import Path
+
+import pytest
 
 from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satcheck
 
@@ -101,3 +104,11 @@ def test_what_is_no_report_is_refused(tmp_path: Path) -> None:
         assert (ran.code, ran.out) == (2, ""), text[:10]
         assert "[bad-report]" in ran.err
     assert satcheck("verify", str(tmp_path / "none.json")).code == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes in this file system")
+def test_what_has_no_end_is_not_read(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.json")
+    ran = satcheck("verify", str(tmp_path / "pipe.json"))
+    assert (ran.code, ran.out) == (2, "")
+    assert "is a pipe, not a file: not read [not-a-file]" in ran.err
