@@ -20,13 +20,15 @@ def command() -> None:
 def info() -> None:
     """Show where the cache is and how much it holds."""
     from satcheck.cli.caching import describe
+    from satcheck.cli.output import Document
 
-    click.echo(describe())
+    Document().write(f"{describe()}\n")
 
 
 @command.command()
 def clear() -> None:
     """Delete everything in the cache."""
     from satcheck.cli.caching import clear as clear_cache
+    from satcheck.cli.output import Document
 
-    click.echo(clear_cache())
+    Document().write(f"{clear_cache()}\n")

@@ -12,6 +12,7 @@ DOCUMENTS = ("report", "resolution", "samples", "scene", "stability", "suggestio
 def command(document: str) -> None:
     """Print the JSON Schema of a report: of a check, of resolve, of robots in many poses, of
     stability, of suggestions, of tradeoff; or that of a scene file."""
+    from satcheck.cli.output import Document
     from satcheck.cli.report.schema import text
 
-    click.echo(text(document), nl=False)
+    Document().write(text(document), utf8=True)

@@ -58,10 +58,11 @@ def test_output_file_that_cannot_be_written(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-def test_a_full_disk_is_an_error() -> None:
+@pytest.mark.parametrize("arguments", [APART, ("schema",), ("cache", "info")])
+def test_a_full_disk_is_an_error(arguments: tuple[str, ...]) -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            command(*APART),
+            command(*arguments),
             cwd=SAMPLES,
             env=environment(),
             stdout=full,
