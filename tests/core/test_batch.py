@@ -30,6 +30,7 @@ COUNTS = ("gjk_iterations", "epa_iterations", "axes_tested")
 
 Indices = NDArray[np.uint32]
 Query = Literal["overlap", "depth", "distance"]
+QUERIES: tuple[Query, ...] = ("overlap", "depth", "distance")
 
 
 def scene() -> tuple[list[Any], Indices, Indices, Points, Points]:
@@ -47,7 +48,7 @@ def scene() -> tuple[list[Any], Indices, Indices, Points, Points]:
     return shapes, index[0], index[1], poses[0], poses[1]
 
 
-@pytest.mark.parametrize("query", ["overlap", "depth", "distance"])
+@pytest.mark.parametrize("query", QUERIES)
 def test_any_thread_count_gives_the_same_bits(query: Query) -> None:
     inputs = scene()
     one = check_pairs(*inputs, query=query, threads=1)
@@ -57,7 +58,7 @@ def test_any_thread_count_gives_the_same_bits(query: Query) -> None:
             assert getattr(one, name).tobytes() == getattr(many, name).tobytes()
 
 
-@pytest.mark.parametrize("query", ["overlap", "depth", "distance"])
+@pytest.mark.parametrize("query", QUERIES)
 def test_batch_equals_one_by_one(query: Query) -> None:
     shapes, index_a, index_b, poses_a, poses_b = scene()
     batch = check_pairs(shapes, index_a, index_b, poses_a, poses_b, query=query)
@@ -89,10 +90,36 @@ def test_overlapping_and_separated_pairs_are_both_there() -> None:
     }
 
 
+def test_arrays_are_whole_read_only_and_outlive_the_results() -> None:
+    found = check_pairs(*scene(), query="depth")
+    for name in ("outcome", "method", *NUMBERS, *COUNTS):
+        assert getattr(found, name).flags.c_contiguous
+        assert not getattr(found, name).flags.writeable
+    normal, copy = found.normal, np.array(found.normal)
+    del found
+    check_pairs(*scene(), query="depth")  # would be where the results were
+    assert normal.tobytes() == copy.tobytes()
+
+
+def test_what_was_not_asked_for_is_nan() -> None:
+    found = check_pairs(*scene(), query="overlap")
+    for name in NUMBERS:
+        values = getattr(found, name)
+        assert values.shape[0] == PAIRS
+        assert values.dtype == np.float64
+        assert np.isnan(values).all()
+        assert not values.flags.writeable
+
+
 def test_no_pairs_at_all() -> None:
     none = np.empty(0, np.uint32)
-    result = check_pairs([Sphere(1.0)], none, none, np.empty((0, 7)), np.empty((0, 7)))
-    assert len(result.outcome) == 0
+    for query in QUERIES:
+        found = check_pairs(
+            [Sphere(1.0)], none, none, np.empty((0, 7)), np.empty((0, 7)), query=query
+        )
+        assert len(found) == 0
+        assert found.outcome.shape == found.distance.shape == (0,)
+        assert found.normal.shape == (0, 3)
 
 
 def bad_batches() -> list[tuple[Any, ...]]:

@@ -9,10 +9,9 @@
 
 #include <stdexcept>
 
-#include "base/numeric_range.hpp"
 #include "base/sha256.hpp"
-#include "convex/batch.hpp"
 #include "convex/sat_polygon.hpp"
+#include "convex/shape.hpp"
 #include "mesh/hull_points.hpp"
 #include "scene/words.hpp"
 
@@ -28,173 +27,16 @@ void bind_depth(nb::module_& m);
 void bind_frozen(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_motion(nb::module_& m);
+void bind_pairs(nb::module_& m);
 }
 
 namespace {
 
 using Points = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using Points2 = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-using Poses = nb::ndarray<const double, nb::shape<-1, 7>, nb::c_contig, nb::device::cpu>;
-using Indices = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Triple = std::array<double, 3>;
 
-nb::tuple to_tuple(Vec3 v) { return nb::make_tuple(v.x, v.y, v.z); }
 Vec3 to_vec(const Triple& t) { return {t[0], t[1], t[2]}; }
-
-// Translation, then a quaternion x y z w of any non-zero length.
-Pose pose_from(const double* p) {
-  const double x = p[3], y = p[4], z = p[5], w = p[6];
-  const double norm_squared = x * x + y * y + z * z + w * w;
-  for (int i = 0; i < 7; ++i) {
-    if (!std::isfinite(p[i])) throw std::invalid_argument("a pose has a coordinate that is not finite");
-    if (i < 3 && !in_range(p[i])) throw std::overflow_error("a pose has a translation that is out of range");
-  }
-  if (!(norm_squared > 0)) throw std::invalid_argument("a pose has a quaternion of length 0");
-  const double k = 2 / norm_squared;
-  Pose pose;
-  pose.rotation = {{{1 - k * (y * y + z * z), k * (x * y - z * w), k * (x * z + y * w)},
-                    {k * (x * y + z * w), 1 - k * (x * x + z * z), k * (y * z - x * w)},
-                    {k * (x * z - y * w), k * (y * z + x * w), 1 - k * (x * x + y * y)}}};
-  pose.translation = {p[0], p[1], p[2]};
-  return pose;
-}
-
-Pose pose_from(const std::optional<std::vector<double>>& values) {
-  if (!values) return {};
-  if (values->size() == 3) {
-    const double p[7] = {(*values)[0], (*values)[1], (*values)[2], 0, 0, 0, 1};
-    return pose_from(p);
-  }
-  if (values->size() != 7) throw std::invalid_argument("a pose is (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw)");
-  return pose_from(values->data());
-}
-
-Query query_from(const std::string& name) {
-  if (name == "overlap") return Query::overlap;
-  if (name == "depth") return Query::depth;
-  if (name == "distance") return Query::distance;
-  throw std::invalid_argument("query is \"overlap\", \"depth\" or \"distance\", not \"" + name + "\"");
-}
-
-MethodChoice method_from(const std::string& name) {
-  if (name == "auto") return MethodChoice::automatic;
-  if (name == "sat") return MethodChoice::sat;
-  if (name == "gjk") return MethodChoice::gjk;
-  throw std::invalid_argument("method is \"auto\", \"sat\" or \"gjk\", not \"" + name + "\"");
-}
-
-const char* name_of(Reason reason) { return reason == Reason::none ? "" : "bounds-not-closed"; }
-
-nb::object optional_number(const PairResult& r, double value) {
-  return r.has_distance ? nb::object(nb::float_(value)) : nb::none();
-}
-nb::object optional_vector(const PairResult& r, Vec3 v) {
-  return r.has_distance ? nb::object(to_tuple(v)) : nb::none();
-}
-std::int64_t index_or_minus_one(std::uint32_t index) {
-  return index == Shape::kNoIndex ? -1 : static_cast<std::int64_t>(index);
-}
-
-constexpr const char* kPairResultDoc = R"(What was found about one convex pair. World frame, units of the shapes.
-
-outcome      "separated", "touching", "penetrating" or "undecided" (then `reason` says why), the same for every
-             query, and for B against A. On hulls, boxes, spheres and capsules touching is decided exactly,
-             for the vertices, centres and axes where the poses round them to; where a cylinder, cone or
-             ellipsoid takes part it means that 0 lies between the proven bounds lower and upper.
-distance     signed: > 0 the gap, < 0 minus the penetration depth. None for query "overlap".
-lower, upper proven bounds of the signed distance, rounding included.
-normal       unit, from A to B. witness_a, witness_b: points on A and B with
-             witness_b - witness_a = distance * normal. Moving A by distance * normal separates an overlap.
-method       the stage that decided: "sat", "gjk", "epa" or "exact".
-feature      what carries the answer: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face
-             or edge, -1 where none), "vertices" or "curved".)";
-
-void bind_pair_result(nb::module_& m) {
-  nb::class_<PairResult>(m, "PairResult", kPairResultDoc)
-      .def_prop_ro("outcome", [](const PairResult& r) { return name_of(r.outcome); })
-      .def_prop_ro("reason", [](const PairResult& r) { return name_of(r.reason); })
-      .def_prop_ro("method", [](const PairResult& r) { return name_of(r.method); })
-      .def_prop_ro("feature", [](const PairResult& r) { return name_of(r.feature); })
-      .def_prop_ro("index_a", [](const PairResult& r) { return index_or_minus_one(r.index_a); })
-      .def_prop_ro("index_b", [](const PairResult& r) { return index_or_minus_one(r.index_b); })
-      .def_prop_ro("distance", [](const PairResult& r) { return optional_number(r, r.distance); })
-      .def_prop_ro("lower", [](const PairResult& r) { return optional_number(r, r.lower); })
-      .def_prop_ro("upper", [](const PairResult& r) { return optional_number(r, r.upper); })
-      .def_prop_ro("normal", [](const PairResult& r) { return optional_vector(r, r.normal); })
-      .def_prop_ro("witness_a", [](const PairResult& r) { return optional_vector(r, r.witness_a); })
-      .def_prop_ro("witness_b", [](const PairResult& r) { return optional_vector(r, r.witness_b); })
-      .def_ro("gjk_iterations", &PairResult::gjk_iterations)
-      .def_ro("epa_iterations", &PairResult::epa_iterations)
-      .def_ro("axes_tested", &PairResult::axes_tested)
-      .def("__repr__", [](const PairResult& r) {
-        return std::string("<PairResult ") + name_of(r.outcome) +
-               (r.has_distance ? ", distance " + std::to_string(r.distance) : "") + " by " + name_of(r.method) + ">";
-      });
-}
-
-// Arrays over the results, without a copy: a field of every record, one record apart.
-struct PairResults {
-  std::vector<PairResult> records;
-};
-
-template <class T>
-nb::object field(nb::handle self, const T* first, std::size_t count, std::size_t width) {
-  static_assert(sizeof(PairResult) % sizeof(T) == 0);
-  const std::size_t shape[2] = {count, width};
-  const std::int64_t strides[2] = {static_cast<std::int64_t>(sizeof(PairResult) / sizeof(T)), 1};
-  return nb::cast(nb::ndarray<nb::numpy, const T>(first, width == 1 ? 1 : 2, shape, self, strides));
-}
-
-template <auto Member, class T, std::size_t Width>
-nb::object column(nb::handle self) {
-  const auto& records = nb::cast<const PairResults&>(self).records;
-  static const PairResult nothing{};
-  const PairResult& first = records.empty() ? nothing : records.front();
-  return field(self, reinterpret_cast<const T*>(&(first.*Member)), records.size(), Width);
-}
-
-void bind_pair_results(nb::module_& m) {
-  nb::class_<PairResults>(m, "PairResults",
-                          R"(The results of check_pairs: indexing gives a PairResult, the attributes are read-only
-numpy views of shape (n,) or (n, 3). Outcomes are 0 separated, 1 touching, 2 penetrating, 3 undecided;
-methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact. Distances and vectors are 0 for query "overlap".)")
-      .def("__len__", [](const PairResults& r) { return r.records.size(); })
-      .def(
-          "__getitem__",
-          [](const PairResults& r, std::size_t i) {
-            if (i >= r.records.size()) throw nb::index_error();
-            return r.records[i];
-          },
-          nb::arg("index"))
-      .def_prop_ro("outcome", &column<&PairResult::outcome, std::uint8_t, 1>)
-      .def_prop_ro("method", &column<&PairResult::method, std::uint8_t, 1>)
-      .def_prop_ro("distance", &column<&PairResult::distance, double, 1>)
-      .def_prop_ro("lower", &column<&PairResult::lower, double, 1>)
-      .def_prop_ro("upper", &column<&PairResult::upper, double, 1>)
-      .def_prop_ro("normal", &column<&PairResult::normal, double, 3>)
-      .def_prop_ro("witness_a", &column<&PairResult::witness_a, double, 3>)
-      .def_prop_ro("witness_b", &column<&PairResult::witness_b, double, 3>)
-      .def_prop_ro("gjk_iterations", &column<&PairResult::gjk_iterations, int, 1>)
-      .def_prop_ro("epa_iterations", &column<&PairResult::epa_iterations, int, 1>)
-      .def_prop_ro("axes_tested", &column<&PairResult::axes_tested, int, 1>);
-}
-
-PairResults check_many(const std::vector<const Shape*>& shapes, Indices index_a, Indices index_b, Poses poses_a,
-                       Poses poses_b, const std::string& query, const std::string& method, unsigned threads) {
-  const std::size_t count = index_a.shape(0);
-  if (index_b.shape(0) != count || poses_a.shape(0) != count || poses_b.shape(0) != count) {
-    throw std::invalid_argument("index_a, index_b, poses_a and poses_b differ in length");
-  }
-  const auto request = [&](std::size_t i) -> PairRequest {
-    const std::uint32_t a = index_a.data()[i], b = index_b.data()[i];
-    if (a >= shapes.size() || b >= shapes.size()) throw std::invalid_argument("a shape index is out of range");
-    return {shapes[a], shapes[b], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
-  };
-  const Query asked = query_from(query);
-  const MethodChoice choice = method_from(method);
-  nb::gil_scoped_release release;
-  return {check_pairs(count, request, asked, choice, threads)};
-}
 
 std::vector<Vec3> to_points(const Points& points) {
   std::vector<Vec3> out(points.shape(0));
@@ -314,8 +156,7 @@ NB_MODULE(_native, m) {
   bind_depth(m);
   bind_motion(m);
   bind_shapes(m);
-  bind_pair_result(m);
-  bind_pair_results(m);
+  bind_pairs(m);
   bind_polygons(m);
   bind_climb(m);
   m.def(
@@ -326,37 +167,4 @@ NB_MODULE(_native, m) {
         return sha256(bytes);
       },
       nb::arg("data"), "SHA-256 of the bytes, in hexadecimal digits. hashlib takes longer to import than a check to hash.");
-  m.def(
-      "check_pair",
-      [](const Shape& a, const Shape& b, const std::optional<std::vector<double>>& pose_a,
-         const std::optional<std::vector<double>>& pose_b, const std::string& query, const std::string& method) {
-        const Pose pa = pose_from(pose_a), pb = pose_from(pose_b);
-        const Query asked = query_from(query);
-        const MethodChoice choice = method_from(method);
-        nb::gil_scoped_release release;
-        return check_pair(a, pa, b, pb, asked, choice);
-      },
-      nb::arg("a"), nb::arg("b"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(), nb::kw_only(),
-      nb::arg("query") = "depth", nb::arg("method") = "auto",
-      R"(Check two placed convex shapes.
-
-pose_a, pose_b  None, (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw): rotate by the quaternion (any length
-                but 0), then translate.
-query           "overlap" gives the outcome only and stops at the first proof; "depth" and "distance" give
-                the signed distance, normal and witness points.
-method          "auto", or "sat" / "gjk" to take that one where it applies.
-Raises ValueError for a pose that is not finite or an unknown query or method, OverflowError for a
-translation out of range.
-
-SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), GJK (Gilbert, Johnson, Keerthi 1988), EPA on signed
-face distances (after van den Bergen 2001), exact signs (Shewchuk 1997) where float64 cannot tell.)");
-  m.def("check_pairs", &check_many, nb::arg("shapes"), nb::arg("index_a").noconvert(),
-        nb::arg("index_b").noconvert(), nb::arg("poses_a").noconvert(),
-        nb::arg("poses_b").noconvert(), nb::kw_only(), nb::arg("query") = "depth", nb::arg("method") = "auto",
-        nb::arg("threads") = 0,
-        R"(check_pair over many pairs at once, on `threads` threads (0: one a core), without the GIL.
-
-Pair i is shapes[index_a[i]] at poses_a[i] against shapes[index_b[i]] at poses_b[i]; indices uint32 (n,),
-poses float64 (n, 7). The results are the same bits at any thread count. ValueError when lengths differ, an
-index is out of range or a pose is not finite.)");
 }

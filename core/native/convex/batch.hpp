@@ -3,9 +3,8 @@
 
 #include <cstddef>
 #include <functional>
-#include <vector>
 
-#include "convex/narrow_phase.hpp"
+#include "convex/pair_results.hpp"
 
 namespace satcheck {
 
@@ -17,7 +16,7 @@ struct PairRequest {
 
 // check_pair() on request(0), ..., request(count - 1). request(i) is called once, by the thread that needs it; of
 // those that throw the first counts.
-std::vector<PairResult> check_pairs(std::size_t count, const std::function<PairRequest(std::size_t)>& request,
-                                    Query query, MethodChoice method, unsigned threads);
+PairResults check_pairs(std::size_t count, const std::function<PairRequest(std::size_t)>& request, Query query,
+                        MethodChoice method, unsigned threads);
 
 }  // namespace satcheck

@@ -1,10 +1,8 @@
 // Analytic pairs, and SAT, GJK and EPA against each other: they share the support functions only.
 #include <initializer_list>
-#include <stdexcept>
-#include <string>
 
 #include "base/tolerances.hpp"
-#include "convex/batch.hpp"
+#include "convex/narrow_phase.hpp"
 #include "tests/check.hpp"
 #include "tests/pairs.hpp"
 
@@ -146,44 +144,6 @@ void test_swap_negates() {
   }
 }
 
-void test_thread_count_changes_nothing() {
-  testing::Source source(17);
-  std::vector<Shape> shapes;
-  for (int i = 0; i < 20; ++i) shapes.push_back(make_hull(source.sphere_points(12 + i)));
-  std::vector<PairRequest> requests;
-  for (int i = 0; i < 2000; ++i) {
-    requests.push_back({&shapes[i % 20], &shapes[(i * 7) % 20], source.pose(0.8), source.pose(0.8)});
-  }
-  const auto request = [&](std::size_t i) { return requests[i]; };
-  const std::vector<PairResult> one = check_pairs(requests.size(), request, Query::depth, MethodChoice::automatic, 1);
-  for (unsigned threads : {2u, 7u}) {
-    const std::vector<PairResult> many =
-        check_pairs(requests.size(), request, Query::depth, MethodChoice::automatic, threads);
-    bool same = true;
-    for (std::size_t i = 0; i < one.size(); ++i) {
-      same = same && one[i].distance == many[i].distance && one[i].normal == many[i].normal &&
-             one[i].witness_a == many[i].witness_a;
-    }
-    CHECK(same);
-  }
-}
-
-void test_the_first_failure_counts() {
-  const Shape ball = make_sphere(1);
-  for (unsigned threads : {1u, 7u}) {
-    std::string said;
-    try {
-      check_pairs(1000, [&](std::size_t i) -> PairRequest {
-        if (i % 300 == 299) throw std::runtime_error(std::to_string(i));
-        return {&ball, &ball, {}, {}};
-      }, Query::overlap, MethodChoice::automatic, threads);
-    } catch (const std::runtime_error& error) {
-      said = error.what();
-    }
-    CHECK(said == "299");
-  }
-}
-
 void test_powers_of_two_scale_exactly() {
   testing::Source source(19);
   for (int round = 0; round < 100; ++round) {
@@ -212,8 +172,6 @@ int main() {
   test_identical_and_concentric();
   test_methods_agree();
   test_swap_negates();
-  test_thread_count_changes_nothing();
-  test_the_first_failure_counts();
   test_powers_of_two_scale_exactly();
   return testing::exit_status();
 }

@@ -1,0 +1,103 @@
+// The results of many pairs, taken apart: an array a field, as numpy reads them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "base/large_pages.hpp"
+#include "convex/narrow_phase.hpp"
+
+namespace satcheck {
+
+template <auto Member>
+using Field = std::remove_cvref_t<decltype(std::declval<PairResult>().*Member)>;
+
+// So many rows of even the narrowest field, a byte, fill a cache line: threads that set whole blocks of them, counted
+// from row 0, never write to the same line.
+inline constexpr std::size_t kRowsOfALine = 64;
+
+// The fields `Members` of so many PairResults: arrays in one piece of memory. Each starts on a cache line. Nothing is
+// written before it is set, so the thread that sets a row is the first to touch it.
+template <auto... Members>
+class FieldArrays {
+  template <auto Member>
+  struct Name {};
+
+ public:
+  explicit FieldArrays(std::size_t rows)
+      : rows_((rows + kRowsOfALine - 1) / kRowsOfALine * kRowsOfALine),
+        lines_(unwritten<CacheLine>(rows_ / kRowsOfALine * kRowBytes)) {}
+
+  std::size_t rows() const { return rows_; }
+
+  template <auto Member>
+  static constexpr bool holds = (std::is_same_v<Name<Member>, Name<Members>> || ...);
+
+  template <auto Member>
+  Field<Member>* array() const {
+    auto* bytes = reinterpret_cast<std::byte*>(lines_.get());
+    return reinterpret_cast<Field<Member>*>(bytes + rows_ * bytes_before<Member>());
+  }
+  void set(std::size_t row, const PairResult& result) { ((array<Members>()[row] = result.*Members), ...); }
+  void get(std::size_t row, PairResult& result) const { ((result.*Members = array<Members>()[row]), ...); }
+
+ private:
+  struct alignas(kRowsOfALine) CacheLine {
+    std::byte bytes[kRowsOfALine];
+  };
+  static constexpr std::size_t kRowBytes = (sizeof(Field<Members>) + ...);
+
+  template <auto Member>
+  static constexpr std::size_t bytes_before() {
+    std::size_t bytes = 0;
+    bool found = false;
+    ((found = found || std::is_same_v<Name<Member>, Name<Members>>, bytes += found ? 0 : sizeof(Field<Members>)), ...);
+    return bytes;
+  }
+
+  std::size_t rows_;
+  std::unique_ptr<CacheLine[]> lines_;
+};
+
+class PairResults {
+ public:
+  // Not `measured`: no distances, and none of what belongs to them. They are NaN and take no room.
+  PairResults(std::size_t count, bool measured) : count_(count), measures_(measured ? count : 0), facts_(count) {}
+
+  std::size_t size() const { return count_; }
+
+  void set(std::size_t i, const PairResult& result) {
+    facts_.set(i, result);
+    if (measures_.rows() > 0) measures_.set(i, result);
+  }
+  PairResult operator[](std::size_t i) const {
+    PairResult result;
+    facts_.get(i, result);
+    if (measures_.rows() > 0) measures_.get(i, result);
+    return result;
+  }
+  // Of all pairs; null where nothing was measured.
+  template <auto Member>
+  const Field<Member>* array() const {
+    if constexpr (Facts::holds<Member>) {
+      return facts_.array<Member>();
+    } else {
+      return measures_.rows() > 0 ? measures_.array<Member>() : nullptr;
+    }
+  }
+
+ private:
+  using Measures = FieldArrays<&PairResult::distance, &PairResult::lower, &PairResult::upper, &PairResult::normal,
+                               &PairResult::witness_a, &PairResult::witness_b>;
+  using Facts = FieldArrays<&PairResult::index_a, &PairResult::index_b, &PairResult::gjk_iterations,
+                            &PairResult::epa_iterations, &PairResult::axes_tested, &PairResult::outcome,
+                            &PairResult::reason, &PairResult::method, &PairResult::feature, &PairResult::has_distance>;
+
+  std::size_t count_;
+  Measures measures_;
+  Facts facts_;
+};
+
+}  // namespace satcheck
