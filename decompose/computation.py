@@ -17,6 +17,7 @@ from satcheck.core.worker import (
 from satcheck.decompose import errors
 from satcheck.decompose.coacd_server import decode_reply, encode_request
 from satcheck.decompose.components import diagonal, independent_pieces
+from satcheck.decompose.deadline import Deadline
 from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.inner_parts import inner_parts
 from satcheck.decompose.missing import missing_error
@@ -35,19 +36,19 @@ def compute(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
 ) -> Decomposition:
     """mesh: welded. Raises DecompositionError."""
-    started = time.monotonic()
+    started, deadline = time.monotonic(), Deadline(seconds)
     solid = mesh.topology().solid
     convex, concave = _sorted_pieces(mesh, settings.threshold) if solid else ([], [mesh])
-    found = _run_coacd(concave, settings, seconds, megabytes) if concave else []
+    found = _run_coacd(concave, settings, deadline, megabytes) if concave else []
     parts = convex + [hull for hull in found if hull.dimension == 3]
     if not parts:
         raise DecompositionError(errors.BAD_OUTPUT, "CoACD returned no solid convex part")
     surface = Surface(mesh, solid)
     return Decomposition(
         parts=tuple(parts),
-        inner=inner_parts(parts, surface) if solid else (None,) * len(parts),
+        inner=inner_parts(parts, surface, deadline) if solid else (None,) * len(parts),
         outside=outside_error(parts, surface, settings.threshold),
-        missing=missing_error(mesh, parts),
+        missing=missing_error(mesh, parts, deadline),
         seconds=time.monotonic() - started,
         from_cache=False,
         settings=settings,
@@ -88,13 +89,15 @@ def _sorted_pieces(mesh: Mesh, threshold: float) -> tuple[list[Polytope], list[M
 def _run_coacd(
     meshes: list[Mesh],
     settings: DecompositionSettings,
-    seconds: float,
+    deadline: Deadline,
     megabytes: int,
 ) -> list[Polytope]:
     """The parts of all meshes, flat ones included."""
     request = encode_request(settings, meshes)
     try:
-        reply = run_isolated(_SERVER, request, seconds=seconds, megabytes=megabytes)
+        reply = run_isolated(_SERVER, request, seconds=deadline.left, megabytes=megabytes)
+    except WorkerTimeout as error:
+        raise deadline.error() from error
     except WorkerError as error:
         raise _explained(error) from error
     try:
@@ -107,11 +110,6 @@ def _run_coacd(
 
 def _explained(error: WorkerError) -> DecompositionError:
     """What became of the child, as a failure of the decomposition."""
-    if isinstance(error, WorkerTimeout):
-        return DecompositionError(
-            errors.TIMEOUT,
-            f"no convex parts after {error.seconds:g} s; raise the limit or the threshold",
-        )
     if isinstance(error, WorkerOutOfMemory):
         return DecompositionError(
             errors.OUT_OF_MEMORY,

@@ -32,8 +32,8 @@ def decompose(
     mesh: is welded, and oriented where it is a closed manifold. Others are rebuilt from voxels by
         CoACD first, which is slow and thickens them; the notes say so.
     threshold, seed: see DecompositionSettings.
-    seconds, megabytes: limits of the child process that runs CoACD, and of the wait for another
-        process that is computing the same parts.
+    seconds: limit of all that, CoACD and the measuring of its parts, and of the wait for another
+        process that is computing the same parts. megabytes: of the child process that runs CoACD.
     cache: None computes.
 
     Exactly convex meshes and components never reach CoACD nor the cache. The same mesh, settings

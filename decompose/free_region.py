@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from satcheck.core import Mesh, Polytope, Surface
+from satcheck.decompose.deadline import NEVER, Deadline
 from satcheck.decompose.half_spaces import (
     NOISE,
     HalfSpaces,
@@ -36,20 +37,21 @@ _WORTHWHILE_GAIN: Final = 1.02  # in volume, for one more round
 _FLATTEST: Final = 1e-9  # least over largest variance of an ellipsoid
 
 
-def free_region(part: Polytope, solid: Surface) -> Polytope:
+def free_region(part: Polytope, solid: Surface, deadline: Deadline = NEVER) -> Polytope:
     """A convex region in the part, inside the solid mesh but for rounding; the part where none is.
 
-    Deterministic. Nothing is proven here.
+    Deterministic. Nothing is proven here. Raises DecompositionError at the deadline.
     """
     corners = np.asarray(part.vertices)
     body = around(corners, np.asarray(part.triangles))
-    obstacles = surface_inside(_triangles_near(solid.mesh, corners), body)
+    obstacles = surface_inside(_triangles_near(solid.mesh, corners), body, deadline)
     if len(obstacles) == 0:
         return part
     shape = _ellipsoid(corners)
-    seed = _deepest_seed(corners, body, obstacles, shape, solid)
+    seed = _deepest_seed(corners, body, obstacles, shape, solid, deadline)
     best, best_volume = part, 0.0
     for _ in range(_ROUNDS):
+        deadline.check()
         if seed is None:
             break
         region = _grown(body, obstacles, seed, shape)
@@ -82,7 +84,12 @@ def _ellipsoid(points: Floats) -> Floats:
 
 
 def _deepest_seed(
-    corners: Floats, body: HalfSpaces, obstacles: Floats, shape: Floats, solid: Surface
+    corners: Floats,
+    body: HalfSpaces,
+    obstacles: Floats,
+    shape: Floats,
+    solid: Surface,
+    deadline: Deadline,
 ) -> Floats | None:
     """The point (3,) inside the mesh with the largest free ellipsoid about it, of some tried."""
     random = np.random.default_rng(0)
@@ -90,7 +97,7 @@ def _deepest_seed(
     seeds = np.concatenate([corners.mean(axis=0)[None], shares @ corners])
     reach = np.linalg.norm(body.normals @ np.linalg.inv(shape), axis=1)
     to_boundary = (body.slack(seeds) / reach).min(axis=1)
-    to_surface = _distances(seeds @ shape.T, obstacles @ shape.T)
+    to_surface = _distances(seeds @ shape.T, obstacles @ shape.T, deadline)
     for index in np.argsort(-np.minimum(to_boundary, to_surface), kind="stable"):
         x, y, z = (float(coordinate) for coordinate in seeds[index])
         winding = solid.winding_number((x, y, z))
@@ -100,11 +107,12 @@ def _deepest_seed(
     return None
 
 
-def _distances(points: Floats, triangles: Floats) -> Floats:
+def _distances(points: Floats, triangles: Floats, deadline: Deadline) -> Floats:
     """From each point (n, 3) to the nearest of the triangles (m, 3, 3)."""
     at_once = max(1, _PAIRS_AT_ONCE // len(triangles))
     distances = []
     for first in range(0, len(points), at_once):
+        deadline.check()
         chunk = points[first : first + at_once]
         moved = (triangles - chunk[:, None, None]).reshape(-1, 3, 3)
         nearest = np.linalg.norm(nearest_points(moved), axis=1).reshape(len(chunk), -1)

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 NOISE: Final = 1e-9  # of a body's size: closer to a plane counts as on it
-POINTS_AT_ONCE: Final = 1 << 12  # against all planes of a body: some 10 MiB
+# Of points against planes, and a limit of the points alone: at most 32 MiB.
+_ENTRIES_AT_ONCE: Final = 1 << 22
+_POINTS_AT_ONCE: Final = 1 << 12
 _CENTRE_STEPS: Final = 200
 _CENTRE_STEP_RATIO: Final = 0.95  # of one step to the one before: the last is 4e-5 of the size
 
@@ -28,6 +30,11 @@ class HalfSpaces:
     offsets: Floats
     size: float
 
+    @property
+    def points_at_once(self) -> int:
+        """So many against all planes take little memory."""
+        return max(1, min(_POINTS_AT_ONCE, _ENTRIES_AT_ONCE // len(self.offsets)))
+
     def slack(self, points: Floats) -> Floats:
         """(n, f): how far each point (n, 3) is below each plane; negative outside."""
         slack: Floats = self.offsets - points @ self.normals.T
@@ -36,8 +43,8 @@ class HalfSpaces:
     def heights(self, points: Floats) -> Floats:
         """(n,): how far each point (n, 3) is above the highest plane; at most 0 inside."""
         chunks = [
-            -self.slack(points[first : first + POINTS_AT_ONCE]).min(axis=1)
-            for first in range(0, len(points), POINTS_AT_ONCE)
+            -self.slack(points[first : first + self.points_at_once]).min(axis=1)
+            for first in range(0, len(points), self.points_at_once)
         ]
         return np.concatenate(chunks)
 

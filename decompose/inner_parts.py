@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from satcheck.core import Mesh, Polytope, Surface, mesh_relation
+from satcheck.decompose.deadline import NEVER, Deadline
 from satcheck.decompose.free_region import free_region
 
 # Tried in this order: contact from inside, rounding far from the origin, shallow dents, deep ones.
@@ -19,21 +20,25 @@ _FACTORS: Final = (1.0 - 1e-6, 1.0 - 1e-4, 0.999, 0.99, 0.97, 0.9, 0.8, 0.6, 0.4
 _NEGLIGIBLE_VOLUME: Final = 1e-6  # of the largest part: too small to matter for any depth
 
 
-def inner_parts(parts: Sequence[Polytope], solid: Surface) -> tuple[Polytope | None, ...]:
-    """For each part a shrunken copy strictly inside the solid mesh, None where none was found."""
+def inner_parts(
+    parts: Sequence[Polytope], solid: Surface, deadline: Deadline = NEVER
+) -> tuple[Polytope | None, ...]:
+    """For each part a shrunken copy strictly inside the solid mesh, None where none was found.
+    Raises DecompositionError at the deadline."""
     volumes = [part.to_mesh().topology().volume for part in parts]
     negligible = _NEGLIGIBLE_VOLUME * max(volumes)
     return tuple(
-        _inner_part(part, solid) if volume > negligible else None
+        _inner_part(part, solid, deadline) if volume > negligible else None
         for part, volume in zip(parts, volumes, strict=True)
     )
 
 
-def _inner_part(part: Polytope, solid: Surface) -> Polytope | None:
+def _inner_part(part: Polytope, solid: Surface, deadline: Deadline) -> Polytope | None:
     """Shrinking the part itself is better where it has many shallow dents, and cutting it to the
     free region where it has few deep ones."""
+    deadline.check()
     bodies = [_largest_inside(part.to_mesh(), solid)]
-    region = free_region(part, solid)
+    region = free_region(part, solid, deadline)
     if region is not part:
         bodies.append(_largest_inside(region.to_mesh(), solid))
     found = [body for body in bodies if body is not None]

@@ -22,6 +22,7 @@ import numpy as np
 
 from satcheck.core import Mesh, Polytope, Surface
 from satcheck.decompose.components import diagonal
+from satcheck.decompose.deadline import NEVER, Deadline
 from satcheck.decompose.half_spaces import around
 from satcheck.decompose.polygons import Plane, Point, Polygon, without
 
@@ -38,10 +39,11 @@ _SLACK_GROWTH: Final = 1.5
 _ROUNDINGS: Final = 64.0 * 2.0**-53
 
 
-def missing_error(mesh: Mesh, parts: Sequence[Polytope]) -> float:
+def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NEVER) -> float:
     """Upper bound of max over points of the mesh's surface of the distance to the parts' union.
 
-    At most some 2 times the least upper bound, or 1e-6 of the mesh's diagonal above it.
+    At most some 2 times the least upper bound, or 1e-6 of the mesh's diagonal above it. Raises
+    DecompositionError at the deadline.
     """
     vertices = np.asarray(mesh.vertices)
     triangles = np.asarray(mesh.triangles)
@@ -59,6 +61,7 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope]) -> float:
         least[order].tolist(),
         strict=True,
     ):
+        deadline.check()
         bound = bodies.largest_distance(polygon, part) if height <= slack else None
         while bound is None:
             bound = bodies.cover(polygon, slack)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from satcheck.decompose.half_spaces import NOISE, POINTS_AT_ONCE, HalfSpaces
+from satcheck.decompose.deadline import NEVER, Deadline
+from satcheck.decompose.half_spaces import NOISE, HalfSpaces
 from satcheck.decompose.polygons import Point, common_part
 
 if TYPE_CHECKING:
@@ -16,16 +17,18 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 
-def surface_inside(triangles: Floats, body: HalfSpaces) -> Floats:
+def surface_inside(triangles: Floats, body: HalfSpaces, deadline: Deadline = NEVER) -> Floats:
     """Triangles (m, 3, 3) clipped to the inside of the body, as triangles (k, 3, 3).
 
-    What only lies on the body's boundary, within rounding, is left out.
+    What only lies on the body's boundary, within rounding, is left out. Raises DecompositionError
+    at the deadline.
     """
     noise = NOISE * body.size
     planes = list(zip(body.normals.tolist(), body.offsets.tolist(), strict=True))
     pieces: list[tuple[Point, Point, Point]] = []
-    for first in range(0, len(triangles), POINTS_AT_ONCE):
-        chunk = triangles[first : first + POINTS_AT_ONCE]
+    for first in range(0, len(triangles), body.points_at_once):
+        deadline.check()
+        chunk = triangles[first : first + body.points_at_once]
         above = np.stack([-body.slack(chunk[:, corner]) for corner in range(3)], axis=1)
         entering = (above.min(axis=1) < -noise).all(axis=1)
         crossing = above[entering].max(axis=1) > 0.0

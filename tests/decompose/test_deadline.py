@@ -1,0 +1,51 @@
+"""Past the deadline there are no parts, wherever that is noticed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from satcheck.core import Mesh, Surface
+from satcheck.decompose import DecompositionError, computation, decompose, errors
+from satcheck.decompose.deadline import NEVER, Deadline
+from satcheck.decompose.free_region import free_region
+from satcheck.decompose.half_spaces import around
+from satcheck.decompose.inner_parts import inner_parts
+from satcheck.decompose.missing import missing_error
+from satcheck.decompose.obstacles import surface_inside
+
+OVER = Deadline(-1.0)
+
+
+def test_it_is_over_or_it_is_not() -> None:
+    NEVER.check()
+    assert OVER.left == 0.0
+    with pytest.raises(DecompositionError, match="no convex parts after -1 s") as raised:
+        OVER.check()
+    assert raised.value.code == errors.TIMEOUT
+
+
+def test_every_long_step_looks_at_it(l_shape: Mesh) -> None:
+    mesh = l_shape
+    hull, surface = mesh.convex_hull(), Surface(mesh, True)
+    body = around(np.asarray(hull.vertices), np.asarray(hull.triangles))
+    triangles = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
+    steps = (
+        lambda: missing_error(mesh, [hull], OVER),
+        lambda: inner_parts([hull], surface, OVER),
+        lambda: free_region(hull, surface, OVER),
+        lambda: surface_inside(triangles, body, OVER),
+    )
+    for step in steps:
+        with pytest.raises(DecompositionError):
+            step()
+
+
+def test_measuring_the_parts_counts_too(l_shape: Mesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    class OverAfterCoacd(Deadline):
+        left = 60.0
+
+    monkeypatch.setattr(computation, "Deadline", lambda _: OverAfterCoacd(-1.0))
+    with pytest.raises(DecompositionError) as raised:
+        decompose(l_shape, cache=None)
+    assert raised.value.code == errors.TIMEOUT
