@@ -16,7 +16,7 @@ from satcheck.audit.report.report import Finding
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.tradeoff.climbed import picked
 from satcheck.audit.tradeoff.cpu import CpuClock
-from satcheck.audit.tradeoff.memory import ChildMemory
+from satcheck.audit.tradeoff.memory import ChildMemory, OwnMemory
 from satcheck.audit.tradeoff.room import own_room, room
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
@@ -39,8 +39,8 @@ class Asked:
     so long, on all threads and in child processes together; None: not known. ended: the rung at
     which the climb ended. room: volume of the shapes that it put in the place of A and of B. hulls:
     how many convex bodies stood for A and for B, where hulls answered. split: convex parts were
-    asked for; from_cache: and found there. megabytes: of the child that made them. failure: why
-    there are none.
+    asked for; from_cache: and found there. megabytes: of the child that made them, or by which this
+    process grew, whichever is more. failure: why there are none.
     """
 
     finding: Finding
@@ -86,6 +86,7 @@ def ask(bodies: Bodies, settings: Settings) -> Asked:
 def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
     """The same of a ladder that ends with convex parts."""
     with ChildMemory() as memory:
+        own = OwnMemory()
         clock, start = CpuClock(), perf_counter()
         pair, plan = _pair(bodies, settings), Plan()
         finding = examine(pair, plan)
@@ -115,7 +116,7 @@ def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
         hulls,
         split=bool(made),
         from_cache=bool(parts) and all(one.from_cache for one in parts),
-        megabytes=memory.megabytes if made else None,
+        megabytes=max(filter(None, (memory.megabytes, own.grown)), default=None) if made else None,
         failure=failures[0] if failures else None,
     )
 

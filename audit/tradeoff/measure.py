@@ -14,7 +14,7 @@ from satcheck.audit.report.report import OVERLAPS
 from satcheck.audit.tradeoff.asking import Asked, Bodies, ask, ask_parts, ask_volume, own_rooms
 from satcheck.audit.tradeoff.climbed import picked
 from satcheck.audit.tradeoff.gauge import SPENT, Budget, Gauge
-from satcheck.audit.tradeoff.memory import growth
+from satcheck.audit.tradeoff.memory import OwnMemory
 from satcheck.audit.tradeoff.result import PairTradeoff, with_front
 from satcheck.audit.tradeoff.rows import row_of, truth_by
 from satcheck.audit.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
@@ -120,7 +120,9 @@ def _weigh(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None
     if not first or gauge.rung.accuracy in (None, "parts") or gauge.left(budget) < gauge.longest:
         return
     start, settings = budget.spent, _settings(gauge.rung, bodies, apart=apart)
-    gauge.megabytes = growth(lambda: ask(bodies, settings))
+    memory = OwnMemory()
+    ask(bodies, settings)
+    gauge.megabytes = memory.grown
     gauge.spent += budget.spent - start
 
 

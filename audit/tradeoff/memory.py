@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import threading
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -17,17 +16,22 @@ _KIB_PER_MIB = 1024.0
 _PERIOD = 0.02  # seconds; the mark only rises, so no more than the last rise is missed
 
 
-def growth(work: Callable[[], object]) -> float | None:
-    """MiB by which this process grew at most while `work` ran; None where nobody says.
+class OwnMemory:
+    """Looks at this process from where it is made on.
 
     What is free goes back to the system before (glibc), or it would be used again, and not seen.
     """
-    before = _fresh_mark()
-    if before is None:
-        return None
-    work()
-    after = _mark(_SELF)
-    return None if after is None else after - before
+
+    def __init__(self) -> None:
+        self._before = _fresh_mark()
+
+    @property
+    def grown(self) -> float | None:
+        """MiB, at most until now; None where nobody says."""
+        if self._before is None:
+            return None
+        mark = _mark(_SELF)
+        return None if mark is None else mark - self._before
 
 
 def _fresh_mark() -> float | None:

@@ -30,8 +30,8 @@ class Row:
     known. settled_by: the
     rung at which its climb ended. cold: nothing kept from before; cached: with the parts on disk,
     or the child process running. cpu: of the cold runs, child processes included; None: not known.
-    megabytes: MiB that it takes at most, beside what this process holds: by which that grows, or,
-    where there is one, of the child process. on_front: of error against time.
+    megabytes: MiB that it takes at most: by which this process grows, or of its child process,
+    whichever is more. on_front: of error against time.
     """
 
     rung: Rung

@@ -98,8 +98,8 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
             "Wall time, cold: from meshes in memory to the answer, with hulls, trees and parts "
             "made anew; of the Boolean with the start of its child process. Cached: parts read "
             "from disk, the child process running. CPU: median of the cold runs, children "
-            "included. Memory: of the child process, or by how much the process grows that asks; "
-            "median. Convex parts count where they were made.",
+            "included. Memory: of the child process, or by how much the process grows that asks, "
+            "whichever is more; median. Convex parts count where they were made.",
             words.table(head, rows),
             "Errors, in sizes of the smaller body (right: how many are 0 within rounding); the "
             "Boolean gives no distance:",

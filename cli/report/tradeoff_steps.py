@@ -10,6 +10,7 @@ from satcheck.cli.report.numbers import DIGITS
 if TYPE_CHECKING:
     from satcheck.audit.tradeoff import PairTradeoff, Row
 
+_DIGITS = range(3, DIGITS + 1)
 STANDING = {0: "proven", 1: "not proven", 2: "wrong"}
 
 
@@ -22,12 +23,6 @@ def steps(pair: PairTradeoff) -> list[str]:
     return [_step(one, other) for one, other in pairwise(worth)]
 
 
-def error(row: Row) -> str:
-    """Without its sign; empty: not known."""
-    size = row.size_of_error
-    return "" if size is None else f"{size:.{DIGITS - 3}g}"
-
-
 def _time(row: Row) -> float:
     assert row.cold is not None
     return row.cold.median
@@ -36,11 +31,21 @@ def _time(row: Row) -> float:
 def _step(one: Row, other: Row) -> str:
     factor = _time(other) / _time(one)
     longer = f"{factor:.2g}" if factor < 10 else f"{factor:,.0f}"
-    gains = [
-        ("error ", error(one), error(other)),
-        ("", STANDING[one.standing], STANDING[other.standing]),
+    won = [
+        *_change("error ", *_errors(one.size_of_error or 0.0, other.size_of_error or 0.0)),
+        *_change("", STANDING[one.standing], STANDING[other.standing]),
     ]
-    won = [f"{what}{before} to {after}" for what, before, after in gains if before != after]
     return (
         f"{one.rung.label} to {other.rung.label}: {', '.join([f'{longer} times the time', *won])}"
     )
+
+
+def _errors(before: float, after: float) -> tuple[str, str]:
+    """In as many digits as tell them apart."""
+    said = [tuple(f"{size:.{digits}g}" for size in (before, after)) for digits in _DIGITS]
+    one, other = next((both for both in said if len({*both}) > 1), said[0])
+    return one, other
+
+
+def _change(what: str, before: str, after: str) -> list[str]:
+    return [] if before == after else [f"{what}{before} to {after}"]

@@ -39,6 +39,11 @@ def test_each_step_has_its_price_and_what_it_buys() -> None:
     ]
 
 
+def test_errors_have_as_many_digits_as_tell_them_apart() -> None:
+    found = pair(row("aabb", 1e-3, -0.110828, right=True), row("hull", 0.1, -0.110693, right=True))
+    assert steps(found) == ["aabb to hull: 100 times the time, error 0.1108 to 0.1107"]
+
+
 def test_where_the_cheapest_is_the_best_that_is_said() -> None:
     (only,) = steps(pair(row("aabb", 1e-4, 0.0, right=True, proven=True)))
     assert only == "aabb: no slower rung is nearer or more sure"
