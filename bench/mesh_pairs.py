@@ -53,8 +53,11 @@ class Library:
     ask: Callable[[Any, Any], str]
 
 
-def ring(minor: float, seed: int, around: int = 250, across: int = 140) -> Soup:
-    """A torus of major radius 2 about z with bumps, its vertices and triangles in random order."""
+def ring(
+    minor: float, seed: int, around: int = 250, across: int = 140, *, shuffled: bool = True
+) -> Soup:
+    """A torus of major radius 2 about z with bumps, its vertices and triangles in random order;
+    not shuffled: in the order of the surface."""
     rng = np.random.default_rng(seed)
     u, v = np.meshgrid(
         2 * np.pi * np.arange(around) / around,
@@ -68,11 +71,14 @@ def ring(minor: float, seed: int, around: int = 250, across: int = 140) -> Soup:
     i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
     i2, j2 = (i + 1) % around, (j + 1) % across
     p, q, r, s = i * across + j, i2 * across + j, i2 * across + j2, i * across + j2
-    faces = np.concatenate([np.stack(t, axis=-1).reshape(-1, 3) for t in ((p, q, r), (p, r, s))])
+    faces = [np.stack(t, axis=-1).reshape(-1, 3) for t in ((p, q, r), (p, r, s))]
+    if not shuffled:
+        in_turn = np.stack(faces, axis=1).reshape(-1, 3)
+        return Soup(points.reshape(-1, 3), in_turn.astype(np.uint32))
     place = rng.permutation(points.size // 3)
     vertices = np.empty((len(place), 3))
     vertices[place] = points.reshape(-1, 3)
-    return Soup(vertices, place[rng.permutation(faces)].astype(np.uint32))
+    return Soup(vertices, place[rng.permutation(np.concatenate(faces))].astype(np.uint32))
 
 
 def made_pairs() -> dict[str, Pair]:

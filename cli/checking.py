@@ -138,11 +138,13 @@ def load(
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone, and
     for a split of what says itself what its bodies are; ClickException where nothing is left.
     hashed: whether the document states the SHA-256 of files. meanwhile: see load_scene."""
+    from satcheck.core import keep_freed_memory
     from satcheck.scene import load_scene
     from satcheck.scene.loader import is_mesh
 
     if split and not any(map(is_mesh, paths)):
         raise wrong_usage("--split is about mesh files: a scene says what its bodies are")
+    keep_freed_memory()
     scene = load_scene(
         paths,
         split=split,

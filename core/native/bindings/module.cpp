@@ -9,6 +9,7 @@
 
 #include <stdexcept>
 
+#include "base/large_pages.hpp"
 #include "base/sha256.hpp"
 #include "convex/sat_polygon.hpp"
 #include "convex/shape.hpp"
@@ -167,4 +168,6 @@ NB_MODULE(_native, m) {
         return sha256(bytes);
       },
       nb::arg("data"), "SHA-256 of the bytes, in hexadecimal digits. hashlib takes longer to import than a check to hash.");
+  m.def("keep_freed_memory", &keep_freed_memory, R"(For a process that answers one question and ends: memory that is freed is kept for what comes next, where the
+allocator can do that.)");
 }

@@ -152,15 +152,23 @@ Bvh build(std::vector<Keyed> items, BoxOf box_of, unsigned threads) {
 
 Vec3 centre(const Aabb& box) { return box.min * 0.5 + box.max * 0.5; }
 
-// A box beyond the lower (0, 1, 2) or the upper (3, 4, 5) side of a region along an axis; kSides: beyond none.
-constexpr std::uint8_t kSides = 6;
+// A bit for each side of a region: lower and upper along x, along y, along z.
+using Sides = std::uint8_t;
+constexpr std::size_t kSides = 6;
 
-std::uint8_t side_beyond(const Aabb& region, const Aabb& box) {
-  for (std::uint8_t axis = 0; axis < 3; ++axis) {
-    if (box.max[axis] < region.min[axis]) return axis;
-    if (box.min[axis] > region.max[axis]) return axis + 3;
+// Those that each point lies beyond. A triangle is beyond the sides that its corners are beyond.
+std::vector<Sides> sides_beyond(const Aabb& region, const std::vector<Vec3>& points) {
+  std::vector<Sides> sides;
+  sides.reserve(points.size());
+  for (const Vec3& p : points) {
+    unsigned found = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      found |= static_cast<unsigned>(p[axis] < region.min[axis]) << 2 * axis;
+      found |= static_cast<unsigned>(p[axis] > region.max[axis]) << (2 * axis + 1);
+    }
+    sides.push_back(static_cast<Sides>(found));
   }
-  return kSides;
+  return sides;
 }
 
 Vec3 clamped(Vec3 p, const Aabb& box) {
@@ -235,23 +243,31 @@ Bvh build_bvh_near(const Mesh& mesh, const Aabb& region, unsigned threads) {
   if (count == 0) return {};
   const auto box_of = [&](std::uint32_t t) { return triangle_box(mesh, t); };
   const MortonCurve curve(region);
+  const std::vector<Sides> sides = sides_beyond(region, mesh.vertices);
+  std::vector<Sides> member(mesh.vertices.size());  // of which leaves a vertex is
   std::vector<Keyed> items;
   std::array<std::vector<std::uint32_t>, kSides> beyond;
-  std::array<Aabb, kSides> around;
   for (std::uint32_t t = 0; t < count; ++t) {
-    const Aabb box = box_of(t);
-    const std::uint8_t side = side_beyond(region, box);
-    if (side == kSides) {
-      items.push_back({curve.code(clamped(centre(box), region)), t});
-    } else {
-      beyond[side].push_back(t);
-      around[side].include(box);
+    const auto [a, b, c] = mesh.triangles[t];
+    const unsigned common = sides[a] & sides[b] & sides[c];
+    if (common == 0) {
+      items.push_back({curve.code(clamped(centre(box_of(t)), region)), t});
+      continue;
+    }
+    const int side = std::countr_zero(common);
+    beyond[static_cast<std::size_t>(side)].push_back(t);
+    for (const std::uint32_t v : {a, b, c}) member[v] |= static_cast<Sides>(1 << side);
+  }
+  std::array<Aabb, kSides> around;
+  for (std::size_t v = 0; v < member.size(); ++v) {
+    for (unsigned left = member[v]; left != 0; left &= left - 1) {
+      around[static_cast<std::size_t>(std::countr_zero(left))].include(mesh.vertices[v]);
     }
   }
   Bvh bvh = items.empty() ? Bvh{} : build(std::move(items), box_of, threads);
   bvh.order.reserve(count);
   std::vector<BvhNode> leaves;
-  for (std::uint8_t side = 0; side < kSides; ++side) {
+  for (const std::size_t side : {0u, 2u, 4u, 1u, 3u, 5u}) {  // the lower ones first
     const std::vector<std::uint32_t>& triangles = beyond[side];
     if (triangles.empty()) continue;
     const auto first = static_cast<std::uint32_t>(bvh.order.size());

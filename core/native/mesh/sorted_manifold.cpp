@@ -22,7 +22,8 @@ struct Side {
 class ThirdSides {
  public:
   ThirdSides(std::size_t vertex_count, const std::vector<Triangle>& triangles)
-      : start_(2 * vertex_count + 1), sides_(unwritten<Side>(triangles.size())) {
+      : start_(with_room<std::uint32_t>(2 * vertex_count + 1)), sides_(unwritten<Side>(triangles.size())) {
+    start_.resize(2 * vertex_count + 1);
     for (const Triangle& t : triangles) ++start_[list_of(t)];
     std::inclusive_scan(start_.begin(), start_.end(), start_.begin());
     // From the back, so that each start ends up where its list starts.

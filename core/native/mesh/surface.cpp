@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/edge_table.hpp"
+#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 #include "base/patches.hpp"
 #include "mesh/topology.hpp"
@@ -76,7 +77,7 @@ Surface make_surface(const Mesh& mesh, bool solid) {
 
 Surface make_plain_surface(const Mesh& inspected, const Aabb* region) {
   Surface surface;
-  surface.mesh = inspected;
+  surface.mesh = {copied(inspected.vertices), copied(inspected.triangles)};
   surface.solid = true;
   surface.bvh = region ? build_bvh_near(inspected, *region) : build_bvh(inspected);
   surface.parts = {0};
