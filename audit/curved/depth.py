@@ -25,7 +25,8 @@ def sandwiched_depth(pair: Pair, move: Vector | None, plan: Plan) -> Depth:
         raise AssertionError("what is known to overlap a shape overlaps the mesh around it")
     lower = 0.0 if inner is None else max(min(inner.lower, outer.upper) - _sticks_out(pair), 0.0)
     plan.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
-    move = move or move_off(pair, outer.upper)
+    if move is None and None in (pair.a.curved, pair.b.curved):
+        move = move_off(pair, outer.upper)
     if move is not None:
         plan.record("verify", "separated", "the shape, moved by the MTV")
         return depth_of_move(pair, move, lower)
