@@ -12,8 +12,10 @@ namespace satcheck {
 
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& task,
                   std::size_t chunk) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  threads = static_cast<unsigned>(std::min<std::size_t>(threads, (count + chunk - 1) / chunk));
+  const std::size_t shares = (count + chunk - 1) / chunk;
+  // To ask how many cores there are takes as long as some pairs.
+  if (threads == 0 && shares > 1) threads = std::thread::hardware_concurrency();
+  threads = static_cast<unsigned>(std::min<std::size_t>(threads, shares));
   if (threads <= 1) {
     for (std::size_t i = 0; i < count; ++i) task(i);
     return;
