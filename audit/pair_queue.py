@@ -141,9 +141,15 @@ class _Workers:
         if self._threads == 1 or len(heavy) < PARALLEL_PAIRS:
             yield from map(steps.examine, pairs, climbs)
             return
-        examined = self._started().map(
-            steps.examine, [pairs[k] for k in heavy], [climbs[k] for k in heavy]
-        )
+        try:
+            examined = self._started().map(
+                steps.examine, [pairs[k] for k in heavy], [climbs[k] for k in heavy]
+            )
+        except RuntimeError:  # the system grants no more threads
+            self._end(RuntimeError)
+            self._threads = 1
+            yield from map(steps.examine, pairs, climbs)
+            return
         is_heavy = set(heavy)
         for k, (pair, found) in enumerate(zip(pairs, climbs, strict=True)):
             yield next(examined) if k in is_heavy else steps.examine(pair, found)

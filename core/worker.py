@@ -153,6 +153,7 @@ class _Child:
     def __init__(self, module: str, megabytes: int) -> None:
         import subprocess
 
+        self._module = module
         environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
         try:
             self._process = subprocess.Popen(
@@ -177,10 +178,9 @@ class _Child:
         assert self._process.stdout is not None
         assert self._process.stderr is not None
         self._requests = self._process.stdin
-        self._threads = [
-            self._start(self._receive, self._process.stdout),
-            self._start(self._listen, self._process.stderr),
-        ]
+        self._threads: list[threading.Thread] = []
+        self._threads.append(self._start(self._receive, self._process.stdout))
+        self._threads.append(self._start(self._listen, self._process.stderr))
 
     def answer(self, request: bytes, deadline: float) -> tuple[bytes, bytes] | None:
         """(status, payload) of its answer; None when there is none in time, or none at all."""
@@ -210,10 +210,13 @@ class _Child:
             for thread in self._threads:
                 thread.join(_REAP_SECONDS)
 
-    @staticmethod
-    def _start(work: Callable[[T], None], argument: T) -> threading.Thread:
+    def _start(self, work: Callable[[T], None], argument: T) -> threading.Thread:
         thread = threading.Thread(target=work, args=(argument,), daemon=True)
-        thread.start()
+        try:
+            thread.start()
+        except RuntimeError as error:  # the system grants no more threads
+            self.end()
+            raise WorkerNotStarted(self._module, str(error)) from error
         return thread
 
     def _send(self, request: bytes) -> None:

@@ -85,9 +85,14 @@ class MeshFiles:
                 except Exception:  # noqa: BLE001 said when the file is asked for
                     continue
 
-        threads = [Thread(target=read) for _ in range(min(len(queue), os.cpu_count() or 1))]
-        for thread in threads:
-            thread.start()
+        threads: list[Thread] = []
+        try:
+            for _ in range(min(len(queue), os.cpu_count() or 1)):
+                thread = Thread(target=read)
+                thread.start()
+                threads.append(thread)
+        except RuntimeError:
+            pass  # the system grants no more: what nobody reads ahead is read when it is asked for
         try:
             if meanwhile is not None:
                 meanwhile()

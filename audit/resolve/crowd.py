@@ -165,8 +165,11 @@ class Crowd:
         threads = min(self.settings.jobs or os.cpu_count() or 1, len(pairs))
         if threads <= 1:
             return map(self._opinion, pairs)
-        with ThreadPoolExecutor(threads) as pool:
-            return list(pool.map(self._opinion, pairs))
+        try:
+            with ThreadPoolExecutor(threads) as pool:
+                return list(pool.map(self._opinion, pairs))
+        except RuntimeError:  # the system grants no more threads
+            return map(self._opinion, pairs)
 
     def _opinion(self, pair: BodyPair) -> Opinion:
         """A pair that fails must not take the others with it; the check at the end says so."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from queue import SimpleQueue
-from threading import Event
+from threading import Event, Thread
+from time import sleep
 
 import pytest
 
@@ -50,6 +51,23 @@ def test_every_pair_has_its_result(jobs, count, every):
     _, pairs = chain(count)
     heavy = {id(pair) for pair in pairs[::every]} if every else set()
     found = dict(InTurn(jobs).each(pairs, steps(id, lambda pair: id(pair) in heavy)))
+    assert found == {k: id(pair) for k, pair in enumerate(pairs)}
+
+
+@pytest.mark.parametrize("granted", [0, 1])
+def test_every_pair_has_its_result_where_no_more_threads_are_granted(granted, monkeypatch):
+    start, started = Thread.start, []
+
+    def refuse(thread):
+        if len(started) == granted:
+            raise RuntimeError("can't start new thread")
+        started.append(thread)
+        start(thread)
+
+    monkeypatch.setattr(Thread, "start", refuse)
+    _, pairs = chain(2 * BATCH_PAIRS)
+    examined = steps(lambda pair: sleep(1e-4) or id(pair), heavy=lambda _: True)
+    found = dict(InTurn(3).each(pairs, examined))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
 
 

@@ -145,6 +145,28 @@ def test_a_system_that_starts_no_process_is_an_error(
     assert caught.value.code == "worker-not-started"
 
 
+@pytest.mark.parametrize("granted", [0, 1, 2])
+def test_a_system_that_grants_no_threads_is_an_error(
+    monkeypatch: pytest.MonkeyPatch, granted: int
+) -> None:
+    """Two serve a child, a third one each request."""
+    start = threading.Thread.start
+    started: list[threading.Thread] = []
+
+    def refuse(thread: threading.Thread) -> None:
+        if len(started) == granted:
+            raise RuntimeError("can't start new thread")
+        started.append(thread)
+        start(thread)
+
+    monkeypatch.setattr(threading.Thread, "start", refuse)
+    with pytest.raises(WorkerNotStarted, match="can't start new thread"):
+        ask(b"echo x")
+    for thread in started:
+        thread.join(20)
+        assert not thread.is_alive()  # the child is gone
+
+
 def test_one_thread_and_no_working_directory_in_the_child(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from threading import Thread
 
 import pytest
 
@@ -157,8 +158,15 @@ def test_what_may_be_done_meanwhile_is_done_where_large_files_are_read(tmp_path)
     assert called == ["large"]
 
 
-def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch):
+def refused(_):
+    raise RuntimeError("can't start new thread")
+
+
+@pytest.mark.parametrize("granted", [True, False])
+def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, granted):
     monkeypatch.setattr(mesh_files, "LARGE_FILE_BYTES", 1)
+    if not granted:
+        monkeypatch.setattr(Thread, "start", refused)
     places = {name: tmp_path / name for name in ("a.obj", "b.obj", "bad.obj", "gone.obj", "c.glb")}
     places["a.obj"].write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     places["b.obj"].write_text("v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n")

@@ -165,7 +165,9 @@ class Climbing {
     const auto climb = [requests = std::move(requests), rung = rung_from(last), threads] {
       return climb_all(requests, rung, threads);
     };
-    found_ = std::async(threads == 1 ? std::launch::deferred : std::launch::async, climb);
+    // Deferred too where the system grants no thread.
+    const auto when = threads == 1 ? std::launch::deferred : std::launch::async | std::launch::deferred;
+    found_ = std::async(when, climb);
   }
 
   nb::list found() {
