@@ -14,7 +14,7 @@ SAMPLES = HERE.parent / "sample_meshes"
 PAIRS = (
     ("box.obj", "box_pushed.stl", 20.0),
     ("l_bracket.obj", "peg_in_notch.ply", 30.0),
-    ("kettle.obj", "snowflake.obj", 480.0),
+    ("kettle.obj", "snowflake.obj", 110.0),
 )
 
 
