@@ -19,7 +19,7 @@ from satcheck.audit.tradeoff.cpu import CpuClock
 from satcheck.audit.tradeoff.memory import ChildMemory, OwnMemory
 from satcheck.audit.tradeoff.room import own_room, room
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene import Body
 
 if TYPE_CHECKING:
@@ -73,52 +73,51 @@ class Measured:
 
 def ask(bodies: Bodies, settings: Settings) -> Asked:
     """As far up the ladder as the settings let it, nothing known from before."""
-    clock, start = CpuClock(), perf_counter()
-    pair, plan = _pair(bodies, settings), Plan()
-    finding = examine(pair, plan)
-    seconds, cpu = perf_counter() - start, clock.seconds(children=False)
-    stages = {stage.stage for stage in finding.plan}
-    contact = settle(pair, Plan())
-    pad, ended = rounding_pad(pair.largest_coordinate), picked(finding).rung
-    return Asked(finding, contact, pad, seconds, cpu, ended, _rooms(ended, pair), _one_each(stages))
+    return _climb(bodies, settings, children=False)[0]
 
 
 def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
     """The same of a ladder that ends with convex parts."""
     with ChildMemory() as memory:
         own = OwnMemory()
-        clock, start = CpuClock(), perf_counter()
-        pair, plan = _pair(bodies, settings), Plan()
-        finding = examine(pair, plan)
-        seconds, cpu = perf_counter() - start, clock.seconds(children=True)
-    stages = {stage.stage for stage in finding.plan}
+        asked, pair = _climb(bodies, settings, children=True)
+        taken = [size for size in (memory.megabytes, own.grown) if size is not None]
     known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
     made = [one for one in known if one is not None]
-    parts = [one for one in made if not isinstance(one, SatcheckError)]
+    if not made:  # the hulls of the bodies are all there is
+        return replace(asked, ended="hull") if asked.ended == "parts" else asked
     failures = [str(one) for one in made if isinstance(one, SatcheckError)]
-    hulls = _one_each(stages)
-    if made and not failures:
-        a, b = (
-            1 if one is None or isinstance(one, SatcheckError) else len(one.parts) for one in known
-        )
-        hulls = (a, b)
-    ended = picked(finding).rung
-    if ended == "parts" and not made:
-        ended = "hull"  # nobody could make any
-    return Asked(
-        finding,
-        settle(pair, Plan()),
-        rounding_pad(pair.largest_coordinate),
-        seconds,
-        cpu,
-        ended,
-        _rooms(ended, pair),
-        hulls,
-        split=bool(made),
-        from_cache=bool(parts) and all(one.from_cache for one in parts),
-        megabytes=max(filter(None, (memory.megabytes, own.grown)), default=None) if made else None,
-        failure=failures[0] if failures else None,
+    if failures:
+        return replace(asked, split=True, failure=failures[0])
+    a, b = (1 if one is None or isinstance(one, SatcheckError) else len(one.parts) for one in known)
+    return replace(
+        asked,
+        hulls=(a, b),
+        split=True,
+        from_cache=all(one.from_cache for one in made if not isinstance(one, SatcheckError)),
+        megabytes=max(taken, default=None),
     )
+
+
+def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[Asked, Pair]:
+    """children: some are at work."""
+    clock, start = CpuClock(), perf_counter()
+    pair, plan = _pair(bodies, settings), Plan()
+    finding = examine(pair, plan)
+    seconds, cpu = perf_counter() - start, clock.seconds(children=children)
+    stages, ended = {stage.stage for stage in finding.plan}, picked(finding).rung
+    asked = Asked(
+        finding=finding,
+        contact=settle(pair, Plan()),
+        pad=rounding_pad(pair.largest_coordinate),
+        seconds=seconds,
+        cpu=cpu,
+        ended=ended,
+        room=(room(ended, pair.a), room(ended, pair.b)),
+        # Where the hulls of the whole meshes answered.
+        hulls=(1, 1) if "hull" in stages and "triangles" not in stages else None,
+    )
+    return asked, pair
 
 
 def own_rooms(bodies: Bodies) -> Rooms:
@@ -161,12 +160,3 @@ def _pair(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) 
     known = Known()
     a, b = (known.place(body, settings, None) for body in bodies)
     return Pair(a, b, settings, asked_by(settings), meter)
-
-
-def _rooms(ended: str, pair: Pair) -> Rooms:
-    return room(ended, pair.a), room(ended, pair.b)
-
-
-def _one_each(stages: set[str]) -> tuple[int, int] | None:
-    """Where the hulls of the whole meshes answered."""
-    return (1, 1) if "hull" in stages and "triangles" not in stages else None
