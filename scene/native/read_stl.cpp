@@ -47,6 +47,8 @@ class BinaryReader {
     mesh_.precision = Precision::float32;
     mesh_.vertices = with_room<double>(vertices_of(count) * 3);
     mesh_.triangles = with_room<std::uint32_t>(count * 3);
+    mesh_.triangles.resize(count * 3);
+    triangles_ = mesh_.triangles.data();
   }
 
   void take(std::string_view facets) {
@@ -79,13 +81,14 @@ class BinaryReader {
   }
 
   void number(const Waiting& next) {
-    for (std::size_t k = 0; k < 3; ++k) mesh_.triangles.push_back(corners_.number(next.facet[k], next.hash[k], mesh_.vertices));
+    for (std::size_t k = 0; k < 3; ++k) *triangles_++ = corners_.number(next.facet[k], next.hash[k], mesh_.vertices);
   }
 
   MeshData mesh_;
   Corners<float> corners_;
   std::array<Waiting, ahead> waiting_;
   std::size_t taken_ = 0;
+  std::uint32_t* triangles_;  // the next vertex number
 };
 
 // Words over line ends, as ASCII STL is free-form but for the names behind `solid` and `endsolid`.

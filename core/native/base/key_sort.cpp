@@ -99,15 +99,17 @@ bool strictly_ascending(std::span<const Vec3> points) {
 }
 
 void sort_triangles(std::vector<Triangle>& triangles, std::size_t vertex_count) {
-  std::vector<std::uint32_t> start(vertex_count + 1, 0);
-  for (const Triangle& t : triangles) ++start[t[0] + 1];
-  std::inclusive_scan(start.begin(), start.end(), start.begin());
+  std::vector<std::uint32_t> end = with_room<std::uint32_t>(vertex_count + 1);  // of the list of each first corner
+  end.resize(vertex_count + 1);
+  for (const Triangle& t : triangles) ++end[t[0] + 1];
+  std::inclusive_scan(end.begin(), end.end(), end.begin());
   const auto others = unwritten<std::uint64_t>(triangles.size());  // the second and the third corner
-  std::vector<std::uint32_t> place(start.begin(), start.end() - 1);
-  for (const Triangle& t : triangles) others[place[t[0]]++] = std::uint64_t{t[1]} << 32 | t[2];
-  for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    sort_list(others.get() + start[v], others.get() + start[v + 1]);
-    for (std::uint32_t i = start[v]; i < start[v + 1]; ++i) {
+  // Each starts where the one before it ends, and comes to its own end as it is filled.
+  for (const Triangle& t : triangles) others[end[t[0]]++] = std::uint64_t{t[1]} << 32 | t[2];
+  std::uint32_t start = 0;
+  for (std::uint32_t v = 0; v < vertex_count; start = end[v++]) {
+    sort_list(others.get() + start, others.get() + end[v]);
+    for (std::uint32_t i = start; i < end[v]; ++i) {
       triangles[i] = {v, static_cast<std::uint32_t>(others[i] >> 32), static_cast<std::uint32_t>(others[i])};
     }
   }
