@@ -1,12 +1,13 @@
 // Method: Christer Ericson, "Real-Time Collision Detection" (2005), 5.1.5 and 5.1.9: two disjoint
 // triangles are nearest at a corner and a face or at two edges. Where we deviate: whether they meet
 // is decided by exact signs, and where edges are so nearly parallel that the place of their nearest points
-// cancels in float64, it is computed in twice the precision: a corner may be much farther.
+// cancels in float64, it is computed in twice the precision: a corner may be much farther. So are all normals.
 #include "exact/triangle_distance.hpp"
 
 #include <algorithm>
 
 #include "exact/double_double.hpp"
+#include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {
@@ -58,18 +59,32 @@ Vec3 nearest_on_boundary(Vec3 p, const Corners& t) {
   return best;
 }
 
-}  // namespace
-
-Vec3 nearest_on_triangle(Vec3 p, const Corners& t) {
-  const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
+// normal: that of the triangle, good to rounding however thin it is; 0 where it is collinear.
+Vec3 nearest_on_triangle(Vec3 p, const Corners& t, Vec3 normal) {
   const double length_squared = norm_squared(normal);
   if (!(length_squared > 0)) return nearest_on_boundary(p, t);
   for (int i = 0; i < 3; ++i) {
-    const Vec3 u = t[i], v = t[(i + 1) % 3];
-    if (dot(cross(v - u, p - u), normal) < 0) return nearest_on_boundary(p, t);
+    const Vec3 e = t[(i + 1) % 3] - t[i], w = p - t[i];
+    const double yz = e.y * w.z, zy = e.z * w.y, zx = e.z * w.x, xz = e.x * w.z, xy = e.x * w.y, yx = e.y * w.x;
+    const double side = normal.x * (yz - zy) + normal.y * (zx - xz) + normal.z * (xy - yx);
+    const double permanent = std::fabs(normal.x) * (std::fabs(yz) + std::fabs(zy)) + std::fabs(normal.y) * (std::fabs(zx) + std::fabs(xz)) +
+                             std::fabs(normal.z) * (std::fabs(xy) + std::fabs(yx));
+    // Where rounding hides on which side of an edge it is, the edge is as near as the inside.
+    if (!(side > kDeterminantBound * permanent)) return nearest_on_boundary(p, t);
   }
   return p - normal * (dot(normal, p - t[0]) / length_squared);
 }
+
+// In twice the precision: of a needle the cross product of two edges is mostly rounding, and its plane far off.
+Vec3 normal_of(const Corners& t) {
+  const WideVec u = wide_difference(t[1], t[0]), v = wide_difference(t[2], t[0]);
+  return {static_cast<double>(u.y * v.z - u.z * v.y), static_cast<double>(u.z * v.x - u.x * v.z),
+          static_cast<double>(u.x * v.y - u.y * v.x)};
+}
+
+}  // namespace
+
+Vec3 nearest_on_triangle(Vec3 p, const Corners& t) { return nearest_on_triangle(p, t, normal_of(t)); }
 
 Witnesses triangle_distance(const Corners& a, const Corners& b) {
   const auto box = [](const Corners& t) {
@@ -88,8 +103,9 @@ Witnesses triangle_distance(const Corners& a, const Corners& b) {
   const auto consider = [&](const Witnesses& w) {
     if (w.distance_squared < best.distance_squared) best = w;
   };
+  const Vec3 normal_a = normal_of(a), normal_b = normal_of(b);
   for (int i = 0; i < 3; ++i) {
-    const Vec3 on_b = nearest_on_triangle(a[i], b), on_a = nearest_on_triangle(b[i], a);
+    const Vec3 on_b = nearest_on_triangle(a[i], b, normal_b), on_a = nearest_on_triangle(b[i], a, normal_a);
     consider({a[i], on_b, norm_squared(on_b - a[i])});
     consider({on_a, b[i], norm_squared(on_a - b[i])});
     for (int k = 0; k < 3; ++k) {
