@@ -29,6 +29,10 @@ class Budget:
     def left(self) -> float:
         return self.seconds - self.spent
 
+    def share(self, waiting: int) -> Budget:
+        """Of what is left, for one of so many that wait."""
+        return Budget(self.left / waiting, self.per_rung)
+
 
 @dataclass(slots=True)
 class Gauge:

@@ -28,8 +28,9 @@ def tradeoff(
 ) -> Tradeoff:
     """Every rung on the two bodies of the scene, or on the first pairs whose boxes meet.
 
-    repeat: runs of each rung. budget: seconds for everything after the files are read. pairs: at
-    most so many. Bodies stand as the scene places them; of its rules only exemptions are followed.
+    repeat: runs of each rung. budget: seconds for everything after the files are read; each pair
+    has its share of what those before it have left. pairs: at most so many. Bodies stand as the
+    scene places them; of its rules only exemptions are followed.
     progress(done, total) counts runs.
     Raises SatcheckError (`no-pair`) where no boxes meet.
     """
@@ -47,7 +48,8 @@ def tradeoff(
 
     found: list[PairTradeoff] = []
     for bodies in met[:pairs]:
-        found.append(measure_pair(bodies, repeat, clock, told))
+        waiting = min(len(met), pairs) - len(found)
+        found.append(measure_pair(bodies, repeat, clock.share(waiting), told))
     return Tradeoff(
         tool(), scene.units, repeat, budget, clock.spent, tuple(found), len(met) - len(found)
     )

@@ -35,7 +35,7 @@ from satcheck.cli.output import form_of
     metavar="SECONDS",
     default=60.0,
     show_default=True,
-    help="For the whole run. Rungs that do not fit are shown as not run.",
+    help="For the whole run; pairs share it. Rungs that do not fit are shown as not run.",
 )
 @click.option(
     "--pairs",
