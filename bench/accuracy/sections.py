@@ -76,8 +76,12 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
         memory = words.NONE if rung.megabytes is None else mebibytes(rung.megabytes.median)
         cached = words.NONE if rung.cached is None else words.time(rung.cached.median)
         cpu = words.NONE if rung.cpu is None else words.time(rung.cpu.median)
-        rows.append([rung.label, str(rung.pairs), *words.times(rung.cold), cpu, cached, memory])
+        room = words.NONE if rung.excess is None else words.percent(rung.excess.median)
+        rows.append(
+            [rung.label, str(rung.pairs), *words.times(rung.cold), cpu, cached, memory, room]
+        )
     head = ["rung", "pairs", "median", "quartiles", "worst", "CPU", "cached", "memory"]
+    head.append("volume error")
     errors = [
         [
             rung.label,
@@ -99,7 +103,9 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
             "made anew; of the Boolean with the start of its child process. Cached: parts read "
             "from disk, the child process running. CPU: median of the cold runs, children "
             "included. Memory: of the child process, or by how much the process grows that asks, "
-            "whichever is more; median. Convex parts count where they were made.",
+            "whichever is more; median. Volume error: of what stands for a body, without its "
+            "sign; median of the bodies that have a volume. Convex parts count where they were "
+            "made.",
             words.table(head, rows),
             "Errors, in sizes of the smaller body (right: how many are 0 within rounding); the "
             "Boolean gives no distance:",

@@ -39,12 +39,13 @@ def row(label: str, **changed: Any) -> Record:
         "cached": times(1e-4) if name in ("parts", "boolean") else None,
         "cpu": None if name == "boolean" else times(1e-3),
         "peak_megabytes": 40.0 if name == "parts" else None,
+        "excess": None if name == "boolean" else [0.5, None],
     }
     return made | changed
 
 
 def silent(label: str, state: str, reason: str) -> Record:
-    nothing = dict.fromkeys(("overlap", "error", "settled_by", "cold", "cached", "cpu"))
+    nothing = dict.fromkeys(("overlap", "error", "settled_by", "cold", "cached", "cpu", "excess"))
     return row(label, state=state, reason=reason, proven=False, peak_megabytes=None, **nothing)
 
 
