@@ -112,26 +112,27 @@ Simplex weighted_facet(const ExpandingPolytope& polytope, HalfEdge f) {
 }
 
 // A set without volume: its support value along the normal of its plane is the plane's distance from the origin.
-EpaResult flat_result(const MinkowskiDifference& m, Vec3 flat_normal) {
-  EpaResult result;
+void set_flat(EpaResult& result, const MinkowskiDifference& m, Vec3 flat_normal) {
   const double towards = dot(flat_normal, m.support(flat_normal).w);
   const double against = dot(-flat_normal, m.support(-flat_normal).w);
   result.status = EpaResult::Status::flat;
   result.axis = towards <= against ? flat_normal : -flat_normal;
   result.upper = std::min(towards, against);
-  return result;
 }
 
 }  // namespace
 
 SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, EpaGoal goal) {
-  thread_local ExpandingPolytope polytope;
+  ExpandingPolytope& polytope = ExpandingPolytope::of_thread();
   EpaResult result;
   polytope.clear(m);
   if (seed.count < 4 || !polytope.start(seed)) {
     Vec3 flat_normal;
     const Simplex tetrahedron = thick_tetrahedron(m, seed, flat_normal);
-    if (tetrahedron.count < 4) return flat_result(m, flat_normal);
+    if (tetrahedron.count < 4) {
+      set_flat(result, m, flat_normal);
+      return result;
+    }
     polytope.clear(m);
     if (!polytope.start(tetrahedron)) return result;
   }
@@ -144,7 +145,8 @@ SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, E
     const SupportPoint w = m.support(normal);
     const double support = dot(normal, w.w);
     ++result.iterations;
-    const bool facet_of_difference = support - distance <= closed || polytope.has_vertex(f, w);
+    const bool known = polytope.contains(w);
+    const bool facet_of_difference = support - distance <= closed || (known && polytope.has_vertex(f, w));
     if (support < result.upper || facet_of_difference) {
       result.upper = support;
       result.axis = normal;
@@ -174,7 +176,7 @@ SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, E
     } else {
       result.lower = distance - m.support_error();
     }
-    if (polytope.contains(w) || !polytope.expand(w, f)) return result;
+    if (known || !polytope.expand(w, f)) return result;
   }
 }
 

@@ -29,6 +29,9 @@ struct FaceBlock {
 
 class ExpandingPolytope {
  public:
+  // The calling thread's own. Not inlined: a loop that sees an address to be a thread's own asks for it over and over.
+  static ExpandingPolytope& of_thread();
+
   // Of one query after the other: the buffers stay.
   void clear(const MinkowskiDifference& difference) {
     visible_noise_ = kVisible * difference.scale;
@@ -79,9 +82,12 @@ class ExpandingPolytope {
   }
   static HalfEdge next(HalfEdge h) { return h % 16 < 8 ? h + 4 : h - 8; }  // around the face
 
-  // An empty block, by its first edge.
+  static void empty(FaceBlock& b) { store_lanes(b.distance, all_lanes(INFINITY)); }
+
+  // An empty block, by its first edge. The one after the last is empty as well.
   HalfEdge take_block() {
     if (free_count_ > 0) return free_[--free_count_];
+    empty(blocks_[blocks_used_ + 1]);
     return 16 * blocks_used_++;
   }
 
@@ -124,15 +130,17 @@ class ExpandingPolytope {
 
 SATCHECK_INLINE HalfEdge ExpandingPolytope::closest_face() const {
   const FaceBlock* blocks = blocks_.data();
-  Lanes at = {0, 1, 2, 3};
-  LaneBest best = {-load_lanes(blocks[0].distance), at};
-  for (std::size_t i = 1; i < blocks_used_; ++i) {
-    at = at + all_lanes(16);
-    const Lanes value = -load_lanes(blocks[i].distance);
-    const LaneMask closer = value > best.value;
-    best = {select(closer, value, best.value), select(closer, at, best.index)};
+  const Lanes first = {0, 1, 2, 3};
+  LaneBest even = {-load_lanes(blocks[0].distance), first}, odd = even;
+  Lanes at = first + all_lanes(16);
+  for (std::size_t i = 1; i < blocks_used_; i += 2) {  // two chains: each block waits for the one before the last
+    const Lanes value0 = -load_lanes(blocks[i + 1].distance), value1 = -load_lanes(blocks[i].distance);
+    const LaneMask closer0 = value0 > even.value, closer1 = value1 > odd.value;
+    even = {select(closer0, value0, even.value), select(closer0, at + all_lanes(16), even.index)};
+    odd = {select(closer1, value1, odd.value), select(closer1, at, odd.index)};
+    at = at + all_lanes(32);
   }
-  return index_of_largest(best);
+  return index_of_largest(larger(even, odd));
 }
 
 SATCHECK_INLINE double ExpandingPolytope::least_proven_distance(HalfEdge closest) const {
@@ -171,16 +179,15 @@ SATCHECK_INLINE bool ExpandingPolytope::set_planes(FaceBlock& b, const FourPoint
   const Lanes bx = apex.x - head.x, by = apex.y - head.y, bz = apex.z - head.z;
   const Lanes cx = tail.x - apex.x, cy = tail.y - apex.y, cz = tail.z - apex.z;
   const Lanes aa = ax * ax + ay * ay + az * az, bb = bx * bx + by * by + bz * bz, cc = cx * cx + cy * cy + cz * cz;
-  // The cross product of the two shortest edges carries the least rounding error.
-  const LaneMask a_shorter = (aa < bb) | (aa < cc), b_shorter = bb < cc;
-  const auto first = [&](Lanes a, Lanes b, Lanes c) { return select(a_shorter, select(b_shorter, a, c), b); };
-  const auto second = [&](Lanes a, Lanes b, Lanes c) { return select(a_shorter, select(b_shorter, b, a), c); };
-  const Lanes ux = first(ax, bx, cx), uy = first(ay, by, cy), uz = first(az, bz, cz);
-  const Lanes vx = second(ax, bx, cx), vy = second(ay, by, cy), vz = second(az, bz, cz);
+  // The cross product of the two shortest edges carries the least rounding error: a x b, b x c, or -a x c.
+  const LaneMask a_longest = (aa >= bb) & (aa >= cc), c_longest = (cc > aa) & (cc > bb);
+  const Lanes sign = select(a_longest | c_longest, all_lanes(1), all_lanes(-1));
+  const Lanes ux = select(a_longest, bx, ax * sign), uy = select(a_longest, by, ay * sign), uz = select(a_longest, bz, az * sign);
+  const Lanes vx = select(c_longest, bx, cx), vy = select(c_longest, by, cy), vz = select(c_longest, bz, cz);
   const Lanes nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
   const Lanes area_squared = nx * nx + ny * ny + nz * nz;  // twice the area
-  const Lanes longest_squared = select(a_shorter, select(b_shorter, cc, bb), aa);
-  const Lanes shortest_squared = select(a_shorter, select(b_shorter, aa * bb, aa * cc), bb * cc);
+  const Lanes longest_squared = larger(larger(aa, bb), cc);
+  const Lanes shortest_squared = select(a_longest, bb, aa) * select(c_longest, bb, cc);
   const Lanes inverse = all_lanes(1) / square_root(area_squared);
   const Lanes mx = nx * inverse, my = ny * inverse, mz = nz * inverse;
   const Lanes distance = mx * tail.x + my * tail.y + mz * tail.z;
@@ -200,7 +207,7 @@ SATCHECK_INLINE std::uint32_t ExpandingPolytope::take_visible(Vec3 point, HalfEd
   FaceBlock* blocks = blocks_.data();
   HalfEdge *horizon = horizon_.data(), *pending = pending_.data(), *fan = fan_.data();
   std::uint32_t *tails = tails_.data(), *faces_in = faces_in_.data();
-  std::uint32_t count = 0, depth = 3, head = 0, gaps = 0;
+  std::uint32_t count = 0, depth = 2, head = 0, gaps = 0;
   HalfEdge base = 0;
   const auto take_away = [&](FaceBlock& b, HalfEdge h) {
     b.distance[h % 4] = INFINITY;
@@ -208,18 +215,20 @@ SATCHECK_INLINE std::uint32_t ExpandingPolytope::take_visible(Vec3 point, HalfEd
   };
   FaceBlock& seen = blocks[face / 16];
   take_away(seen, face);
-  for (int corner = 0; corner < 3; ++corner) pending[2 - corner] = seen.twin[4 * corner + face % 4];
-  do {
-    const HalfEdge into = pending[--depth];
+  HalfEdge into = seen.twin[face % 4];
+  pending[1] = seen.twin[4 + face % 4];
+  pending[0] = seen.twin[8 + face % 4];
+  for (;;) {
     FaceBlock& b = blocks[into / 16];
     const double distance = b.distance[into % 4];
-    if (distance == INFINITY) continue;
     const HalfEdge second = next(into);
-    if (dot(normal_in(b, into), point) - distance > visible_noise_) {
+    if (distance != INFINITY && dot(normal_in(b, into), point) - distance > visible_noise_) {
       take_away(b, into);
       pending[depth++] = b.twin[next(second) % 16];
-      pending[depth++] = b.twin[second % 16];
-    } else {
+      into = b.twin[second % 16];
+      continue;
+    }
+    if (distance != INFINITY) {
       if (count % 4 == 0) base = fan[count / 4] = take_block();
       b.twin[into % 16] = base++;
       horizon[count] = into;
@@ -228,7 +237,9 @@ SATCHECK_INLINE std::uint32_t ExpandingPolytope::take_visible(Vec3 point, HalfEd
       head = b.vertex[into % 16];
       if (++count == 1) gaps = 0;
     }
-  } while (depth > 0);
+    if (depth == 0) break;
+    into = pending[--depth];
+  }
   return count < 3 || gaps != 0 || head != tails[0] ? 0 : count;
 }
 
@@ -237,19 +248,20 @@ SATCHECK_INLINE bool ExpandingPolytope::add_fan(std::uint32_t apex, std::uint32_
   FaceBlock* blocks = blocks_.data();
   const HalfEdge *horizon = horizon_.data(), *fan = fan_.data();
   std::uint32_t* tails = tails_.data();
-  for (int i = 0; i < 4; ++i) tails[count + i] = tails[i];  // lanes without a face go on around the loop
+  for (int i = 0; i < 7; ++i) tails[count + i] = tails[i];  // lanes without a face go on around the loop
   const Vec3 p = vertices_[apex].w;
   const FourPoints tip = {all_lanes(p.x), all_lanes(p.y), all_lanes(p.z)};
+  FourPoints tail = gather(tails);
   HalfEdge last = fan[(count - 1) / 4] + (count - 1) % 4;
   bool wide = true;
   for (std::uint32_t i = 0; i < count; i += 4) {
     const HalfEdge edge = fan[i / 4];
     FaceBlock& b = blocks[edge / 16];
-    for (int l = 0; l < 4; ++l) {
-      b.vertex[l] = tails[i + l];
-      b.vertex[4 + l] = tails[i + l + 1];
-      b.vertex[8 + l] = apex;
-      b.twin[l] = horizon[i + l];
+    std::copy_n(tails + i, 4, b.vertex);
+    std::copy_n(tails + i + 1, 4, b.vertex + 4);
+    std::fill_n(b.vertex + 8, 4, apex);
+    std::copy_n(horizon + i, 4, b.twin);
+    for (HalfEdge l = 0; l < 4; ++l) {
       b.twin[4 + l] = edge + 9 + l;  // the next face of the fan
       b.twin[8 + l] = edge + 3 + l;  // the one before
     }
@@ -257,7 +269,11 @@ SATCHECK_INLINE bool ExpandingPolytope::add_fan(std::uint32_t apex, std::uint32_
     blocks[last / 16].twin[4 + last % 4] = edge + 8;
     last = edge + 3;
     faces_in_[edge / 16] = count - i < 4 ? count - i : 4;
-    wide &= set_planes(b, gather(tails + i), gather(tails + i + 1), tip, count - i);
+    const FourPoints following = gather(tails + i + 4);
+    const FourPoints head = {shuffle<1, 2, 3, 4>(tail.x, following.x), shuffle<1, 2, 3, 4>(tail.y, following.y),
+                             shuffle<1, 2, 3, 4>(tail.z, following.z)};
+    wide &= set_planes(b, tail, head, tip, count - i);
+    tail = following;
   }
   const HalfEdge end = fan[(count - 1) / 4] + (count - 1) % 4;
   blocks[end / 16].twin[4 + end % 4] = fan[0] + 8;
