@@ -25,7 +25,7 @@ from tests.oracles.random_shapes import Points, pose, random_hull, random_quater
 
 PAIRS = 400
 NUMBERS = ("distance", "lower", "upper", "normal", "witness_a", "witness_b")
-COUNTS = ("gjk_iterations", "epa_iterations", "axes_tested")
+COUNTS = ("portal_rounds", "gjk_iterations", "epa_iterations", "axes_tested")
 
 
 Indices = NDArray[np.uint32]

@@ -102,6 +102,7 @@ def test_overlap_query_stops_at_the_first_separating_axis() -> None:
     distance = check_pair(a, b, None, (3.0, 1.0, 0.0), query="distance")
     assert overlap.outcome == distance.outcome == "separated"
     # No point is farther than 1 from its origin: the line between the origins separates.
+    assert overlap.portal_rounds == 1
     assert overlap.gjk_iterations == 0 < distance.gjk_iterations
     assert overlap.distance is None
 

@@ -86,7 +86,7 @@ distance     signed: > 0 the gap, < 0 minus the penetration depth. None for quer
 lower, upper proven bounds of the signed distance, rounding included.
 normal       unit, from A to B. witness_a, witness_b: points on A and B with
              witness_b - witness_a = distance * normal. Moving A by distance * normal separates an overlap.
-method       the stage that decided: "sat", "gjk", "epa" or "exact".
+method       the stage that decided: "portal", "sat", "gjk", "epa" or "exact".
 feature      what carries the answer: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face
              or edge, -1 where none), "vertices" or "curved".)";
 
@@ -104,6 +104,7 @@ void bind_pair_result(nb::module_& m) {
       .def_prop_ro("normal", [](const PairResult& r) { return optional_vector(r, r.normal); })
       .def_prop_ro("witness_a", [](const PairResult& r) { return optional_vector(r, r.witness_a); })
       .def_prop_ro("witness_b", [](const PairResult& r) { return optional_vector(r, r.witness_b); })
+      .def_ro("portal_rounds", &PairResult::portal_rounds)
       .def_ro("gjk_iterations", &PairResult::gjk_iterations)
       .def_ro("epa_iterations", &PairResult::epa_iterations)
       .def_ro("axes_tested", &PairResult::axes_tested)
@@ -131,7 +132,7 @@ void bind_pair_results(nb::module_& m) {
   nb::class_<PairResults>(m, "PairResults",
                           R"(The results of check_pairs: indexing gives a PairResult, the attributes are read-only
 numpy arrays of shape (n,) or (n, 3), without a copy. Outcomes are 0 separated, 1 touching, 2 penetrating, 3 undecided;
-methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact. Distances and vectors are NaN for query "overlap".)")
+methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact, 5 portal. Distances and vectors are NaN for query "overlap".)")
       .def("__len__", &PairResults::size)
       .def(
           "__getitem__",
@@ -148,6 +149,7 @@ methods 0 none, 1 sat, 2 gjk, 3 epa, 4 exact. Distances and vectors are NaN for 
       .def_prop_ro("normal", &array<&PairResult::normal, double, 3>)
       .def_prop_ro("witness_a", &array<&PairResult::witness_a, double, 3>)
       .def_prop_ro("witness_b", &array<&PairResult::witness_b, double, 3>)
+      .def_prop_ro("portal_rounds", &array<&PairResult::portal_rounds, int, 1>)
       .def_prop_ro("gjk_iterations", &array<&PairResult::gjk_iterations, int, 1>)
       .def_prop_ro("epa_iterations", &array<&PairResult::epa_iterations, int, 1>)
       .def_prop_ro("axes_tested", &array<&PairResult::axes_tested, int, 1>);

@@ -25,23 +25,14 @@ Vec3 first_direction(const MinkowskiDifference& m) {
 
 }  // namespace
 
-SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
+SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m) {
   const double noise = m.support_error();
   GjkResult result;
   result.lower = -INFINITY;
-  const Vec3 first = first_direction(m);
   Simplex& simplex = result.simplex;
-  simplex.add(m.support(first));
+  simplex.add(m.support(first_direction(m)));
   result.v = simplex.vertex[0].w;
   result.upper = norm(result.v);
-  if (goal == GjkGoal::overlap) {  // pairs well apart are so along the line of their origins
-    result.axis = first * (-1 / norm(first));
-    result.lower = dot(result.axis, result.v);
-    if (result.lower > noise) {
-      result.status = GjkResult::Status::separated;
-      return result;
-    }
-  }
   const double gap = m.curved ? kCurvedGap * m.scale : 4 * kUnitRoundoff * m.scale;
   while (result.upper > noise) {
     const SupportPoint w = m.support(-result.v);
@@ -52,7 +43,6 @@ SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
       result.lower = lower;
       result.axis = axis;
     }
-    if (goal == GjkGoal::overlap && result.lower > noise) break;
     if (result.upper - result.lower <= gap || simplex.contains(w)) break;
     simplex.add(w);
     const SupportPoint* p = simplex.vertex;
@@ -61,7 +51,6 @@ SATCHECK_WIDE GjkResult gjk(const MinkowskiDifference& m, GjkGoal goal) {
       simplex.weight[3] = 0;  // the best point so far; where all around the origin is rounding, it is the answer
       normalize_weights(simplex);
       result.v = {0, 0, 0};
-      result.enclosed_radius = enclosed_radius(p[0].w, p[1].w, p[2].w, p[3].w);
       result.status = GjkResult::Status::encloses;
       return result;
     }

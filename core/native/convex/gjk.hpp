@@ -1,4 +1,4 @@
-// GJK: overlap and distance of two convex shapes from their support functions alone.
+// GJK: the distance of two convex shapes from their support functions alone.
 #pragma once
 
 #include "convex/simplex.hpp"
@@ -15,17 +15,13 @@ struct GjkResult {
   Simplex simplex;    // carries v; four vertices when it encloses
   Vec3 v;             // closest point of A - B to the origin found
   double upper = 0;   // |v|: the distance is at most this
-  double enclosed_radius = 0;  // of a ball around the origin that it encloses, without the rounding of the vertices
   double lower = 0;   // and at least this: the best support value along a queried axis
   Vec3 axis;          // unit; lower = min over A - B of axis . w
   int iterations = 0;
 };
 
-enum class GjkGoal { overlap, distance };
-
-// Goal overlap returns at the first separating axis. Goal distance goes on until the bounds meet to
-// rounding, or a support point repeats, or the next step would not come closer: then no better
-// float64 answer can be reached, and [lower, upper] says how good it is.
-GjkResult gjk(const MinkowskiDifference& difference, GjkGoal goal);
+// Goes on until the bounds meet to rounding, or a support point repeats, or the next step would not come closer: then no
+// better float64 answer can be reached, and [lower, upper] says how good it is.
+GjkResult gjk(const MinkowskiDifference& difference);
 
 }  // namespace satcheck

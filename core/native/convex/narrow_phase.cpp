@@ -12,6 +12,7 @@
 #include "convex/exact_pair.hpp"
 #include "convex/exact_reach.hpp"
 #include "convex/pair_order.hpp"
+#include "convex/portal.hpp"
 #include "convex/proof_noise.hpp"
 
 namespace satcheck {
@@ -101,7 +102,7 @@ CoreAnswer from_epa_gap(const MinkowskiDifference& m, const GjkResult& g, const 
 Witnesses touching_points(const MinkowskiDifference& m, Vec3 axis, double penetration) {
   MinkowskiDifference touching = m;
   touching.b_in_a.translation = touching.b_in_a.translation + axis * penetration;
-  GjkResult g = gjk(touching, GjkGoal::distance);
+  GjkResult g = gjk(touching);
   if (g.status == GjkResult::Status::encloses) weigh_enclosed_origin(g.simplex);
   return {g.simplex.witness_a(), g.simplex.witness_b() - axis * penetration};
 }
@@ -149,20 +150,9 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
   return answer;
 }
 
-CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, double noise, PairResult& result) {
-  const double margin = m.a.margin + m.b.margin;
-  const bool overlap_only = query == Query::overlap && margin == 0;
-  const GjkResult g = gjk(m, overlap_only ? GjkGoal::overlap : GjkGoal::distance);
+CoreAnswer from_gjk(const MinkowskiDifference& m, Query query, PairResult& result) {
+  const GjkResult g = gjk(m);
   result.gjk_iterations += g.iterations;
-  if (overlap_only && !m.curved) {
-    CoreAnswer answer;
-    answer.method = Method::gjk;
-    answer.feature = Feature::vertices;
-    answer.upper = -g.lower;
-    if (g.status == GjkResult::Status::separated) return answer;
-    if (g.status == GjkResult::Status::encloses) answer.lower = g.enclosed_radius - m.support_error();
-    if (answer.lower > noise) return answer;
-  }
   if (g.status == GjkResult::Status::separated) return from_gjk_distance(m, g, g.lower);
   return from_epa(m, g, query, result);
 }
@@ -275,7 +265,7 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
 CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
   const bool distance_first = query == Query::distance && are_boxes(m.a, m.b);
   const auto distance = [&](double lower_bound) {
-    const GjkResult g = gjk(m, GjkGoal::distance);
+    const GjkResult g = gjk(m);
     result.gjk_iterations += g.iterations;
     return from_gjk_distance(m, g, std::fmax(g.lower, lower_bound));
   };
@@ -299,7 +289,17 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
     settle_exactly(a, pose_a, b, pose_b, true, noise, result);
     return result;
   }
-  CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, noise, result);
+  if (query == Query::overlap && margin == 0 && !by_sat) {
+    // Of curved shapes only what is clear of touching: their touch is told by the bounds of a depth.
+    const PortalResult found = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
+    result.portal_rounds = found.rounds;
+    if (found.finding != PortalFinding::open) {
+      result.outcome = found.finding == PortalFinding::apart ? Outcome::separated : Outcome::penetrating;
+      result.method = Method::portal;
+      return result;
+    }
+  }
+  CoreAnswer core = by_sat ? from_sat_or_distance(m, query, result) : from_gjk(m, query, result);
   result.method = core.method;
   result.feature = core.feature;
   result.index_a = core.index_a;

@@ -1,4 +1,4 @@
-// One convex pair in, one result out: the dispatch between SAT, GJK, EPA and the exact stage.
+// One convex pair in, one result out: the dispatch between SAT, portals, GJK, EPA and the exact stage.
 #pragma once
 
 #include "convex/sat.hpp"
@@ -7,7 +7,7 @@ namespace satcheck {
 
 enum class Outcome : std::uint8_t { separated, touching, penetrating, undecided };
 enum class Reason : std::uint8_t { none, bounds_not_closed };
-enum class Method : std::uint8_t { none, sat, gjk, epa, exact };
+enum class Method : std::uint8_t { none, sat, gjk, epa, exact, portal };
 enum class Query : std::uint8_t { overlap, depth, distance };
 enum class MethodChoice : std::uint8_t { automatic, sat, gjk };
 
@@ -23,7 +23,7 @@ struct PairResult {
   Vec3 normal{NAN, NAN, NAN};  // unit, from A to B, world
   Vec3 witness_a{NAN, NAN, NAN};  // world; distance * normal = witness_b - witness_a
   Vec3 witness_b{NAN, NAN, NAN};
-  int gjk_iterations = 0, epa_iterations = 0, axes_tested = 0;
+  int portal_rounds = 0, gjk_iterations = 0, epa_iterations = 0, axes_tested = 0;
 };
 
 // Up to this many vertices on the larger of two polytopes, SAT over faces and arcs would be faster than

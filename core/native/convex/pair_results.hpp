@@ -91,7 +91,7 @@ class PairResults {
  private:
   using Measures = FieldArrays<&PairResult::distance, &PairResult::lower, &PairResult::upper, &PairResult::normal,
                                &PairResult::witness_a, &PairResult::witness_b>;
-  using Facts = FieldArrays<&PairResult::index_a, &PairResult::index_b, &PairResult::gjk_iterations,
+  using Facts = FieldArrays<&PairResult::index_a, &PairResult::index_b, &PairResult::portal_rounds, &PairResult::gjk_iterations,
                             &PairResult::epa_iterations, &PairResult::axes_tested, &PairResult::outcome,
                             &PairResult::reason, &PairResult::method, &PairResult::feature, &PairResult::has_distance>;
 

@@ -31,6 +31,21 @@ double largest_coordinate(const std::vector<Vec3>& points) {
   return extent;
 }
 
+// Between the points farthest along three skew directions and against them, with unequal weights.
+Vec3 point_inside(const std::vector<Vec3>& points, const double (&weights)[6]) {
+  Vec3 sum;
+  double total = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto height = [&](Vec3 p) { return p[axis] - p[(axis + 1) % 3] / 4 + p[(axis + 2) % 3] / 16; };
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(), [&](Vec3 p, Vec3 q) { return height(p) < height(q); });
+    const double low = weights[2 * axis], high = weights[2 * axis + 1];
+    sum = sum + (*least * low + *most * high);
+    total += low + high;
+  }
+  return sum * (1 / total);
+}
+
 std::vector<EdgeArc> arcs_of(const Polytope& p) {
   std::vector<EdgeArc> arcs;
   if (p.dimension < 3) return arcs;
@@ -56,6 +71,8 @@ Shape make_hull(Polytope polytope) {
   shape.lanes = VertexLanes(shape.polytope.vertices);
   shape.support_map = LazySupportMap(shape.polytope.vertices.size());
   shape.extent = largest_coordinate(shape.polytope.vertices);
+  shape.inside[0] = point_inside(shape.polytope.vertices, {11, 13, 17, 22, 19, 30});
+  shape.inside[1] = point_inside(shape.polytope.vertices, {29, 12, 15, 21, 13, 25});
   return shape;
 }
 
@@ -110,6 +127,10 @@ Shape make_round(ShapeKind kind, Vec3 size, double margin, double extent) {
   shape.size = size;
   shape.margin = margin;
   shape.extent = extent;
+  if (margin == 0) {
+    shape.inside[0] = {size.x / 7, size.y / 11, size.z / 13};
+    shape.inside[1] = {size.x / -11, size.y / 13, size.z / -7};
+  }
   return shape;
 }
 

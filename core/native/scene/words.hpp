@@ -12,7 +12,7 @@ inline const char* name_of(Outcome outcome) {
 }
 
 inline const char* name_of(Method method) {
-  constexpr const char* names[] = {"none", "sat", "gjk", "epa", "exact"};
+  constexpr const char* names[] = {"none", "sat", "gjk", "epa", "exact", "portal"};
   return names[static_cast<int>(method)];
 }
 

@@ -35,7 +35,7 @@ Points random_points(std::mt19937& engine, int count, Vec3 shift) {
 enum class Gap { open, closed };
 Gap gap_between(const Points& a, const Points& b) {
   const Shape sa = make_hull(a), sb = make_hull(b);
-  const GjkResult g = gjk(MinkowskiDifference(sa, {}, sb, {}), GjkGoal::distance);
+  const GjkResult g = gjk(MinkowskiDifference(sa, {}, sb, {}));
   if (g.status == GjkResult::Status::separated) {
     CHECK(g.lower > kLeast);
     return Gap::open;
@@ -52,7 +52,7 @@ bool some_nudge_frees(const Points& a, const Points& b) {
         Points moved = a;
         for (Vec3& p : moved) p = p + Vec3{double(x), double(y), double(z)} * 1e-5;
         const Shape sa = make_hull(moved), sb = make_hull(b);
-        if (gjk(MinkowskiDifference(sa, {}, sb, {}), GjkGoal::overlap).status == GjkResult::Status::separated) return true;
+        if (gjk(MinkowskiDifference(sa, {}, sb, {})).status == GjkResult::Status::separated) return true;
       }
     }
   }

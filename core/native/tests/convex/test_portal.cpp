@@ -1,0 +1,94 @@
+// Portals against exact signs: what they find is right, and what they leave open is close to touching.
+#include "convex/portal.hpp"
+#include "convex/exact_pair.hpp"
+#include "convex/narrow_phase.hpp"
+#include "tests/check.hpp"
+#include "tests/pairs.hpp"
+
+using namespace satcheck;
+
+namespace {
+
+PortalFinding find(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  const MinkowskiDifference m(a, pose_a, b, pose_b);
+  return seek_portal(m, m.support_error()).finding;
+}
+
+Pose at(double x, double y, double z) {
+  Pose pose;
+  pose.translation = {x, y, z};
+  return pose;
+}
+
+// Vertices on an even grid: many pairs touch, and rays pass through edges and vertices.
+std::vector<Vec3> grid_points(testing::Source& source, int count) {
+  std::vector<Vec3> points;
+  const auto coordinate = [&] { return std::round(source.uniform(-2, 2)); };
+  for (int i = 0; i < count; ++i) points.push_back({coordinate(), coordinate(), coordinate()});
+  return points;
+}
+
+void test_grids_against_exact_signs() {
+  testing::Source source(3);
+  int found[3][4] = {};
+  for (int round = 0; round < 4000; ++round) {
+    const std::vector<Vec3> pa = grid_points(source, 1 + round % 11);
+    std::vector<Vec3> pb = grid_points(source, 1 + round % 7);
+    const Vec3 shift = grid_points(source, 1)[0];
+    for (Vec3& p : pb) p = p + shift * 2;
+    const Shape a = make_hull(pa), b = make_hull(pb);
+    const PortalFinding finding = find(a, {}, b, {});
+    const Outcome truth = decide_exactly(convex_hull(pa), convex_hull(pb), 1e-12);
+    if (finding == PortalFinding::apart) CHECK(truth == Outcome::separated);
+    if (finding == PortalFinding::overlaps) CHECK(truth == Outcome::penetrating);
+    ++found[static_cast<int>(finding)][static_cast<int>(truth)];
+  }
+  const int apart = static_cast<int>(PortalFinding::apart), overlaps = static_cast<int>(PortalFinding::overlaps);
+  CHECK(found[apart][static_cast<int>(Outcome::separated)] > 1000);
+  CHECK(found[overlaps][static_cast<int>(Outcome::penetrating)] > 200);
+}
+
+// Of pairs in general position that lie farther than rounding from touching, none is left open.
+void test_general_pairs_are_settled() {
+  testing::Source source(5);
+  int overlaps = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const Shape a = make_hull(source.sphere_points(4 + round % 90)), b = make_hull(source.sphere_points(4 + round % 70));
+    const Pose pa = source.pose(0.9), pb = source.pose(0.9);
+    const PortalFinding finding = find(a, pa, b, pb);
+    const Outcome truth = check_pair(a, pa, b, pb, Query::depth).outcome;
+    CHECK(finding == (truth == Outcome::separated ? PortalFinding::apart : PortalFinding::overlaps));
+    overlaps += truth == Outcome::penetrating;
+  }
+  CHECK(overlaps > 500 && overlaps < 1900);
+}
+
+void test_curved_shapes() {
+  const Shape cylinder = make_cylinder(1, 1), ball = make_ellipsoid({1, 2, 1});
+  CHECK(find(cylinder, {}, cylinder, at(2.01, 0, 0.1)) == PortalFinding::apart);
+  CHECK(find(cylinder, {}, cylinder, at(1.99, 0.1, 0.2)) == PortalFinding::overlaps);
+  CHECK(find(cylinder, {}, ball, at(0.3, 3.01, 0)) == PortalFinding::apart);
+  CHECK(find(cylinder, {}, ball, at(0.3, 2.9, 0.1)) == PortalFinding::overlaps);
+}
+
+void test_what_touches_or_is_flat_stays_open() {
+  const Shape box = make_box({1, 1, 1}), point = make_hull({{0, 0, 0}});
+  CHECK(find(box, {}, box, at(2, 0.3, 0.1)) == PortalFinding::open);
+  CHECK(find(box, {}, box, {}) == PortalFinding::overlaps);
+  CHECK(find(point, {}, point, {}) == PortalFinding::open);
+  CHECK(find(point, {}, point, at(1, 0, 0)) == PortalFinding::apart);
+  // Too small for squares of areas: nothing is concluded from what has underflowed.
+  const Shape speck = make_box({1e-45, 1e-45, 1e-45});
+  CHECK(find(speck, {}, speck, at(1.99e-45, 0.1e-45, 0.2e-45)) != PortalFinding::apart);
+  CHECK(find(speck, {}, speck, at(2.01e-45, 0.1e-45, 0.2e-45)) != PortalFinding::overlaps);
+}
+
+}  // namespace
+
+int main() {
+  test_grids_against_exact_signs();
+  test_general_pairs_are_settled();
+  test_curved_shapes();
+  test_what_touches_or_is_flat_stays_open();
+  return testing::exit_status();
+}
