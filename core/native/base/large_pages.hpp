@@ -47,14 +47,6 @@ std::vector<T> with_room(std::size_t count) {
   return room;
 }
 
-// With the same values.
-template <class T>
-std::vector<T> copied(const std::vector<T>& values) {
-  std::vector<T> copy = with_room<T>(values.size());
-  copy.insert(copy.end(), values.begin(), values.end());
-  return copy;
-}
-
 struct Free {
   void operator()(void* memory) const { std::free(memory); }
 };

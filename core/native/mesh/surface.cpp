@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/edge_table.hpp"
-#include "base/large_pages.hpp"
 #include "base/parallel.hpp"
 #include "base/patches.hpp"
 #include "mesh/topology.hpp"
@@ -61,8 +60,7 @@ bool has_triangles_of(const Mesh& a, const Mesh& b) {
 }  // namespace
 
 Surface make_surface(const Mesh& mesh, bool solid) {
-  Surface surface;
-  surface.mesh = weld(mesh);
+  Surface surface(std::make_shared<const Mesh>(weld(mesh)));
   surface.solid = solid;
   bool proven = true;
   // The tree first, which takes longest.
@@ -75,20 +73,18 @@ Surface make_surface(const Mesh& mesh, bool solid) {
   return surface;
 }
 
-Surface make_plain_surface(const Mesh& inspected, const Aabb* region) {
-  Surface surface;
-  surface.mesh = {copied(inspected.vertices), copied(inspected.triangles)};
+Surface make_plain_surface(std::shared_ptr<const Mesh> inspected, const Aabb* region) {
+  Surface surface(std::move(inspected));
   surface.solid = true;
-  surface.bvh = region ? build_bvh_near(inspected, *region) : build_bvh(inspected);
+  surface.bvh = region ? build_bvh_near(surface.mesh, *region) : build_bvh(surface.mesh);
   surface.parts = {0};
   return surface;
 }
 
 Surface refitted_surface(const Surface& like, Mesh mesh) {
   if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) return make_surface(mesh, like.solid);
-  Surface surface;
-  surface.mesh = std::move(mesh);
-  for (Vec3& p : surface.mesh.vertices) p = p + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
+  for (Vec3& p : mesh.vertices) p = p + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
+  Surface surface(std::make_shared<const Mesh>(std::move(mesh)));
   surface.bvh = {like.bvh.nodes, like.bvh.order, {}};
   refit(surface.bvh, surface.mesh);
   surface.parts = like.parts;

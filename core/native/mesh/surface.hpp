@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/mesh.hpp"
@@ -11,7 +13,11 @@
 namespace satcheck {
 
 struct Surface {
-  Mesh mesh;  // welded
+  // welded: as it stays; others may hold it too.
+  explicit Surface(std::shared_ptr<const Mesh> welded) : owned(std::move(welded)), mesh(*owned) {}
+
+  std::shared_ptr<const Mesh> owned;
+  const Mesh& mesh;
   Bvh bvh;
   std::vector<std::uint32_t> parts;  // a triangle of each part that is connected through common vertices
   // Closed and consistently wound: winding numbers say what is inside.
@@ -25,7 +31,7 @@ Surface make_surface(const Mesh& mesh, bool solid);
 
 // The same of a mesh as inspect() left it, whose topology was that of a plain solid: nothing is proven again.
 // region: where queries will be, as build_bvh_near() takes it; nothing: anywhere.
-Surface make_plain_surface(const Mesh& inspected, const Aabb* region = nullptr);
+Surface make_plain_surface(std::shared_ptr<const Mesh> inspected, const Aabb* region = nullptr);
 
 // The surface of `mesh`, which is that of `like` with its vertices elsewhere, as an affine map puts them;
 // a mirror turns the winding. Nothing is sorted: the tree of `like` is fitted again. Where the triangles

@@ -1,6 +1,8 @@
 // A surface that is moved again and again by a translation, without building its tree anew.
 #pragma once
 
+#include <memory>
+
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -8,14 +10,19 @@ namespace satcheck {
 class MovedSurface {
  public:
   // `still` must outlive this.
-  explicit MovedSurface(const Surface& still) : still_(still), moved_(still) {}
+  explicit MovedSurface(const Surface& still)
+      : still_(still), moved_mesh_(std::make_shared<Mesh>(still.mesh)), moved_(moved_mesh_) {
+    moved_.bvh = still.bvh;
+    moved_.parts = still.parts;
+    moved_.solid = still.solid;
+  }
 
   // The surface with t added to every coordinate and rounded once. Rounding keeps the order of
   // coordinates, so the moved boxes hold the moved triangles exactly. Valid until the next call.
   const Surface& at(Vec3 t) {
     const auto move_box = [&](const Aabb& box) { return Aabb{box.min + t, box.max + t}; };
     for (std::size_t i = 0; i < still_.mesh.vertices.size(); ++i) {
-      moved_.mesh.vertices[i] = still_.mesh.vertices[i] + t;
+      moved_mesh_->vertices[i] = still_.mesh.vertices[i] + t;
     }
     for (std::size_t i = 0; i < still_.bvh.nodes.size(); ++i) {
       moved_.bvh.nodes[i].box = move_box(still_.bvh.nodes[i].box);
@@ -28,6 +35,7 @@ class MovedSurface {
 
  private:
   const Surface& still_;
+  std::shared_ptr<Mesh> moved_mesh_;
   Surface moved_;
 };
 

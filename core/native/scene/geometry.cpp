@@ -40,13 +40,13 @@ std::optional<bool> Geometry::known_convex() const {
 std::shared_ptr<Surface> Geometry::surface() {
   return once(mutex_, surface_, [&] {
     ++hierarchies_;
-    return plain_ ? make_plain_surface(*mesh_) : make_surface(*mesh_, solid_);
+    return plain_ ? make_plain_surface(mesh_) : make_surface(*mesh_, solid_);
   });
 }
 
 std::shared_ptr<Surface> Geometry::surface_near(const Aabb& region) {
   ++hierarchies_;
-  return std::make_shared<Surface>(make_plain_surface(*mesh_, &region));
+  return std::make_shared<Surface>(make_plain_surface(mesh_, &region));
 }
 
 std::shared_ptr<Polytope> Geometry::hull() {
