@@ -1,6 +1,7 @@
 #include "convex/shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "base/numeric_range.hpp"
@@ -31,17 +32,26 @@ double largest_coordinate(const std::vector<Vec3>& points) {
   return extent;
 }
 
-// Between the points farthest along three skew directions and against them, with unequal weights.
-Vec3 point_inside(const std::vector<Vec3>& points, const double (&weights)[6]) {
-  Vec3 sum;
-  double total = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto height = [&](Vec3 p) { return p[axis] - p[(axis + 1) % 3] / 4 + p[(axis + 2) % 3] / 16; };
+// The points farthest against three skew directions and along them.
+std::array<Vec3, 6> skew_ends(const std::vector<Vec3>& points) {
+  std::array<Vec3, 6> ends;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int i = static_cast<int>(axis);
+    const auto height = [&](Vec3 p) { return p[i] - p[(i + 1) % 3] / 4 + p[(i + 2) % 3] / 16; };
     const auto [least, most] =
         std::minmax_element(points.begin(), points.end(), [&](Vec3 p, Vec3 q) { return height(p) < height(q); });
-    const double low = weights[2 * axis], high = weights[2 * axis + 1];
-    sum = sum + (*least * low + *most * high);
-    total += low + high;
+    ends[2 * axis] = *least;
+    ends[2 * axis + 1] = *most;
+  }
+  return ends;
+}
+
+Vec3 weighted_mean(const std::array<Vec3, 6>& points, const std::array<double, 6>& weights) {
+  Vec3 sum;
+  double total = 0;
+  for (std::size_t i = 0; i < 6; i += 2) {
+    sum = sum + (points[i] * weights[i] + points[i + 1] * weights[i + 1]);
+    total += weights[i] + weights[i + 1];
   }
   return sum * (1 / total);
 }
@@ -71,8 +81,9 @@ Shape make_hull(Polytope polytope) {
   shape.lanes = VertexLanes(shape.polytope.vertices);
   shape.support_map = LazySupportMap(shape.polytope.vertices.size());
   shape.extent = largest_coordinate(shape.polytope.vertices);
-  shape.inside[0] = point_inside(shape.polytope.vertices, {11, 13, 17, 22, 19, 30});
-  shape.inside[1] = point_inside(shape.polytope.vertices, {29, 12, 15, 21, 13, 25});
+  const std::array<Vec3, 6> ends = skew_ends(shape.polytope.vertices);
+  shape.inside[0] = weighted_mean(ends, {11, 13, 17, 22, 19, 30});
+  shape.inside[1] = weighted_mean(ends, {29, 12, 15, 21, 13, 25});
   return shape;
 }
 
