@@ -4,7 +4,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -44,7 +43,7 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   pool.reserve(threads - 1);
   try {
     for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
-  } catch (const std::system_error&) {  // the system grants no more: those that there are do the work
+  } catch (const std::exception&) {  // no more threads, or no memory for one: those that there are do the work
   }
   work();
   for (std::thread& thread : pool) thread.join();
