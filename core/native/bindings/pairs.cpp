@@ -197,12 +197,14 @@ pose_a, pose_b  None, (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw): rotate by th
                 but 0), then translate.
 query           "overlap" gives the outcome only and stops at the first proof; "depth" and "distance" give
                 the signed distance, normal and witness points.
-method          "auto", or "sat" / "gjk" to take that one where it applies.
+method          "auto", "sat" to project on axes where that applies, or "gjk" to ask support functions
+                alone: portals for the outcome of an overlap, GJK and EPA for the rest.
 Raises ValueError for a pose that is not finite or an unknown query or method, OverflowError for a
 translation out of range.
 
-SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), GJK (Gilbert, Johnson, Keerthi 1988), EPA on signed
-face distances (after van den Bergen 2001), exact signs (Shewchuk 1997) where float64 cannot tell.)");
+SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), portals (Snethen 2008), GJK (Gilbert, Johnson, Keerthi
+1988), EPA on signed face distances (after van den Bergen 2001), exact signs (Shewchuk 1997) where float64
+cannot tell.)");
   m.def("check_pairs", &check_many, nb::arg("shapes"), nb::arg("index_a").noconvert(),
         nb::arg("index_b").noconvert(), nb::arg("poses_a").noconvert(),
         nb::arg("poses_b").noconvert(), nb::kw_only(), nb::arg("query") = "depth", nb::arg("method") = "auto",
