@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -19,6 +18,7 @@ from satcheck.audit.finding import examine
 from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.opinion import Opinion, is_objected, is_overlap_excused, opinion_of
 from satcheck.audit.resolve.wall import BodyPair
+from satcheck.audit.side_by_side import side_by_side
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.frozen import replace
 from satcheck.scene.bodies import IDENTITY
@@ -165,11 +165,7 @@ class Crowd:
         threads = min(self.settings.jobs or os.cpu_count() or 1, len(pairs))
         if threads <= 1:
             return map(self._opinion, pairs)
-        try:
-            with ThreadPoolExecutor(threads) as pool:
-                return list(pool.map(self._opinion, pairs))
-        except RuntimeError:  # the system grants no more threads
-            return map(self._opinion, pairs)
+        return side_by_side(self._opinion, pairs, threads)
 
     def _opinion(self, pair: BodyPair) -> Opinion:
         """A pair that fails must not take the others with it; the check at the end says so."""

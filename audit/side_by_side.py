@@ -1,0 +1,25 @@
+"""The same of several things at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+
+def side_by_side(work: Callable[[T], R], things: Sequence[T], threads: int) -> list[R]:
+    """work(thing) of each, on so many threads; where the system grants no more of them, one after
+    the other. After an error, Ctrl-C for one, nobody waits for what is under way."""
+    from concurrent.futures import ThreadPoolExecutor
+
+    pool = ThreadPoolExecutor(threads)
+    try:
+        waiting = [pool.submit(work, thing) for thing in things]
+    except RuntimeError:  # can't start new thread
+        return list(map(work, things))
+    else:
+        return [one.result() for one in waiting]
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
