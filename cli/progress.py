@@ -39,9 +39,13 @@ class Bar:
             return None
         from threading import Timer
 
-        self._timer = Timer(PATIENCE, self._show)
-        self._timer.daemon = True
-        self._timer.start()
+        timer = Timer(PATIENCE, self._show)
+        timer.daemon = True
+        try:
+            timer.start()
+        except RuntimeError:  # the system grants no more threads
+            return None
+        self._timer = timer
         return self
 
     def __call__(self, done: int, total: int) -> None:
