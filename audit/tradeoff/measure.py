@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import shutil
 import tempfile
-from collections.abc import Callable, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from satcheck.audit.asked.settings import Settings
@@ -100,7 +100,7 @@ def _import_early() -> None:
 
 def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
     start = budget.spent
-    try:
+    with _failing_alone(gauge):
         if gauge.rung == BOOLEAN:
             _run_boolean(gauge, bodies, budget)
         elif gauge.rung.threshold is not None:
@@ -108,8 +108,6 @@ def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
         else:
             answer = ask(bodies, _settings(gauge.rung, bodies, apart=apart))
             gauge.saw(answer, answer.seconds, None)
-    except Exception as error:  # noqa: BLE001 a rung that fails is a row that says so
-        gauge.fail(f"internal error: {type(error).__name__}: {error}")
     took = budget.spent - start
     gauge.longest, gauge.spent = max(gauge.longest, took), gauge.spent + took
 
@@ -121,9 +119,19 @@ def _weigh(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None
         return
     start, settings = budget.spent, _settings(gauge.rung, bodies, apart=apart)
     memory = OwnMemory()
-    ask(bodies, settings)
-    gauge.megabytes = memory.grown
+    with _failing_alone(gauge):
+        ask(bodies, settings)
+        gauge.megabytes = memory.grown
     gauge.spent += budget.spent - start
+
+
+@contextmanager
+def _failing_alone(gauge: Gauge) -> Iterator[None]:
+    """A rung that fails is a row that says so."""
+    try:
+        yield
+    except Exception as error:  # noqa: BLE001 whatever it is
+        gauge.fail(f"internal error: {type(error).__name__}: {error}")
 
 
 def _settings(rung: Rung, bodies: Bodies, *, apart: bool) -> Settings:

@@ -135,6 +135,19 @@ def test_a_failing_rung_is_a_row_and_the_others_answer(monkeypatch: pytest.Monke
             assert row.state == "answered", label
 
 
+def test_a_rung_that_cannot_be_weighed_fails_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Unweighed:
+        @property
+        def grown(self) -> float:
+            raise MemoryError("made up")
+
+    monkeypatch.setattr(measuring, "OwnMemory", Unweighed)
+    monkeypatch.setattr(measuring, "RUNGS", [RUNGS[0], measuring.EXACT])
+    (pair,) = found("box.obj", "box_pushed.stl").pairs
+    for row in pair.rows:
+        assert (row.state, row.reason) == ("failed", "internal error: MemoryError: made up")
+
+
 def test_what_is_no_solid_has_no_volume() -> None:
     (pair,) = found("open_box.off", "cube.off", budget=20.0).pairs
     boolean = rows(pair)["boolean"]
