@@ -25,13 +25,12 @@ class Row:
     None for the Boolean, which knows only whether there is a volume in common; where the inside of
     a body could not be checked, that of the surfaces. proven: it has proven how the bodies relate.
     right: held against the truth; None: one of the two is not known. figure: the signed
-    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. excess: by what
-    share of its volume the shapes that stood for A and for B take more than the body; None: not
-    known. settled_by: the
-    rung at which its climb ended. cold: nothing kept from before; cached: with the parts on disk,
-    or the child process running. cpu: of the cold runs, child processes included; None: not known.
-    megabytes: MiB that it takes at most: by which this process grows, or of its child process,
-    whichever is more. on_front: of error against time.
+    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. excess: for A and
+    for B, how much more volume than the body what stood for it takes, as a share of the body's;
+    None: not known. settled_by: the rung at which its climb ended. cold: nothing kept from before;
+    cached: with the parts on disk, or the child process running. cpu: of the cold runs, child
+    processes included; None: not known. megabytes: MiB that it takes at most: by which this process
+    grows, or of its child process, whichever is more. on_front: of error against time.
     """
 
     rung: Rung

@@ -40,9 +40,10 @@ def render(found: Tradeoff, page: Page) -> str:
     if found.left_out:
         console.print(f"{counted(found.left_out, 'more pair')} with boxes that meet: see --pairs.")
     console.print(
-        "* on the Pareto front: no rung is as near, as sure and faster by more than its runs "
-        "spread (middle half). Error: signed distance said minus proven; below 0: closer or deeper "
-        "than it is. Volume error: of what stands for A, and for B. Memory: what a rung adds."
+        "* on the Pareto front: no rung is better in time, error or proof without being worse in "
+        "another; times within the spread of their runs (middle half) are alike. Error: signed "
+        "distance said minus proven; below 0: closer or deeper than it is. Volume error: of what "
+        "stands for A, and for B. Memory: what a rung adds."
     )
     spent = f"{number(round(found.spent, 1))} s of {number(found.budget)} s"
     console.print(f"Medians of up to {counted(found.repeat, 'run')} in turn, {spent}.")
