@@ -94,7 +94,7 @@ class MeshFiles:
         except RuntimeError:
             pass  # the system grants no more: what nobody reads ahead is read when it is asked for
         try:
-            if meanwhile is not None:
+            if threads and meanwhile is not None:
                 meanwhile()
         finally:
             for thread in threads:

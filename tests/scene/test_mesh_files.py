@@ -173,7 +173,9 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
     places["bad.obj"].write_text("v 0 0 0\nf 1 2 3\n")
     places["c.glb"].write_bytes(graphs.glb(NODES))
     ahead, alone = MeshFiles(), MeshFiles()
-    ahead.read_ahead(places.items())
+    called = []
+    ahead.read_ahead(places.items(), lambda: called.append("meanwhile"))
+    assert len(called) == granted
     for name, place in places.items():
         found, expected = ahead.whole(name, place), alone.whole(name, place)
         if isinstance(expected, MeshFile):
