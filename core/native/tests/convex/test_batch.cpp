@@ -22,8 +22,8 @@ bool same(const PairResult& a, const PairResult& b) {
          a.index_a == b.index_a && a.index_b == b.index_b && a.has_distance == b.has_distance &&
          same(a.distance, b.distance) && same(a.lower, b.lower) && same(a.upper, b.upper) &&
          same(a.normal, b.normal) && same(a.witness_a, b.witness_a) && same(a.witness_b, b.witness_b) &&
-         a.gjk_iterations == b.gjk_iterations && a.epa_iterations == b.epa_iterations &&
-         a.axes_tested == b.axes_tested;
+         a.portal_rounds == b.portal_rounds && a.gjk_iterations == b.gjk_iterations &&
+         a.epa_iterations == b.epa_iterations && a.axes_tested == b.axes_tested;
 }
 
 void test_every_pair_as_by_itself() {
