@@ -134,7 +134,13 @@ SATCHECK_WIDE EpaResult epa(const MinkowskiDifference& m, const Simplex& seed, E
       return result;
     }
     polytope.clear(m);
-    if (!polytope.start(tetrahedron)) return result;
+    if (!polytope.start(tetrahedron)) {  // a needle: no polytope, but any axis bounds the penetration
+      const Vec3 p = tetrahedron.vertex[0].w;
+      const Vec3 n = cross(tetrahedron.vertex[1].w - p, tetrahedron.vertex[2].w - p);
+      set_flat(result, m, n * (1 / norm(n)));
+      result.status = EpaResult::Status::stalled;
+      return result;
+    }
   }
   const double noise = m.support_error();
   const double closed = (m.curved ? kCurvedFacetGap : kVisible) * m.scale;

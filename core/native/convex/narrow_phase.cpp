@@ -144,7 +144,7 @@ CoreAnswer from_epa(const MinkowskiDifference& m, const GjkResult& g, Query quer
       break;
   }
   if (solid_polytopes(m)) return from_sat(m, Query::depth, result);
-  answer.lower = e.lower;
+  answer.lower = std::fmax(e.lower, -g.upper);
   answer.has_axis = std::isfinite(e.upper);
   answer.witness = overlap_witness(m, e);
   return answer;
