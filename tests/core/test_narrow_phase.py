@@ -234,3 +234,62 @@ def test_witness_points_of_splinters_go_along_with_the_scale(power: int) -> None
         share = np.dot(np.subtract(witness, start), end - start) / np.dot(end - start, end - start)
         assert 0 <= share <= 1
         assert np.linalg.norm(start + share * (end - start) - witness) < 1e-11
+
+
+# ---- hulls far from their own origin
+
+
+def test_a_translation_that_undoes_the_place_of_a_hull() -> None:
+    """A point where a segment's pose rounds its end to: they touch, whatever cancels on the way."""
+    rng = np.random.default_rng(2)
+    for _ in range(300):
+        start, way = rng.uniform(-30, 30, 3), rng.uniform(-1, 1, 3) * 2.0**31
+        still, moving = Hull([start + way]), Hull([start, start + rng.normal(size=3)])
+        for query in ("overlap", "distance"):
+            assert check_pair(still, moving, None, tuple(way), query=query).outcome == "touching"
+            assert check_pair(moving, still, tuple(way), None, query=query).outcome == "touching"
+
+
+def test_bounds_hold_for_a_turned_point_above_a_cylinder() -> None:
+    rng = np.random.default_rng(3)
+    for _ in range(200):
+        point, q = rng.uniform(-1e9, 1e9, 3), rng.normal(size=4)
+        turned = rotation_matrix(q) @ point
+        place = -turned + rng.uniform(-0.3, 0.3, 3) + [0, 0, 1.0 + 1e-5]
+        x, y, z, w = (Fraction(c) for c in q)
+        row = (2 * (x * z - y * w), 2 * (y * z + x * w), w * w + z * z - x * x - y * y)
+        up = sum((r * Fraction(c) for r, c in zip(row, point, strict=True)), Fraction(0))
+        height = up / (x * x + y * y + z * z + w * w) + Fraction(place[2])
+        result = check_pair(Cylinder(1, 1), Hull([point]), None, (*place, *q), query="distance")
+        assert result.lower is not None
+        assert result.upper is not None
+        if height > 1:
+            assert Fraction(result.lower) <= height - 1 <= Fraction(result.upper)
+        assert result.outcome != ("penetrating" if height > 1 else "separated")
+        place[2] -= result.distance
+        at_touch = check_pair(Cylinder(1, 1), Hull([point]), None, (*place, *q), query="distance")
+        assert at_touch.outcome == "undecided"
+        assert at_touch.reason == "bounds-not-closed"
+
+
+# A triangle 5e-7 wide, 0.5 long: no tetrahedron of it and a point is thick enough for a polytope.
+NEEDLE = (
+    (-0.06579076084277101, 0.2669132830999158, -0.21491994897139222),
+    (-0.15845738704110598, 0.6428602779427403, -0.5176336556509573),
+    (-0.09027607758531953, 0.3662486135034199, -0.2949045546719163),
+)
+
+
+@pytest.mark.parametrize("query", ["depth", "distance"])
+def test_what_lies_on_a_needle_is_measured(query: Any) -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        point = rng.dirichlet([1, 1, 1]) @ np.array(NEEDLE)
+        alone = check_pair(Hull([point]), Hull(NEEDLE), query=query)
+        assert alone.distance is not None
+        assert 0 <= alone.distance < 1e-15
+        ball = check_pair(Sphere(0.1), Hull(NEEDLE), tuple(point), query=query)
+        assert ball.lower is not None
+        assert ball.upper is not None
+        assert ball.lower - 1e-15 <= -0.1 <= ball.upper + 1e-15
+        assert ball.upper - ball.lower < 1e-11

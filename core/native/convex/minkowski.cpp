@@ -1,5 +1,7 @@
 #include "convex/minkowski.hpp"
 
+#include "exact/double_double.hpp"
+
 namespace satcheck {
 
 namespace {
@@ -8,11 +10,18 @@ bool has_only_vertices(const Shape& shape) {
   return shape.is_polytope() || shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::capsule;
 }
 
-// The vector from A's core origin to B's, world axes. Translations and hull origins are subtracted
-// like from like first, so that a pair far from the world's origin keeps its digits.
+// (b - a) + (d - c) to within a rounding of the result, however large the terms that cancel.
+double sum_of_differences(double a, double b, double c, double d) {
+  return static_cast<double>(exact_sum(b, -a) + exact_sum(d, -c));
+}
+
+// The vector from A's core origin to B's, world axes. A pair far from the world's origin keeps its digits, and so
+// does one whose translations undo how far the hulls lie from theirs.
 Vec3 offset_between(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
   const Vec3 origin_a = pose_a.rotation * a.origin, origin_b = pose_b.rotation * b.origin;
-  return (pose_b.translation - pose_a.translation) + (origin_b - origin_a);
+  const Vec3 &ta = pose_a.translation, &tb = pose_b.translation;
+  return {sum_of_differences(ta.x, tb.x, origin_a.x, origin_b.x), sum_of_differences(ta.y, tb.y, origin_a.y, origin_b.y),
+          sum_of_differences(ta.z, tb.z, origin_a.z, origin_b.z)};
 }
 
 }  // namespace

@@ -164,7 +164,7 @@ Outcome classify(const CoreAnswer& core, const MinkowskiDifference& m, double no
   if (upper < -noise) return Outcome::separated;
   if (lower > noise) return Outcome::penetrating;
   const double band = m.curved || margin > 0 ? 2 * kCurvedFacetGap * m.scale : noise;
-  return lower >= -band && upper <= band ? Outcome::touching : Outcome::undecided;
+  return noise <= band && lower >= -band && upper <= band ? Outcome::touching : Outcome::undecided;
 }
 
 // The last digits of a curved pair's axis: a smaller upper bound. An overlap takes the axis over, with
@@ -195,7 +195,7 @@ Polytope world_hull(const Shape& shape, const Pose& pose) {
 // The rounding that a proof in float64 has to beat. Cores of vertices are judged where their poses
 // round them to, curved ones where their poses put them.
 double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
-  if (m.curved) return m.support_error();
+  if (m.curved) return m.support_error() + origin_error(m.a, pose_a) + origin_error(m.b, pose_b);
   return proof_noise(m.scale, m.a, pose_a, m.b, pose_b);
 }
 

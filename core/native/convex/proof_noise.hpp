@@ -6,12 +6,19 @@
 
 namespace satcheck {
 
-// How far the rounding of a pose moves a vertex at most. In a coordinate 3 products and 2 sums make 5
-// roundings of no more than the reach of the turned vertex, sqrt(3) times its largest coordinate: as a
-// vector, 15 of that coordinate. Adding the translation rounds the sum; rounded up.
+// How far the rounding of a pose moves a vertex at most, and that of the pair's relative pose its origin. A term
+// of a turned coordinate is rounded 3 times, and the terms make no more than the reach, sqrt(3) times the largest
+// coordinate: as a vector, 9 of that. The vertex is turned in one piece, its origin once more; adding the
+// translation rounds the sum. Rounded up.
 inline double placement_error(const Shape& shape, const Pose& pose) {
   if (pose.rotation == Mat3{} && pose.translation == Vec3{}) return 0;
   return kUnitRoundoff * (norm(pose.translation) + 20 * (max_abs(shape.origin) + shape.extent));
+}
+
+// How far the origin of a hull may come from where the quaternion puts it: 36 for the matrix (kCurvedSupportError)
+// times sqrt(3), and the 9 of above; rounded up.
+inline double origin_error(const Shape& shape, const Pose& pose) {
+  return pose.rotation == Mat3{} ? 0 : 72 * kUnitRoundoff * max_abs(shape.origin);
 }
 
 // Of cores that are vertices, which are judged where their poses round them to. `scale` is that of A - B.
