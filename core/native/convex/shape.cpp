@@ -205,9 +205,11 @@ CorePoint round_support(const Shape& shape, Vec3 d) {
       return {rim, Shape::kNoIndex};
     }
     case ShapeKind::ellipsoid: {
-      const Vec3 scaled{s.x * d.x, s.y * d.y, s.z * d.z};
+      Vec3 scaled{s.x * d.x, s.y * d.y, s.z * d.z};
+      const double largest = max_abs(scaled);
+      if (largest == 0) return {{s.x, 0, 0}, Shape::kNoIndex};
+      scaled = scaled * (1 / largest);  // the direction may be of any length: its square may overflow
       const double length = norm(scaled);
-      if (length == 0) return {{s.x, 0, 0}, Shape::kNoIndex};
       return {{s.x * (scaled.x / length), s.y * (scaled.y / length), s.z * (scaled.z / length)}, Shape::kNoIndex};
     }
   }

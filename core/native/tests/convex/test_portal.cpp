@@ -71,6 +71,26 @@ void test_curved_shapes() {
   CHECK(find(cylinder, {}, ball, at(0.3, 2.9, 0.1)) == PortalFinding::overlaps);
 }
 
+// Directions grow with the cube of the scale, and no support point may lose them.
+void test_curved_shapes_of_any_size() {
+  for (const double size : {1e-40, 1.0, 1e40}) {
+    const Shape ball = make_ellipsoid({size, 2 * size, 0.5 * size}), cone = make_cone(size, size);
+    testing::Source source(7);
+    int overlaps = 0;
+    for (int round = 0; round < 400; ++round) {
+      Pose pa = source.pose(1), pb = source.pose(1);
+      pa.translation = pa.translation * size;
+      pb.translation = pb.translation * size;
+      const Shape& other = round % 2 ? ball : cone;
+      const PortalFinding finding = find(ball, pa, other, pb);
+      const Outcome truth = check_pair(ball, pa, other, pb, Query::depth).outcome;
+      CHECK(finding == (truth == Outcome::separated ? PortalFinding::apart : PortalFinding::overlaps));
+      overlaps += truth == Outcome::penetrating;
+    }
+    CHECK(overlaps > 100 && overlaps < 390);
+  }
+}
+
 void test_what_touches_or_is_flat_stays_open() {
   const Shape box = make_box({1, 1, 1}), point = make_hull({{0, 0, 0}});
   CHECK(find(box, {}, box, at(2, 0.3, 0.1)) == PortalFinding::open);
@@ -89,6 +109,7 @@ int main() {
   test_grids_against_exact_signs();
   test_general_pairs_are_settled();
   test_curved_shapes();
+  test_curved_shapes_of_any_size();
   test_what_touches_or_is_flat_stays_open();
   return testing::exit_status();
 }
