@@ -1,7 +1,7 @@
 """One pair as a picture: error against time, both logarithmic, an SVG fragment.
 
-Errors of 0 have no logarithm: they lie on a lane of their own below the axis, and what gives no
-distance at all, the Boolean, on one below that. Rungs that climbed no further than a lower one are
+Errors of 0 have no logarithm: they lie on a lane of their own below the axis, and what says
+yes or no alone, the Boolean, on one below that. Rungs that climbed no further than a lower one are
 named, not drawn.
 """
 
@@ -19,7 +19,7 @@ from satcheck.cli.report.tradeoff_steps import steps
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
-    from satcheck.audit.tradeoff import PairTradeoff, Picked, Row, Rung
+    from satcheck.audit.tradeoff import PairTradeoff, Picked, Row, Rung, Truth
 
 WIDTH = 760.0
 _LEFT, _RIGHT = 96.0, 24.0
@@ -123,7 +123,12 @@ def _lines(kind: str, said: Sequence[str], above: float) -> Iterator[str]:
 
 def _title(pair: PairTradeoff) -> str:
     truth = pair.truth.relation or "truth not known"
-    return f"{pair.a} against {pair.b}: {truth}{_end(pair.picked)}"
+    return f"{pair.a} against {pair.b}: {truth}{_by(pair.truth)}{_end(pair.picked)}"
+
+
+def _by(truth: Truth) -> str:
+    value = 0.0 if truth.figure is None else truth.figure.value
+    return f", {number(abs(value))} {'apart' if value > 0 else 'deep'}" if value else ""
 
 
 def _end(picked: Picked | None) -> str:
@@ -147,7 +152,7 @@ def _remarks(pair: PairTradeoff, answered: Sequence[Row], drawn: Sequence[Row]) 
 
 def _error_axis(rows: Sequence[Row]) -> _Errors:
     sizes = [size for row in rows if (size := row.size_of_error)]
-    lanes = ("0", *(("no distance",) if any(row.error is None for row in rows) else ()))
+    lanes = ("0", *(("verdict only",) if any(row.error is None for row in rows) else ()))
     if not sizes:
         return _Errors(None, 0.0, lanes)
     first = math.floor(math.log10(min(sizes)))

@@ -29,9 +29,9 @@ text { font: 12px system-ui, "Segoe UI", Helvetica, Arial, sans-serif; }
 .wrong { fill: none; stroke-width: 2.5; }
 """.strip()
 _LEGEND = (
-    ("proven", False, "proven"),
-    ("guess", False, "not proven"),
-    ("wrong", False, "wrong verdict"),
+    ("proven", False, "verdict proven"),
+    ("guess", False, "verdict not proven"),
+    ("wrong", False, "verdict wrong"),
     ("proven", True, "cached"),
 )
 
@@ -50,8 +50,8 @@ def svg(pairs: Sequence[PairTradeoff]) -> str:
         f"<style>\n{_FORMS}\n{_colours(_LIGHT)}\n"
         f"@media (prefers-color-scheme: dark) {{\n{_colours(_DARK)}\n}}\n</style>",
         '<rect class="paper" width="100%" height="100%"/>',
-        '<text class="head" x="16" y="24">What accuracy costs: error of the distance or depth, '
-        "against time</text>",
+        '<text class="head" x="16" y="24">What accuracy costs: error of distance or depth '
+        "against time (lower left is better)</text>",
         *_legend(),
         f'<text class="label" x="16" y="70">{_RUNGS}</text>',
         *panels,
@@ -91,5 +91,5 @@ def _legend() -> list[str]:
         drawn.append(f'<text class="label" x="{x + 10:g}" y="48">{text}</text>')
         x += 34 + 6.2 * len(text)
     drawn.append(f'<path class="front" d="M{x:g} 44h22"/>')
-    drawn.append(f'<text class="label" x="{x + 28:g}" y="48">Pareto front</text>')
+    drawn.append(f'<text class="label" x="{x + 28:g}" y="48">Pareto front: worth its time</text>')
     return drawn

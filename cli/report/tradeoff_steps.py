@@ -33,7 +33,7 @@ def _step(one: Row, other: Row) -> str:
     longer = f"{factor:.2g}" if factor < 10 else f"{factor:,.0f}"
     won = [
         *_change("error ", *_errors(one.size_of_error or 0.0, other.size_of_error or 0.0)),
-        *_change("", STANDING[one.standing], STANDING[other.standing]),
+        *_verdict(STANDING[one.standing], STANDING[other.standing]),
     ]
     return (
         f"{one.rung.label} to {other.rung.label}: {', '.join([f'{longer} times the time', *won])}"
@@ -45,6 +45,13 @@ def _errors(before: float, after: float) -> tuple[str, str]:
     said = [tuple(f"{size:.{digits}g}" for size in (before, after)) for digits in _DIGITS]
     one, other = next((both for both in said if len({*both}) > 1), said[0])
     return one, other
+
+
+def _verdict(before: str, after: str) -> list[str]:
+    """What is wrong or unproven and stays so is said, lest a smaller error read as an answer."""
+    if before == after and before != STANDING[0]:
+        return [f"still {before}"]
+    return _change("", before, after)
 
 
 def _change(what: str, before: str, after: str) -> list[str]:

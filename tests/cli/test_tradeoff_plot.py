@@ -94,7 +94,9 @@ def test_every_rung_is_named_whatever_became_of_it() -> None:
             assert all(rung.label in text for rung in drawn)
             left_out = labels_of([rung for rung in RUNGS if rung not in drawn])
             assert f"{left_out}: not run, budget" in text
-        assert text.count("a & <b> against c: separated") == len(pairs)
+        assert text.count(
+            "a & <b> against c: separated, 1 apart; the default settles it by: exact"
+        ) == len(pairs)
 
 
 def test_the_price_of_each_step_is_written_over_the_plot() -> None:

@@ -41,7 +41,14 @@ def test_each_step_has_its_price_and_what_it_buys() -> None:
 
 def test_errors_have_as_many_digits_as_tell_them_apart() -> None:
     found = pair(row("aabb", 1e-3, -0.110828, right=True), row("hull", 0.1, -0.110693, right=True))
-    assert steps(found) == ["aabb to hull: 100 times the time, error 0.1108 to 0.1107"]
+    assert steps(found) == [
+        "aabb to hull: 100 times the time, error 0.1108 to 0.1107, still not proven"
+    ]
+
+
+def test_a_nearer_wrong_answer_is_still_called_wrong() -> None:
+    found = pair(row("aabb", 1e-4, -4.0, right=False), row("hull", 2e-4, -2.0, right=False))
+    assert steps(found) == ["aabb to hull: 2 times the time, error 4 to 2, still wrong"]
 
 
 def test_where_the_cheapest_is_the_best_that_is_said() -> None:
