@@ -1,4 +1,4 @@
-"""SAT against GJK + EPA by vertex count: where the dispatch between them should change over.
+"""SAT against portals (overlap), GJK and EPA by vertex count: where the dispatch should change.
 
     python bench/crossover.py [--pairs 2000] [--rounds 5] [--seed 1]
 

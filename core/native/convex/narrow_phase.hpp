@@ -27,8 +27,8 @@ struct PairResult {
 };
 
 // Up to this many vertices on the larger of two polytopes, SAT over faces and arcs would be faster than
-// GJK + EPA. Measured by bench/crossover.py: already at 4 vertices a side (the smallest solid) SAT takes
-// 1.4 times as long for overlap and 2 times for depth, at 12 vertices 17 and 7 times. So 3: only
+// portals, for overlap, and GJK + EPA. Measured by bench/crossover.py: already at 4 vertices a side (the
+// smallest solid) SAT takes 3 times as long for overlap and 2 times for depth, at 12 vertices 26 and 12 times. So 3: only
 // boxes, whose 15 axes need no arcs, take SAT; `MethodChoice::sat` asks for it by name.
 inline constexpr std::size_t kSatVertexLimit = 3;
 
