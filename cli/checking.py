@@ -161,15 +161,17 @@ def load(
     if len(scene.bodies) + len(scene.unreadable) < 2:
         if scene.unreadable:
             raise failure("an input could not be used: there is no pair to check")
-        raise wrong_usage(f"one body alone cannot collide: {_advice(paths[0], split)}")
+        what = "one body alone cannot collide" if scene.bodies else "there is no body"
+        raise wrong_usage(f"{what}: {_advice(paths, split)}")
     return scene
 
 
-def _advice(only: str, split: Split | None) -> str:
+def _advice(paths: tuple[str, ...], split: Split | None) -> str:
     from satcheck.scene.loader import is_mesh
 
-    if not is_mesh(only):
-        return f"give mesh files beside {only}, or a scene of two bodies"
+    only = next(filter(is_mesh, paths), None)
+    if only is None:
+        return f"give mesh files beside {paths[0]}, or a scene of two bodies"
     if split == "components":
         return f"{only} is one connected component"
     others = "--split components makes a body of each connected component"

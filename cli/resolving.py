@@ -47,10 +47,22 @@ class Choices:
     posing: Posing
 
     @property
+    def rule_files(self) -> tuple[str, ...]:
+        """Inputs beside others that state rules alone."""
+        from satcheck.scene.loader import is_rules
+
+        return tuple(filter(is_rules, self.paths)) if len(self.paths) > 1 else ()
+
+    @property
+    def body_files(self) -> tuple[str, ...]:
+        rules = self.rule_files
+        return tuple(path for path in self.paths if path not in rules)
+
+    @property
     def scene_file(self) -> str | None:
-        """The scene file, where one is all that was given."""
-        alone = len(self.paths) == 1 and Path(self.paths[0]).suffix.lower() in SCENE_SUFFIXES
-        return self.paths[0] if alone else None
+        """The scene file, where one is all that was given, but for rules."""
+        first, *others = self.body_files
+        return None if others or Path(first).suffix.lower() not in SCENE_SUFFIXES else first
 
 
 def run(choices: Choices) -> int:
@@ -64,7 +76,7 @@ def run(choices: Choices) -> int:
     found = _resolve(scene, settings, choices)
     if choices.output:
         write_file(choices.output, _written(scene, found, choices))
-        found = replace(found, report=_checked(choices.output, settings, choices.allow_outside))
+        found = replace(found, report=_checked(choices.output, settings, choices))
     document.write(_render(found, choices, document.page), utf8=choices.form == "json")
     if stray is not None:
         talk(f"note: {choices.output} is read with --allow-outside alone, for {stray}")
@@ -93,7 +105,7 @@ def _refuse_output(choices: Choices) -> None:
     wanted = {".toml", ".json"}
     if choices.scene_file is not None:
         wanted = {Path(choices.scene_file).suffix.lower()}
-    elif not all(map(is_mesh, choices.paths)):
+    elif not all(map(is_mesh, choices.body_files)):
         raise click.UsageError(
             "-o writes one scene file, or one of mesh files alone; links of robots are not moved"
         )
@@ -157,9 +169,9 @@ def _written(scene: Scene, found: Resolution, choices: Choices) -> str:
     return scene_file_of(choices.output, scene, translations)
 
 
-def _checked(path: Path, settings: Settings, allow_outside: bool) -> Report:
-    """The file as anybody would check it; errors of reading are told. What cannot be read is not
-    left behind."""
+def _checked(path: Path, settings: Settings, choices: Choices) -> Report:
+    """The file as anybody would check it, beside the rules given; errors of reading are told. What
+    cannot be read is not left behind."""
     from satcheck.audit import check
     from satcheck.audit.resolve import proof_of
     from satcheck.cli.report.words import issue_line
@@ -167,7 +179,7 @@ def _checked(path: Path, settings: Settings, allow_outside: bool) -> Report:
     from satcheck.scene import load_scene
 
     try:
-        scene = load_scene([path], allow_outside=allow_outside)
+        scene = load_scene([str(path), *choices.rule_files], allow_outside=choices.allow_outside)
     except SatcheckError:
         path.unlink(missing_ok=True)
         raise

@@ -16,6 +16,7 @@ from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.suggest import Suggestions
+    from satcheck.core.conventions import Plane
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose
     from satcheck.scene.scene_builder import Split
@@ -29,6 +30,7 @@ class Choices:
     form: str
     output: Path | None
     never: bool
+    planar: Plane | None
     packages: Mapping[str, Path]
     split: Split | None
     allow_outside: bool
@@ -64,6 +66,7 @@ def run(choices: Choices) -> int:
 
 
 def _suggest(scene: Scene, choices: Choices) -> Suggestions:
+    from satcheck.audit import Settings
     from satcheck.audit.suggest import suggest
     from satcheck.cli.progress import Bar
 
@@ -75,7 +78,8 @@ def _suggest(scene: Scene, choices: Choices) -> Suggestions:
     held = tuple(placed) if choices.posing.sample else ()
     with Bar("poses") as bar:
         seed = choices.posing.random_seed
-        return suggest(scene, poses=poses, seed=seed, progress=bar, held=held)
+        settings = Settings(planar=choices.planar)
+        return suggest(scene, settings, poses, seed, progress=bar, held=held)
 
 
 def _poses(scene: Scene, posing: Posing) -> tuple[Pose, list[Pose]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.bodies import Scene
@@ -14,6 +15,9 @@ from satcheck.scene.mesh_files import (
 )
 from satcheck.scene.plain_ids import plain_ids
 from satcheck.scene.scene_builder import SceneBuilder, Split
+
+if TYPE_CHECKING:
+    from satcheck.scene.format.entries import SceneFile
 
 SCENE_SUFFIXES = frozenset((".json", ".toml"))
 ROBOT_SUFFIXES = frozenset((".urdf", ".xacro"))
@@ -37,7 +41,8 @@ def load_scene(
     "none": one, the whole file, flattened (nodes, instances and build items applied). "nodes": one
     for each node of a GLB or glTF file with a mesh, and for each way from the build of a 3MF file
     to an object with a mesh; other formats have no nodes. "components": these taken apart into
-    pieces that share no edge. None: "nodes" for one file alone, otherwise "none".
+    pieces that share no edge. None: "nodes" for one file alone, otherwise "none". Files without
+    bodies of their own, of rules or SRDF, count as no file here: they change no body and no id.
     A `.toml` file is a scene of the form satcheck.scene/1, a `.json` file one of this form or of
     satcheck-scene-1; its groups are its own, and get -2, -3, ... where several scenes have them;
     its rules are about its own bodies, mesh files and robots, without own bodies about all.
@@ -60,8 +65,9 @@ def load_scene(
     )
     builder = SceneBuilder(files)
     given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
+    scenes = _read_scenes(given, allow_outside)
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
-    alone = len(given) == 1
+    alone = sum(_has_bodies(path, scenes) for path in given) == 1
     if split is None:
         split = "nodes" if alone else "none"
     if split == "none":
@@ -69,7 +75,7 @@ def load_scene(
     for path in given:
         suffix = _suffix(path)
         if suffix in SCENE_SUFFIXES:
-            builder.add_scene(path, Path(path), allow_outside)
+            builder.add_scene(scenes[path])
         elif suffix in ROBOT_SUFFIXES:
             builder.add_robot(path, Path(path), packages, allow_outside)
         elif suffix == SRDF_SUFFIX:
@@ -79,6 +85,27 @@ def load_scene(
         else:
             builder.add_nodes(next(ids), path, Path(path), split, alone)
     return builder.scene()
+
+
+def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFile]:
+    """The scene files among the inputs, by their paths. Raises SceneFileError."""
+    paths = [path for path in given if _suffix(path) in SCENE_SUFFIXES]
+    if not paths:
+        return {}
+    from satcheck.scene.format.reading import read_scene_file
+
+    return {path: read_scene_file(path, Path(path), allow_outside=allow_outside) for path in paths}
+
+
+def is_rules(path: str) -> bool:
+    """Whether it is a scene file without bodies: rules about those of others. Raises
+    SceneFileError."""
+    scene = _read_scenes([path], allow_outside=True).get(path)
+    return scene is not None and not scene.bodies
+
+
+def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:
+    return bool(scenes[path].bodies) if path in scenes else _suffix(path) != SRDF_SUFFIX
 
 
 def _suffix(path: str) -> str:

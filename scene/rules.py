@@ -27,6 +27,8 @@ GROUP = "group:"
 _LITERAL = r"(?:[^*?\[]|\[[^]!]\])*"
 _BRACKETED = r"(?s)\[(.)\]"
 _SPECIAL = r"[*?\[]"
+# What stands in a name for a byte that is no text is a surrogate, which is no character.
+_NO_CHARACTER = "[!\1-\ud7ff\ue000-\U0010ffff]"
 
 
 @frozen
@@ -48,6 +50,13 @@ class Selector:
         """The selector of this one id, whatever characters it is made of."""
         text = re.sub(_SPECIAL, r"[\g<0>]", body)
         return cls(f"[g]{text[1:]}" if text.startswith(GROUP) else text)
+
+    @classmethod
+    def writable(cls, body: str) -> Selector:
+        """That of this id for a text file. A byte of it that is no text cannot be written: any such
+        byte is matched there, and no character."""
+        text = cls.exactly(body).text
+        return cls("".join(_NO_CHARACTER if "\ud800" <= c <= "\udfff" else c for c in text))
 
     @classmethod
     def of_nobody(cls) -> Selector:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -15,7 +16,7 @@ from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 
 if TYPE_CHECKING:
-    from satcheck.scene.format.entries import BodyEntry, MeshPath
+    from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
     from satcheck.scene.format.joined import JoinedScenes
     from satcheck.scene.primitives import Primitive
     from satcheck.scene.robot import SceneRobot, Srdf
@@ -38,6 +39,7 @@ class SceneBuilder:
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
         self._scenes: JoinedScenes | None = None
+        self._rule_files: set[str] = set()
         self._taken_apart = False
         self._robots: list[SceneRobot] = []
         self._srdfs: list[Srdf] = []
@@ -68,13 +70,19 @@ class SceneBuilder:
                 self._units[path] = node.file.units
             self._add(wanted, title, path, node.file, node.transform, node=node.path)
 
-    def add_scene(self, path: str, location: Path, allow_outside: bool) -> None:
+    def add_scene(self, scene: SceneFile) -> None:
+        """A scene file without bodies is one of rules; a second time it says nothing new."""
         from satcheck.scene.format.joined import JoinedScenes
-        from satcheck.scene.format.reading import read_scene_file
 
-        scene = read_scene_file(path, location, allow_outside=allow_outside)
-        self._names.append(scene.name)
-        self._only_meshes = False
+        path = scene.path
+        if not scene.bodies:
+            place = os.path.realpath(path)
+            if place in self._rule_files:
+                return
+            self._rule_files.add(place)
+        if scene.bodies:
+            self._names.append(scene.name)
+            self._only_meshes = False
         if scene.units or scene.bodies:
             self._units[path] = scene.units
         self._scenes = self._scenes or JoinedScenes()

@@ -14,7 +14,6 @@ from satcheck.cli.choices import (
     FAIL_ON,
     LEAST_SEVERITY,
     MOST_BUDGET,
-    PLANES,
 )
 from satcheck.cli.commands.options import (
     HELP_NAMES,
@@ -25,6 +24,7 @@ from satcheck.cli.commands.options import (
     output_option,
     outside_option,
     paths_argument,
+    planar_option,
     split_option,
 )
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
@@ -145,11 +145,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Stop narrowing after this much work a pair. The seconds, of a slow machine, stand for a "
     "number of steps: the answer is the same everywhere.",
 )
-@click.option(
-    "--planar",
-    type=click.Choice(PLANES),
-    help="Take bodies as their outlines in this plane: flat layouts, SVG and DXF drawings too.",
-)
+@planar_option
 @split_option
 @click.option(
     "--fail-on",

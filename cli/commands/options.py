@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from satcheck.cli.choices import PLANES
 from satcheck.cli.plain import FORMATS
 
 if TYPE_CHECKING:
@@ -73,6 +74,11 @@ split_option = click.option(
     type=click.Choice(SPLITS),
     help="What a body is: a node of a GLB, glTF or 3MF file, a connected component, or a whole "
     "file. [default: nodes for one file alone, otherwise none]",
+)
+planar_option = click.option(
+    "--planar",
+    type=click.Choice(PLANES),
+    help="Take bodies as their outlines in this plane: flat layouts, SVG and DXF drawings too.",
 )
 open_option = click.option(
     "--allow-open",

@@ -12,6 +12,7 @@ from satcheck.cli.commands.options import (
     output_option,
     outside_option,
     paths_argument,
+    planar_option,
     split_option,
 )
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
@@ -35,6 +36,7 @@ FORMATS = ("toml", "json", "srdf")
     help="Rules for a scene file, data, or disable_collisions for the SRDF of a robot.",
 )
 @output_option
+@planar_option
 @split_option
 @outside_option
 @package_option

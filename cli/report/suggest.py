@@ -43,8 +43,8 @@ def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
         "\n".join(
             (
                 "[[rules]]",
-                f"a = {_quoted(_selector(pair.a))}",
-                f"b = {_quoted(_selector(pair.b))}",
+                f"a = {_quoted(Selector.writable(pair.a).text)}",
+                f"b = {_quoted(Selector.writable(pair.b).text)}",
                 "allowed = true",
                 f"reason = {_quoted(f'suggested: {evidence(pair, found)}; confirm')}",
             )
@@ -140,12 +140,6 @@ def _contact(pair: Suggestion, unit: str | None) -> str:
     exactly = number(low) == number(high)
     figure = number(high) if exactly else f"at most {number(high)}"
     return f"{pair.relation} by {with_unit(figure, unit)}"
-
-
-def _selector(body: str) -> str:
-    """Bytes of an id that are no text can be matched, but not written."""
-    text = Selector.exactly(body).text
-    return "".join("?" if "\ud800" <= c <= "\udfff" else c for c in text)
 
 
 def _quoted(text: str) -> str:
