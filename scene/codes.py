@@ -53,7 +53,7 @@ _ALL = (
     Code("only-degenerate", "error", "Every triangle of the mesh has area 0."),
     Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
     Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),
-    Code("unknown-statement", "warning", "A statement unknown to the format was ignored."),
+    Code("unknown-statement", "warning", "A line that holds no geometry is unknown to the format."),
     Code("ignored-geometry", "warning", "Geometry that is not made of triangles was ignored."),
     Code("rest-shape", "warning", "Skinning and morphing are ignored: the rest shape is used."),
     Code("not-closed", "warning", "The surface has a boundary: inside and outside are undefined."),

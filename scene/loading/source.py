@@ -15,6 +15,8 @@ from satcheck.scene.loading.regular_file import size_of
 FORMATS = {
     ".obj": "obj",
     ".stl": "stl",
+    ".stla": "stl",
+    ".stlb": "stl",
     ".ply": "ply",
     ".off": "off",
     ".glb": "glb",
@@ -22,6 +24,11 @@ FORMATS = {
     ".3mf": "3mf",
     ".dae": "dae",
 }
+
+_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")
+# Formats of text, or of text and numbers behind it, that may begin with a byte order mark. XML is
+# not among them: its parser knows the mark, and what the text says of its own encoding.
+_MARKED_FORMATS = frozenset({"obj", "stl", "ply", "off", "gltf"})
 
 LARGE_FILE_BYTES = 1_000_000  # worth a thread of its own, and to be read in pieces
 _STL_HEADER_BYTES = 84
@@ -57,9 +64,10 @@ _TEXT_HEAD_BYTES = 4096
 class Source:
     """A mesh file as it lies on disk.
 
-    path: as given, for messages. location: where it was read from. sha256: of `data`, hex; None:
-    not asked for. size: bytes of the file. data: these bytes; of a large binary STL file whose
-    SHA-256 nobody wants the first ones, as its reader reads it in pieces.
+    path: as given, for messages. location: where it was read from. sha256: of the file, hex; None:
+    not asked for. data: its bytes; of text without a byte order mark, which is UTF-8 if there was
+    one. size: of the data; of a large binary STL file whose SHA-256 nobody wants only the first
+    bytes are there, as its reader reads it in pieces.
     """
 
     path: str
@@ -106,8 +114,11 @@ def read_source(
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
-    _refuse_other_content(path, file_format, size, data)
     digest = sha256(data) if hashed else None
+    if file_format in _MARKED_FORMATS and not _is_binary_stl(size, data):
+        unmarked = _without_mark(path, data)
+        size, data = size + len(unmarked) - len(data), unmarked
+    _refuse_other_content(path, file_format, size, data)
     return Source(path, location, file_format, digest, size, data)
 
 
@@ -124,6 +135,17 @@ def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
         more = file.read()
     data = data + more if more else data
     return len(data), data
+
+
+def _without_mark(path: str, data: bytes) -> bytes:
+    if not data.startswith(_MARKS):
+        return data
+    from satcheck.scene.loading.byte_order_mark import without_byte_order_mark
+
+    try:
+        return without_byte_order_mark(data)
+    except MeshFileError as error:
+        raise MeshFileError(error.code, error.message, file=path) from None
 
 
 def _size(path: str, location: Path) -> int:

@@ -1,5 +1,6 @@
 #include "ply_header.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -9,10 +10,11 @@
 namespace satcheck::scene {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, PlyType>, 16> type_names = {{
+constexpr std::array<std::pair<std::string_view, PlyType>, 18> type_names = {{
     {"char", PlyType::int8},     {"int8", PlyType::int8},       {"uchar", PlyType::uint8},   {"uint8", PlyType::uint8},
     {"short", PlyType::int16},   {"int16", PlyType::int16},     {"ushort", PlyType::uint16}, {"uint16", PlyType::uint16},
     {"int", PlyType::int32},     {"int32", PlyType::int32},     {"uint", PlyType::uint32},   {"uint32", PlyType::uint32},
+    {"int64", PlyType::int64},   {"uint64", PlyType::uint64},
     {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64}, {"float64", PlyType::float64},
 }};
 
@@ -36,8 +38,10 @@ class HeaderReader {
  private:
   // Binary data follows the header, so lines must be sought in the header alone.
   static std::string_view header_text(std::string_view bytes) {
-    const std::string_view first = bytes.substr(0, 4);
-    if (first != "ply\n" && first != "ply\r") fail(code::not_this_format, "not a PLY file: it does not start with ply");
+    const std::string_view first = bytes.substr(0, bytes.find_first_of("\r\n"));
+    std::string_view word;
+    Words words(first);
+    if (first.size() == bytes.size() || !words.next(word) || word != "ply" || !words.none_left()) fail(code::not_this_format, "not a PLY file: it does not start with ply");
     const std::size_t end = bytes.find("end_header");
     if (end == std::string_view::npos) return bytes;
     std::size_t stop = bytes.find_first_of("\r\n", end);
@@ -71,6 +75,7 @@ class HeaderReader {
       PlyElement element;
       element.name = required(words, "an element name");
       element.count = parse_integer(required(words, "an element count"), lines_.number(), "an element count");
+      refuse_second(header_.elements, element.name);
       header_.elements.push_back(std::move(element));
     } else if (keyword == "property") {
       property(words);
@@ -100,13 +105,17 @@ class HeaderReader {
       words = list;
       property.is_list = true;
       property.length_type = type(words);
-      if (is_float(property.length_type)) {
-        fail_at_line(code::bad_record, "PLY header: a list length cannot be a float", lines_.number());
-      }
     }
     property.type = type(words);
     property.name = required(words, "a property name");
+    refuse_second(header_.elements.back().properties, property.name);
     header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  template <class Named>
+  void refuse_second(const std::vector<Named>& earlier, const std::string& name) const {
+    if (std::none_of(earlier.begin(), earlier.end(), [&](const Named& other) { return other.name == name; })) return;
+    fail_at_line(code::bad_record, "PLY header: " + quoted(name) + " occurs twice", lines_.number());
   }
 
   void check_counts() const {
@@ -141,6 +150,8 @@ std::size_t size_of(PlyType type) {
     case PlyType::int32:
     case PlyType::uint32:
     case PlyType::float32: return 4;
+    case PlyType::int64:
+    case PlyType::uint64:
     case PlyType::float64: return 8;
   }
   return 0;

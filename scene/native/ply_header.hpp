@@ -9,7 +9,7 @@
 
 namespace satcheck::scene {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 std::size_t size_of(PlyType type);
 inline bool is_float(PlyType type) { return type == PlyType::float32 || type == PlyType::float64; }

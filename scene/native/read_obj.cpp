@@ -9,34 +9,25 @@
 namespace satcheck::scene {
 namespace {
 
-constexpr std::array<std::string_view, 19> not_geometry = {
-    "vt", "vn", "vp", "o",        "g",         "s",     "mg",       "usemtl",   "mtllib",  "usemap",
-    "maplib", "l", "p",  "shadow_obj", "trace_obj", "lod", "bevel", "c_interp", "d_interp"};
-// Of curves, which are no surface.
-constexpr std::array<std::string_view, 15> free_form = {"cstype", "deg",  "bmat", "step", "curv", "curv2", "parm", "trim",
-                                                        "hole",   "scrv", "sp",   "end",  "con",  "ctech", "stech"};
+// What each statement means to a collision checker; any other word could be misspelt geometry, and is an error.
+//   v, f, fo                 vertices and faces: read
+//   names and appearance     no geometry: accepted
+//   lines, points, curves    no area, so they cannot collide: accepted with a warning
+//   surfaces, other files    geometry that is not read: an error
+//   a whole number alone     a count that some exporters write: accepted with a warning
+constexpr std::array<std::string_view, 18> no_geometry = {
+    "vt",   "vn",     "vp",     "o",      "g",      "s",          "mg",        "usemtl", "mtllib",
+    "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "res"};
+constexpr std::array<std::string_view, 18> no_area = {"p",    "l",    "cdc",  "cstype", "deg", "bmat", "step",  "curv",  "curv2", "parm",
+                                                      "trim", "hole", "scrv", "sp",     "end", "con",  "ctech", "stech"};
+constexpr std::array<std::string_view, 4> surfaces = {"surf", "bsp", "bzp", "cdp"};
+constexpr std::array<std::string_view, 2> other_files = {"call", "csh"};
+constexpr std::array<std::string_view, 3> shapes = {"v", "f", "fo"};
 
 template <std::size_t N>
 bool contains(const std::array<std::string_view, N>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
-
-// Statements that were passed over, reported once a kind.
-struct Skipped {
-  std::int64_t count = 0;
-  std::int64_t first_line = 0;
-  std::string first_word;
-
-  void add(std::string_view word, std::int64_t line) {
-    if (count++ > 0) return;
-    first_line = line;
-    first_word = quoted(word);
-  }
-  std::string text(const char* what) const {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s") + " ignored (first: " + first_word + " in line " +
-           std::to_string(first_line) + ")";
-  }
-};
 
 class ObjReader {
  public:
@@ -48,7 +39,7 @@ class ObjReader {
     }
     Lines lines(bytes_);
     std::string_view line;
-    while (lines.next_joined(line)) statement(line.substr(0, line.find('#')), lines.number());
+    while (lines.next_joined(line)) statement(line.substr(0, line.find('#')), lines.number(), lines.joined());
     check_forward_references();
     report();
     return std::move(mesh_);
@@ -60,22 +51,47 @@ class ObjReader {
     std::int64_t line;
   };
 
-  void statement(std::string_view text, std::int64_t line) {
+  void statement(std::string_view text, std::int64_t line, bool joined) {
     Words words(text);
     std::string_view keyword;
     if (!words.next(keyword)) return;
     if (keyword == "v") {
-      parse_vertex(words, line, mesh_);  // what follows is a weight or a colour
+      vertex(words, line);
     } else if (keyword == "f" || keyword == "fo") {
       face(words, line);
-    } else if (keyword == "surf") {
+    } else if (contains(no_geometry, keyword)) {
+      if (joined) check_swallowed(words, line);
+    } else if (contains(no_area, keyword)) {
+      if (without_area_++ == 0) first_without_area_ = quoted(keyword) + " in line " + std::to_string(line);
+    } else if (contains(surfaces, keyword)) {
       fail_at_line(code::unsupported_feature, "a free-form surface is not read", line);
-    } else if (keyword == "call") {
-      fail_at_line(code::unsupported_feature, "what another file holds is not read", line);
-    } else if (contains(free_form, keyword)) {
-      free_form_.add(keyword, line);
-    } else if (!contains(not_geometry, keyword)) {
-      unknown_.add(keyword, line);
+    } else if (contains(other_files, keyword)) {
+      fail_at_line(code::unsupported_feature, "what another file or a command adds is not read", line);
+    } else if (is_whole_number(keyword) && words.none_left()) {
+      if (counts_++ == 0) first_count_ = quoted(keyword) + " in line " + std::to_string(line);
+    } else if (mesh_.vertices.empty() && mesh_.triangles.empty()) {
+      fail_at_line(code::not_this_format, "not an OBJ file: unknown statement " + quoted(keyword), line);
+    } else {
+      fail_at_line(code::bad_record, "unknown statement " + quoted(keyword) + ": it could be geometry", line);
+    }
+  }
+
+  static bool is_whole_number(std::string_view word) {
+    return word.find_first_not_of("0123456789") == std::string_view::npos;
+  }
+
+  // A weight or a colour may follow; another word could be the next statement.
+  void vertex(Words& words, std::int64_t line) {
+    parse_vertex(words, line, mesh_);
+    check_numbers(words, line);
+  }
+
+  // A name that ends with a backslash, as a folder of Windows does, takes the next line into its own statement.
+  void check_swallowed(Words& words, std::int64_t line) const {
+    std::string_view word;
+    while (words.next(word)) {
+      if (!contains(shapes, word)) continue;
+      fail_at_line(code::bad_record, "a backslash at the end of the line takes in " + quoted(word) + " from the next", line);
     }
   }
 
@@ -119,16 +135,16 @@ class ObjReader {
   }
 
   void report() {
-    if (mesh_.vertices.empty() && mesh_.triangles.empty() && unknown_.count > 0) {
-      fail_at_line(code::not_this_format, "not an OBJ file: no vertices, and unknown statement " + unknown_.first_word,
-                   unknown_.first_line);
-    }
     polygons_.report("line", mesh_);
-    if (free_form_.count > 0) {
-      mesh_.warnings.push_back({code::ignored_geometry, free_form_.text("free-form curve statement")});
+    if (without_area_ > 0) {
+      const bool one = without_area_ == 1;
+      mesh_.warnings.push_back({code::ignored_geometry, std::to_string(without_area_) + (one ? " statement" : " statements") +
+                                                            " of lines, points or curves without area ignored (first: " +
+                                                            first_without_area_ + ")"});
     }
-    if (unknown_.count > 0) {
-      mesh_.warnings.push_back({code::unknown_statement, unknown_.text("unknown statement")});
+    if (counts_ > 0) {
+      mesh_.warnings.push_back({code::unknown_statement, std::to_string(counts_) + (counts_ == 1 ? " line" : " lines") +
+                                                             " of one number ignored (first: " + first_count_ + ")"});
     }
     require_triangles(mesh_);
   }
@@ -138,7 +154,8 @@ class ObjReader {
   Polygons polygons_;
   std::vector<std::uint32_t> corners_;
   std::vector<Reference> forward_;
-  Skipped unknown_, free_form_;
+  std::int64_t without_area_ = 0, counts_ = 0;
+  std::string first_without_area_, first_count_;
 };
 
 }  // namespace

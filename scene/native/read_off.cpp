@@ -28,26 +28,54 @@ class OffReader {
   }
 
  private:
-  // `OFF`, or with properties `[ST][C][N]OFF`; the counts stand behind it or on the next line.
+  // `OFF`, with letters in front of it for what follows each position (texture coordinates ST, colour C, normal N); it may
+  // be left out. The counts follow in the same line, even without a blank, or in the next. Of spaces of other dimensions
+  // (4OFF, nOFF) those of 3 are read.
   void header() {
-    Words words(required_line("the header"));
+    std::string_view line = required_line("the header");
+    Words words(line);
     std::string_view word;
     words.next(word);
     std::string_view kind = word;
-    for (std::string_view property : {"ST", "C", "N"}) {
-      if (kind.starts_with(property)) kind.remove_prefix(property.size());
+    while (!kind.starts_with("OFF")) {
+      const std::size_t length = kind.starts_with("ST") ? 2 : 1;
+      if (length == 1 && (kind.empty() || std::string_view("CNn4").find(kind[0]) == std::string_view::npos)) break;
+      any_dimension_ = any_dimension_ || kind[0] == 'n';
+      if (kind[0] == '4') other_dimension("homogeneous coordinates: only three-dimensional OFF files are read");
+      kind.remove_prefix(length);
     }
-    if (kind != "OFF") {
-      const bool relative = kind == "4OFF" || kind == "nOFF" || kind == "4nOFF";
-      fail_at_line(relative ? code::unsupported_feature : code::not_this_format,
-                   relative ? "only three-dimensional OFF files are read"
-                            : "not an OFF file: it starts with " + quoted(word),
-                   lines_.number());
+    if (kind.starts_with("OFF")) {
+      kind.remove_prefix(3);
+      words = Words(line.substr(static_cast<std::size_t>(kind.data() - line.data())));
+    } else if (is_count(word)) {
+      words = Words(line);
+    } else {
+      fail_at_line(code::not_this_format, "not an OFF file: it starts with " + quoted(word), lines_.number());
     }
-    if (words.none_left()) words = Words(required_line("the counts"));
+    counts(words);
+  }
+
+  void counts(Words words) {
+    const auto on_a_line = [&](const char* what) {
+      if (words.none_left()) words = Words(required_line(what));
+    };
+    on_a_line("the counts");
+    if (any_dimension_) {
+      if (count(words, "a dimension") != 3) other_dimension("only three-dimensional OFF files are read");
+      on_a_line("the counts");
+    }
     vertex_count_ = count(words, "a vertex count");
     face_count_ = count(words, "a face count");
+    std::string_view edges;
+    if (words.next(edges)) parse_integer(edges, lines_.number(), "an edge count");
+    if (!words.none_left()) fail_at_line(code::bad_record, "more than three counts", lines_.number());
   }
+
+  [[noreturn]] void other_dimension(const char* message) const {
+    fail_at_line(code::unsupported_feature, message, lines_.number());
+  }
+
+  static bool is_count(std::string_view word) { return word.find_first_not_of("0123456789") == std::string_view::npos; }
 
   std::int64_t count(Words& words, const char* what) {
     std::string_view word;
@@ -71,7 +99,8 @@ class OffReader {
 
   void vertex(std::int64_t i) {
     Words words(required_line("vertex " + std::to_string(i + 1) + " of " + std::to_string(vertex_count_)));
-    parse_vertex(words, lines_.number(), mesh_);  // normals, colours and texture coordinates may follow
+    parse_vertex(words, lines_.number(), mesh_);
+    check_numbers(words, lines_.number());  // normals, colours and texture coordinates
   }
 
   void face(std::int64_t i) {
@@ -96,6 +125,7 @@ class OffReader {
       }
       corners_.push_back(static_cast<std::uint32_t>(index));
     }
+    check_numbers(words, line);  // a colour
     polygons_.add(corners_, line, mesh_);
   }
 
@@ -103,6 +133,7 @@ class OffReader {
   Lines lines_;
   MeshData mesh_;
   Polygons polygons_;
+  bool any_dimension_ = false;
   std::int64_t vertex_count_ = 0, face_count_ = 0;
   std::vector<std::uint32_t> corners_;
 };

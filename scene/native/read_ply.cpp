@@ -1,5 +1,9 @@
 // PLY 1.0, after Greg Turk, "The PLY Polygon File Format" (1994). Elements and properties that carry no geometry
 // are stepped over.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "builder.hpp"
 #include "bytes.hpp"
 #include "ply_header.hpp"
@@ -8,6 +12,18 @@
 
 namespace satcheck::scene {
 namespace {
+
+constexpr std::uint64_t largest_integer = std::numeric_limits<std::int64_t>::max();
+
+// A length or a vertex number that the file keeps as a float.
+template <class Records>
+std::int64_t whole_number(double value, const Records& records) {
+  constexpr double largest = 1LL << 53;  // up to which float64 has every whole number
+  if (!(std::abs(value) <= largest) || value != std::floor(value)) {
+    records.stop(code::bad_record, "expected a whole number, found " + std::to_string(value));
+  }
+  return static_cast<std::int64_t>(value);
+}
 
 // The values of one record after another. `number` is a property's value or a list's length or item.
 class AsciiRecords {
@@ -28,7 +44,10 @@ class AsciiRecords {
     if (!words_.none_left()) fail_at_line(code::bad_record, "more values than the header promises", place());
   }
   double coordinate(PlyType, MeshData& mesh) { return parse_coordinate(word(), place(), mesh); }
-  std::int64_t integer(PlyType) { return parse_integer(word(), place(), "a whole number"); }
+  std::int64_t integer(PlyType type) {
+    if (is_float(type)) return whole_number(parse_coordinate(word(), place(), unused_), *this);
+    return parse_integer(word(), place(), "a whole number");
+  }
   void skip(PlyType) { word(); }
   void check_end() {
     std::string_view line;
@@ -53,6 +72,7 @@ class AsciiRecords {
 
   Lines lines_;
   Words words_;
+  MeshData unused_;  // numbers that are no coordinates say nothing about the precision of these
 };
 
 class BinaryRecords {
@@ -69,6 +89,7 @@ class BinaryRecords {
     return value;
   }
   std::int64_t integer(PlyType type) {
+    if (is_float(type)) return whole_number(real(type), *this);
     const char* from = take(type);
     switch (type) {
       case PlyType::int8: return load<std::int8_t>(from, order_);
@@ -77,7 +98,9 @@ class BinaryRecords {
       case PlyType::uint16: return load<std::uint16_t>(from, order_);
       case PlyType::int32: return load<std::int32_t>(from, order_);
       case PlyType::uint32: return load<std::uint32_t>(from, order_);
-      default: fail(code::unsupported_feature, "vertex numbers written as floats");
+      case PlyType::int64: return load<std::int64_t>(from, order_);
+      case PlyType::uint64: return static_cast<std::int64_t>(std::min(load<std::uint64_t>(from, order_), largest_integer));
+      default: return 0;  // floats: see above
     }
   }
   void skip(PlyType type) { take(type); }
@@ -115,8 +138,15 @@ class BinaryRecords {
 };
 
 template <class Records>
+std::int64_t list_length(Records& records, const PlyProperty& property) {
+  const std::int64_t length = records.integer(property.length_type);
+  if (length < 0) records.stop(code::bad_record, "a list of negative length");
+  return length;
+}
+
+template <class Records>
 void skip_property(Records& records, const PlyProperty& property) {
-  const std::int64_t length = property.is_list ? records.integer(property.length_type) : 1;
+  const std::int64_t length = property.is_list ? list_length(records, property) : 1;
   for (std::int64_t i = 0; i < length; ++i) records.skip(property.type);
 }
 
@@ -149,11 +179,18 @@ bool is_corner_list(const PlyProperty& property) {
   return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-template <class Records>
-void read_faces(Records& records, const PlyElement& element, std::int64_t vertex_count, MeshData& mesh) {
-  Polygons polygons;
-  std::vector<std::uint32_t> corners;
-  for (std::int64_t face = 0; face < element.count; ++face) {
+bool has_corners(const PlyElement& element) {
+  return std::any_of(element.properties.begin(), element.properties.end(), is_corner_list);
+}
+
+// Calls `take` with the list of vertex numbers of each record of the element.
+template <class Records, class Take>
+void read_corners(Records& records, const PlyElement& element, std::int64_t vertex_count, std::int64_t lowest, Take take) {
+  if (element.count > 0 && std::count_if(element.properties.begin(), element.properties.end(), is_corner_list) != 1) {
+    fail(code::bad_record, "the PLY header gives " + quoted(element.name) + " no list vertex_indices, or two");
+  }
+  std::vector<std::int64_t> corners;
+  for (std::int64_t record = 0; record < element.count; ++record) {
     records.begin(element);
     for (const PlyProperty& property : element.properties) {
       if (!is_corner_list(property)) {
@@ -161,21 +198,48 @@ void read_faces(Records& records, const PlyElement& element, std::int64_t vertex
         continue;
       }
       corners.clear();
-      const std::int64_t sides = records.integer(property.length_type);
-      if (sides < 0) records.stop(code::bad_record, "bad face record: negative number of corners");
-      for (std::int64_t i = 0; i < sides; ++i) {
+      const std::int64_t length = list_length(records, property);
+      for (std::int64_t i = 0; i < length; ++i) {
         const std::int64_t index = records.integer(property.type);
-        if (index < 0 || index >= vertex_count) {
+        if (index < lowest || index >= vertex_count) {
           records.stop(code::index_out_of_range, "face index out of range: " + std::to_string(index) + " of " +
                                                      std::to_string(vertex_count) + " vertices");
         }
-        corners.push_back(static_cast<std::uint32_t>(index));
+        corners.push_back(index);
       }
-      polygons.add(corners, records.place(), mesh);
+      take(corners);
     }
     records.end();
   }
+}
+
+template <class Records>
+void read_faces(Records& records, const PlyElement& element, std::int64_t vertex_count, MeshData& mesh) {
+  Polygons polygons;
+  std::vector<std::uint32_t> face;
+  read_corners(records, element, vertex_count, 0, [&](const std::vector<std::int64_t>& corners) {
+    face.assign(corners.begin(), corners.end());
+    polygons.add(face, records.place(), mesh);
+  });
   polygons.report(Records::unit, mesh);
+}
+
+// A strip of triangles: each corner makes one with the two before it, every other one turned; strip_end begins a new strip.
+// A corner that is repeated leads on without a triangle.
+template <class Records>
+void read_strips(Records& records, const PlyElement& element, std::int64_t vertex_count, MeshData& mesh) {
+  constexpr std::int64_t strip_end = -1;
+  read_corners(records, element, vertex_count, strip_end, [&](const std::vector<std::int64_t>& corners) {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i] == strip_end) begin = i + 1;
+      if (corners[i] == strip_end || i < begin + 2) continue;
+      const bool turned = (i - begin) % 2 == 1;
+      const std::int64_t a = corners[i - (turned ? 1 : 2)], b = corners[i - (turned ? 2 : 1)], c = corners[i];
+      if (a == b || b == c || c == a) continue;
+      for (const std::int64_t corner : {a, b, c}) mesh.triangles.push_back(static_cast<std::uint32_t>(corner));
+    }
+  });
 }
 
 std::int64_t vertex_count_of(const PlyHeader& header) {
@@ -202,12 +266,18 @@ MeshData read_body(Records records, const PlyHeader& header) {
   MeshData mesh;
   mesh.precision = precision_of(header);
   for (const PlyElement& element : header.elements) {
-    if (element.name == "tristrips") fail(code::unsupported_feature, "PLY triangle strips are not read");
     if (element.name == "vertex") {
       read_vertices(records, element, mesh);
     } else if (element.name == "face") {
       read_faces(records, element, vertex_count_of(header), mesh);
+    } else if (element.name == "tristrips") {
+      read_strips(records, element, vertex_count_of(header), mesh);
+    } else if (element.count > 0 && has_corners(element)) {
+      fail(code::unsupported_feature, "the PLY element " + quoted(element.name) + " has vertex numbers: it could be geometry");
     } else {
+      if (element.name == "edge" && element.count > 0) {
+        mesh.warnings.push_back({code::ignored_geometry, std::to_string(element.count) + " edges without area ignored"});
+      }
       for (std::int64_t i = 0; i < element.count; ++i) {
         records.begin(element);
         for (const PlyProperty& property : element.properties) skip_property(records, property);

@@ -104,7 +104,9 @@ class StlWords {
     }
     return true;
   }
-  void skip_line() { words_ = Words({}); }
+  // The next word of the same line.
+  bool next_in_line(std::string_view& word) { return words_.next(word); }
+  bool peek_in_line(std::string_view& word) const { return Words(words_).next(word); }
   std::int64_t line() const { return lines_.number(); }
 
  private:
@@ -122,12 +124,13 @@ class AsciiStlReader {
     while (words_.next(word)) {
       if (!open && same_word(word, "solid")) {
         open = true;
-        words_.skip_line();
-      } else if (open && same_word(word, "endsolid")) {
+        if (name_ends_in_facet()) facet_after_normal();
+      } else if (open && ends(word, "endsolid")) {
         open = false;
-        words_.skip_line();
+        if (name_ends_in_facet()) fail_at_line(code::trailing_data, "a facet after endsolid", words_.line());
       } else if (open && same_word(word, "facet")) {
-        facet();
+        expect("normal");
+        facet_after_normal();
       } else {
         fail_at_line(open ? code::bad_record : code::trailing_data,
                      std::string("expected ") + (open ? "facet or endsolid" : "solid or the end of the file") +
@@ -140,13 +143,36 @@ class AsciiStlReader {
   }
 
  private:
-  void expect(std::string_view keyword) {
-    const std::string_view word = any(keyword);
-    if (!same_word(word, keyword)) {
-      fail_at_line(code::bad_record, "expected " + std::string(keyword) + ", found " + quoted(word), words_.line());
+  // Takes a name up to the end of its line, or up to `facet normal` there: then true.
+  bool name_ends_in_facet() {
+    std::string_view word;
+    for (bool facet = false; words_.next_in_line(word); facet = same_word(word, "facet")) {
+      if (facet && same_word(word, "normal")) return true;
     }
+    return false;
   }
 
+  // Whether `word`, just read, is the keyword, as `endloop`, or its first half, as some exporters write `end loop`.
+  bool ends(std::string_view word, std::string_view keyword) {
+    constexpr std::string_view end = "end";
+    return same_word(word, keyword) || (same_word(word, end) && same_word(any(keyword), keyword.substr(end.size())));
+  }
+
+  void expect_end(std::string_view keyword) {
+    const std::string_view word = any(keyword);
+    if (!ends(word, keyword)) expected(std::string(keyword), word);
+  }
+
+  void expect(std::string_view keyword) {
+    const std::string_view word = any(keyword);
+    if (!same_word(word, keyword)) expected(std::string(keyword), word);
+  }
+
+  [[noreturn]] void expected(const std::string& what, std::string_view word) const {
+    fail_at_line(code::bad_record, "expected " + what + ", found " + quoted(word), words_.line());
+  }
+
+  // The next word, whatever it is.
   std::string_view any(std::string_view expected) {
     std::string_view word;
     if (!words_.next(word)) {
@@ -156,8 +182,7 @@ class AsciiStlReader {
     return word;
   }
 
-  void facet() {
-    expect("normal");
+  void facet_after_normal() {
     for (int i = 0; i < 3; ++i) any("a normal");
     expect("outer");
     expect("loop");
@@ -173,8 +198,20 @@ class AsciiStlReader {
       }
       mesh_.triangles.push_back(corners_.number(point, corners_.hash(&point), mesh_.vertices));
     }
-    expect("endloop");
-    expect("endfacet");
+    expect_end("endloop");
+    expect_end("endfacet");
+    skip_remark();
+  }
+
+  // Some exporters write a number or a colour behind `endfacet`. The next statement may follow in that line, too.
+  void skip_remark() {
+    std::string_view word;
+    while (words_.peek_in_line(word) && !same_word(word, "facet") && !same_word(word.substr(0, 3), "end")) {
+      if (same_word(word, "outer") || same_word(word, "vertex") || same_word(word, "solid")) {
+        expected("facet or endsolid", word);
+      }
+      words_.next_in_line(word);
+    }
   }
 
   StlWords words_;

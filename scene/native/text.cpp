@@ -111,12 +111,12 @@ bool Lines::next_filled(std::string_view& line, char comment) {
 }
 
 bool Lines::next_joined(std::string_view& line) {
+  joined_.clear();
   if (!next(line)) return false;
   // A comment ends with its line: one that ends in a Windows path must not swallow the vertex below it.
   const bool continued = !line.empty() && line.back() == '\\' && line.find('#') == std::string_view::npos;
   if (!continued) return true;
   const std::int64_t first = number_;
-  joined_.clear();
   do {
     joined_.append(line.substr(0, line.size() - 1));
     joined_.push_back(' ');
@@ -181,6 +181,15 @@ void parse_vertex(Words& words, std::int64_t line, MeshData& mesh) {
     std::string_view word;
     if (!words.next(word)) fail_at_line(code::bad_record, "a vertex needs 3 coordinates", line);
     mesh.vertices.push_back(parse_coordinate(word, line, mesh));
+  }
+}
+
+void check_numbers(Words& words, std::int64_t line) {
+  std::string_view word;
+  while (words.next(word)) {
+    if (!scan_number(word).valid && !names_non_finite(word)) {
+      fail_at_line(code::bad_record, "expected a number, found " + quoted(word), line);
+    }
   }
 }
 

@@ -23,6 +23,7 @@ class Lines {
 
   std::int64_t number() const { return number_; }  // of the line last returned (its first physical line)
   std::size_t offset() const { return offset_; }   // of the first byte after it
+  bool joined() const { return !joined_.empty(); }  // whether `next_joined` made it of several
   bool at_end() const { return offset_ >= text_.size(); }
 
  private:
@@ -53,6 +54,9 @@ double parse_coordinate(std::string_view word, std::int64_t line, MeshData& mesh
 
 // Reads three coordinates and appends them as a vertex.
 void parse_vertex(Words& words, std::int64_t line, MeshData& mesh);
+
+// Throws bad_record at `line` unless each word that is left is a number, infinite or nan as it may be.
+void check_numbers(Words& words, std::int64_t line);
 
 // A decimal integer, all of `word`; throws bad_record at `line`.
 std::int64_t parse_integer(std::string_view word, std::int64_t line, const char* what);

@@ -101,11 +101,6 @@ REFUSED = {
     "no_axes.ply": (ASCII_PLY.replace(b"float z", b"float w"), "bad-record", "x, y and z"),
     "format.ply": (ASCII_PLY.replace(b"ascii", b"asci"), "unsupported-feature", "'asci'"),
     "type.ply": (ASCII_PLY.replace(b"float x", b"half x"), "bad-record", "'half'"),
-    "strips.ply": (
-        ASCII_PLY.replace(b"element face 6", b"element tristrips 6"),
-        "unsupported-feature",
-        "strips",
-    ),
     "cut.ply": (PLY[:-3], "truncated", "'face' records"),
     "more.ply": (PLY + b"x", "trailing-data", "1 bytes more"),
     "high.ply": (files.binary_ply(faces=[(0, 1, 8)]), "index-out-of-range", "8 of 8"),
@@ -322,7 +317,8 @@ def test_refused(tmp_path, name):
 WARNED = {
     "short_face.obj": (CUBE + b"f 1 2\n", {"short-face"}),
     "unknown.obj": (b"6540\n" + CUBE, {"unknown-statement"}),
-    "surface.obj": (CUBE + b"cstype bezier\n", {"ignored-geometry"}),
+    "curve.obj": (CUBE + b"cstype bezier\n", {"ignored-geometry"}),
+    "lines.obj": (CUBE + b"l 1 2 3\np 4\n", {"ignored-geometry"}),
     "open.obj": (files.obj(faces=files.CUBE[1:]), {"not-closed"}),
     "inside_out.obj": (files.obj(faces=[face[::-1] for face in files.CUBE]), {"inside-out"}),
     "one_turned.obj": (

@@ -56,7 +56,7 @@ def test_each_format_gives_the_unit_cube(tmp_path, name):
         files.obj().replace(b"f 1 2 4\n", b"f -8 -7 -5\n"),
         files.obj().replace(b"f 1 2 4\n", b"f 1/1/1 2//7 4/3\n"),
         b"f 1 2 4\n" + files.obj().replace(b"f 1 2 4\n", b""),
-        files.obj() + b"l 1 2 3\np 4\nvt 0 0\nvn 0 0 1\nusemtl x\ns off\ng a b\n",
+        files.obj() + b"vt 0 0\nvn 0 0 1\nusemtl x\ns off\ng a b\n",
         files.obj().rstrip(b"\n"),
     ],
     ids=[

@@ -1,0 +1,69 @@
+"""Which statements of an OBJ file count, and that none which could be geometry is passed over."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.scene import files
+from tests.scene.loading import loaded, refusal, warnings
+
+CUBE = files.obj()
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "V 0 0 9",
+        "F 1 2 3",
+        "vertex 0 0 9",
+        "face 1 2 3",
+        "fp 1 2 3",
+        "v: 0 0 9",
+        "1 2 3",
+        "tri 1 2 3",
+    ],
+)
+def test_an_unknown_statement_is_an_error(tmp_path, statement):
+    content = CUBE + statement.encode() + b"\n"
+    code, message = refusal(tmp_path, "a.obj", content)
+    assert code == "bad-record"
+    assert "line 21: unknown statement" in message
+
+
+@pytest.mark.parametrize(
+    "statement", ["surf 0 1 0 1 1", "bsp 1 2 3 4", "cdp 1", "call a.obj", "csh ls"]
+)
+def test_geometry_that_is_not_read_is_an_error(tmp_path, statement):
+    code, _ = refusal(tmp_path, "a.obj", CUBE + statement.encode() + b"\n")
+    assert code == "unsupported-feature"
+
+
+def test_names_and_looks_are_no_geometry(tmp_path):
+    names = b"mtllib a b.mtl\nusemtl \\\nc\ng a f b\no v 1\n"
+    looks = b"s off\nmg 1 2\nlod 3\nbevel on\nvt 0 0\nvn 0 0 1\n"
+    assert warnings(loaded(tmp_path, "a.obj", CUBE + names + looks)) == {}
+
+
+@pytest.mark.parametrize("statement", ["l 1 2", "p 1", "curv 0 1 1 2", "cdc 1 2"])
+def test_what_has_no_area_is_a_warning(tmp_path, statement):
+    file = loaded(tmp_path, "a.obj", CUBE + statement.encode() + b"\n")
+    assert set(warnings(file)) == {"ignored-geometry"}
+    assert file.health.volume == 1.0
+
+
+def test_lines_alone_are_an_empty_mesh(tmp_path):
+    code, _ = refusal(tmp_path, "a.obj", files.obj(faces=[]) + b"l 1 2\n")
+    assert code == "empty-mesh"
+
+
+def test_a_name_that_ends_with_a_backslash_swallows_no_face(tmp_path):
+    content = CUBE.replace(b"f 1 2 4\n", b"usemtl C:\\new\\\nf 1 2 4\n")
+    code, message = refusal(tmp_path, "a.obj", content)
+    assert code == "bad-record"
+    assert "takes in 'f'" in message
+
+
+def test_two_vertices_in_a_line_are_an_error(tmp_path):
+    code, message = refusal(tmp_path, "a.obj", CUBE.replace(b"v 0 0 0\n", b"v 0 0 0 v 1 2 3\n"))
+    assert code == "bad-record"
+    assert "'v'" in message
