@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from satcheck.audit.asked.effects import effects_of
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Asked, Planner
-from satcheck.audit.asked.settings import LIST_PRUNED_BODIES, Settings
+from satcheck.audit.asked.settings import LISTED_PAIRS, Settings
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.roster import Known, Roster, place
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
@@ -18,7 +18,15 @@ from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.ladder.climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import InTurn, Steps
 from satcheck.audit.report.report import INTERNAL_ERROR, Finding, Issue, Report
-from satcheck.audit.summary import body_reports, count, exempt_of, issues_of, summarise, tool
+from satcheck.audit.summary import (
+    body_reports,
+    count,
+    exempt_of,
+    issues_of,
+    summarise,
+    tool,
+    truncated_of,
+)
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen, replace
 from satcheck.scene.drawing import DRAWINGS
@@ -53,8 +61,9 @@ def check(
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
     this thread as pairs are settled. Findings come in the order of the bodies, whatever the threads
     do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
-    bodies (Settings.list_pruned). known: what earlier checks with the same settings, of the
-    same bodies elsewhere, have found out; this one adds to it.
+    pairs (Settings.list_pruned); Report.truncated says how many are left out. known: what earlier
+    checks with the same settings, of the same bodies elsewhere, have found out; this one adds to
+    it.
 
     Raises SatcheckError (`too-few-bodies`, `cross-check-missing`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
@@ -71,8 +80,8 @@ def check(
     findings = _findings(roster, close, examined, planner)
     of_motions = () if movers is None else movers.issues(roster.ids)
     of_pairs = (issue for one in examined for issue in one.issues)
-    issues = issues_of(scene, roster, (*of_motions, *of_pairs))
     counts = count(roster, len(close), findings)
+    issues = issues_of(scene, roster, counts, (*of_motions, *of_pairs))
     return Report(
         tool=tool(),
         units=scene.units,
@@ -86,6 +95,7 @@ def check(
         pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
         issues=issues,
+        truncated=truncated_of(counts, findings),
         tracebacks=tuple(one.traceback for one in examined if one.traceback),
     )
 
@@ -217,8 +227,9 @@ def _findings(
     for i, j, reason in roster.unreadable_pairs():
         found[i, j] = indeterminate(roster.ids[i], roster.ids[j], reason, Plan())
     settings = planner.settings
+    total, allowed = roster.book.count()
     listed = settings.list_pruned
-    if len(roster.ids) <= LIST_PRUNED_BODIES if listed is None else listed:
+    if total - allowed <= LISTED_PAIRS if listed is None else listed:
         for i, j in roster.book.asked_pairs():
             if (i, j) not in found:
                 pair = Pair(roster.placed[i], roster.placed[j], settings, planner.asked(i, j))

@@ -16,7 +16,7 @@ from satcheck.audit.figures.unseen import unseen_inside, unseen_way_out
 from satcheck.audit.ladder.ladder import Contact, boxes_apart, settle
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
-from satcheck.audit.severity import judged, keeps
+from satcheck.audit.severity import disputed, judged, keeps
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core import sha256
 
@@ -46,8 +46,10 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
         measured, unseen = measure_gap(pair, contact, plan), unseen_inside(pair, contact)
         gap = measured.lower, measured.upper
         known = _apart(pair, contact, measured, unseen, plan)
-    _add_extras(known, pair, contact, plan)
+    contradiction = _add_extras(known, pair, contact, plan)
     found = judged(known, pair, gap, unseen is not None)
+    if contradiction is not None:
+        found = disputed(found, contradiction)
     known["reason"] = known["reason"] or found.reason
     known["rule"], known["severity"], known["undecided"] = (
         found.rule,
@@ -70,13 +72,13 @@ def _unseen_way_out(known: dict[str, Any], pair: Pair, plan: Plan) -> str | None
     return unseen
 
 
-def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan) -> None:
-    """Adds what only some ask for."""
+def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan) -> str | None:
+    """Adds what only some ask for; returns what another library says against the relation."""
     if pair.curved:
         from satcheck.audit.curved.contact import without_meshes
 
         known["reason"] = without_meshes(known["reason"], pair, plan)
-        return
+        return None
     asked = pair.asked.by
     if "volume" in asked:
         from satcheck.audit.figures.volume import common_volume
@@ -88,10 +90,11 @@ def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan)
         from satcheck.audit.figures.contacts import find_contacts
 
         known["contacts"] = find_contacts(pair, contact, plan)
-    if pair.peers is not None:
-        from satcheck.audit.cross_check.opinions import say
+    if pair.peers is None:
+        return None
+    from satcheck.audit.cross_check.opinions import say
 
-        say(pair, contact, pair.peers, plan)
+    return say(pair, contact, pair.peers, plan)
 
 
 def apart_by_boxes(pair: Pair) -> Finding:
@@ -152,17 +155,13 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any]:
     depth = None if guess else _depth(pair, contact, move, plan)
     within = shallow or move is not None or _is_within(pair, depth)
     relation: Relation = "touching" if within else contact.relation
-    figures = {} if depth is None else _depth_figures(depth)
-    if pair.asked.clearance is not None and contact.convex is not None:
-        signed = contact.convex.distance or 0.0
-        figures["distance"] = signed if depth is None else -depth.upper
     return {
         "relation": relation,
         "exact_relation": contact.relation if contact.proven else None,
         "quality": _depth_quality(contact, depth),
         "tolerance": pair.tolerance,
         "reason": _weakness(pair, contact),
-        **figures,
+        **({} if depth is None else _depth_figures(depth)),
     }
 
 

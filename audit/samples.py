@@ -74,14 +74,13 @@ class PairTally:
         return not (self.contacts or self.near or self.undecided)
 
     def count(self, finding: Finding, number: int) -> None:
-        found = {finding.relation} | ({finding.motion.relation} if finding.motion else set())
-        if found & OVERLAPS:
+        if finding.relation in OVERLAPS:
             self.overlaps += 1
             if self.first_overlap is None:
                 self.first_overlap = number
-        elif "touching" in found:
+        elif finding.relation == "touching":
             self.touches += 1
-        elif "near" in found:
+        elif finding.relation == "near":
             self.near += 1
         elif finding.undecided is not None:
             self.undecided += 1
@@ -127,8 +126,10 @@ class Samples:
                 "verdict": self.verdict,
                 "samples": len(self.samples),
                 "by_verdict": {name: verdicts[name] for name in VERDICTS},
-                "pairs": len(self.pairs),
-                "pairs_separated": sum(pair.settled for pair in self.pairs),
+                "pairs": {
+                    "total": len(self.pairs),
+                    "separated": sum(pair.settled for pair in self.pairs),
+                },
             },
             "bodies": [
                 {"id": body.id, "file": body.file, "sha256": body.sha256, "shape": body.shape}
@@ -211,8 +212,7 @@ def _sample(number: int, report: Report, posture: Posture | None) -> tuple[Sampl
 
 def _is_plain(finding: Finding) -> bool:
     """Separated, at rest and on the way, with nothing to be said about it."""
-    still = finding.motion is None or finding.motion.relation == "separated"
-    return finding.relation == "separated" and finding.severity == "none" and still
+    return finding.relation == "separated" and finding.severity == "none"
 
 
 def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:

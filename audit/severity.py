@@ -31,7 +31,7 @@ class Judgement:
 
     @property
     def passes(self) -> bool:
-        return self.severity in ("note", "none") and self.undecided is None
+        return self.severity in ("note", "silenced", "none") and self.undecided is None
 
 
 # As a matter of course: an overlap, a touch, and what is no finding.
@@ -69,9 +69,16 @@ def judged(
     """
     asked, found = pair.asked, _found(known, pair.asked, gap)
     unseen &= known["relation"] not in OVERLAPS or found.passes
-    if found.severity == "error" and asked.severity is not None:
-        found = replace(found, severity=asked.severity, rule=asked.rule("severity"))
+    found = by_rule(found, asked)
     return _left_open(found, pair.settings.allow_open) if unseen else found
+
+
+def by_rule(found: Judgement, asked: Asked) -> Judgement:
+    """What a rule calls the errors of its pairs."""
+    if found.severity != "error" or asked.severity is None:
+        return found
+    severity: Severity = "silenced" if asked.severity == "none" else asked.severity
+    return replace(found, severity=severity, rule=asked.rule("severity"))
 
 
 def _found(known: Mapping[str, Any], asked: Asked, gap: tuple[float, float]) -> Judgement:
@@ -85,9 +92,23 @@ def _found(known: Mapping[str, Any], asked: Asked, gap: tuple[float, float]) -> 
 
 def _left_open(found: Judgement, allow_open: bool) -> Judgement:
     if allow_open:
-        return found if found.severity != "none" else replace(found, severity="note")
-    graver = SEVERITIES.index(found.severity) <= SEVERITIES.index("warning")
-    return replace(found, severity=found.severity if graver else "warning", undecided="inside")
+        return found if _is_at_least(found, "note") else replace(found, severity="note")
+    return _warned(found, "inside")
+
+
+def disputed(found: Judgement, reason: str) -> Judgement:
+    """The same where another library contradicts the answer."""
+    warned = _warned(found, found.undecided or "cross-check")
+    return replace(warned, reason=found.reason or reason)
+
+
+def _warned(found: Judgement, undecided: Undecided) -> Judgement:
+    severity = found.severity if _is_at_least(found, "warning") else "warning"
+    return replace(found, severity=severity, undecided=undecided)
+
+
+def _is_at_least(found: Judgement, severity: Severity) -> bool:
+    return SEVERITIES.index(found.severity) <= SEVERITIES.index(severity)
 
 
 def _limited(known: Mapping[str, Any], asked: Asked) -> Judgement:

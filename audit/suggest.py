@@ -136,7 +136,7 @@ def suggest(
 
 
 def _unchecked(scene: Scene, report: Report, asked: list[Names]) -> tuple[Unchecked, ...]:
-    found = {(f.a, f.b): f for f in report.findings if f.relation == "indeterminate"}
+    found = {(f.a, f.b): f for f in report.findings if f.at_rest == "indeterminate"}
     links, adjacent = _links(scene), _adjacent(scene)
     return tuple(
         Unchecked(
@@ -205,18 +205,18 @@ def _meets(finding: Finding) -> bool:
     """As placed, whatever rules say of it, or on the way from there."""
     swept = finding.motion
     on_the_way = swept is not None and swept.relation in ("penetrating", "touching")
-    return finding.relation in OVERLAPS or on_the_way
+    return finding.at_rest in OVERLAPS or on_the_way
 
 
 def _in_contact(finding: Finding) -> bool:
     """An overlap that no rule limits or excuses, or a touch."""
-    if finding.relation in OVERLAPS:
+    if finding.at_rest in OVERLAPS:
         return finding.severity == "error"
-    return finding.relation == "touching"
+    return finding.at_rest == "touching"
 
 
 def _relation(finding: Finding | None) -> Relation:
-    return "separated" if finding is None else finding.relation
+    return "separated" if finding is None else finding.at_rest
 
 
 def _carriers(links: dict[str, str], a: str, b: str) -> Names | None:

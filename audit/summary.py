@@ -21,6 +21,7 @@ from satcheck.audit.report.report import (
     Relation,
     Summary,
     Tool,
+    Truncated,
     Verdict,
 )
 from satcheck.core.errors import SatcheckError
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
     from satcheck.scene.health import MeshHealth
     from satcheck.scene.primitives import Primitive
 
+# The code of the issue about a scene that exempts all of its pairs.
+NOTHING_TO_CHECK = "nothing-to-check"
 Health = Mapping[str, bool | int | float | str | None]
 
 
@@ -44,12 +47,14 @@ def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts
     unreadable = sum(1 for _ in roster.unreadable_pairs())
     indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
     total, allowed = roster.book.count()
+    bodies = len(roster.ids)
     counts = PairCounts(
         total=total,
         pruned=total - allowed - unreadable - close,
         decided=close - (indeterminate - unreadable),
         allowed=allowed,
         indeterminate=indeterminate,
+        exempt=bodies * (bodies - 1) // 2 - total,
     )
     unlisted = counts.total - counts.allowed - len(findings)
     if counts.pruned < 0 or unlisted not in (0, counts.pruned):
@@ -68,6 +73,7 @@ def summarise(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) 
         surfaces_only=undecided["inside"],
         limits_undecided=undecided["limit"],
         sweeps_undecided=undecided["motion"],
+        disputed=undecided["cross-check"],
     )
 
 
@@ -157,10 +163,30 @@ def exempt_of(scene: Scene) -> Exempt:
     )
 
 
-def issues_of(scene: Scene, roster: Roster, of_pairs: Iterable[Issue]) -> tuple[Issue, ...]:
+def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated | None:
+    """What `findings` leaves out."""
+    left_out = counts.total - counts.allowed - len(findings)
+    return Truncated(left_out, "their boxes are apart") if left_out else None
+
+
+def issues_of(
+    scene: Scene, roster: Roster, counts: PairCounts, of_pairs: Iterable[Issue]
+) -> tuple[Issue, ...]:
     """The input's issues first, then those of the run; each once."""
     issues = [
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
     ]
-    return tuple(dict.fromkeys((*issues, *roster.issues, *of_pairs)))
+    empty = [] if counts.total else [_nothing_to_check(scene, counts)]
+    return tuple(dict.fromkeys((*issues, *roster.issues, *empty, *of_pairs)))
+
+
+def _nothing_to_check(scene: Scene, counts: PairCounts) -> Issue:
+    """Why no pair is asked about: that of two static bodies counts as one of these."""
+    still = 0 if scene.check_static else sum(body.static for body in scene.in_order())
+    static = still * (still - 1) // 2
+    why = {"of static bodies": static, "within ignored groups": counts.exempt - static}
+    said = " and ".join(f"{count:,} {what}" for what, count in why.items() if count)
+    pairs = "pair" if counts.exempt == 1 else "pairs"
+    message = f"no pair was checked: the scene exempts all {counts.exempt:,} {pairs}: {said}"
+    return Issue(NOTHING_TO_CHECK, "warning", None, None, message)

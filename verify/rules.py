@@ -19,7 +19,9 @@ from satcheck.verify.exact import Rejected
 
 GROUP = "group:"
 NUMBERS = ("max_depth", "max_volume", "clearance", "tolerance")
-SEVERITIES = ("none", "note", "warning", "error")  # from the least
+# Of findings, from the least; `silenced` is an error of a pair whose rule says `none`.
+SEVERITIES = ("none", "silenced", "note", "warning", "error")
+RULE_SEVERITIES = ("none", "note", "warning", "error")
 KEYS = ("allowed", *NUMBERS, "severity")
 
 
@@ -132,7 +134,7 @@ def _checked(rule: Any) -> Json:
         known = isinstance(value, int | float) and not isinstance(value, bool)
         if value is not None and not (known and math.isfinite(value) and value >= 0):
             raise Rejected(f"not a report: {key} of a rule is no length or volume")
-    if rule.get("severity") not in (None, *SEVERITIES) or rule.get("allowed") not in (
+    if rule.get("severity") not in (None, *RULE_SEVERITIES) or rule.get("allowed") not in (
         None,
         True,
         False,

@@ -37,13 +37,31 @@ def check_severity(
     elif relation == "touching":
         severity = "note"
     if severity == "error":
-        severity = asked.severity or severity
+        severity = _said_by_rule(asked)
     if unseen:
         least = "note" if asked.allow_open else "warning"
         severity = max(severity, least, key=SEVERITIES.index)
         undecided = None if asked.allow_open else "inside"
+    if _is_disputed(finding):
+        severity = max(severity, "warning", key=SEVERITIES.index)
+        undecided = undecided or "cross-check"
     if (finding.get("severity"), finding.get("undecided")) != (severity, undecided):
         raise Rejected(f"its severity is {severity!r}, and what is undecided {undecided!r}")
+
+
+def _said_by_rule(asked: Asked) -> str:
+    """Of an error."""
+    return {None: "error", "none": "silenced"}.get(asked.severity) or str(asked.severity)
+
+
+def _is_disputed(finding: dict[str, Any]) -> bool:
+    """Whether the report says that another library contradicts the relation."""
+    plan = finding.get("plan")
+    stages = [stage for stage in plan if isinstance(stage, dict)] if isinstance(plan, list) else []
+    return any(
+        stage.get("stage") == "cross-check" and stage.get("result") == "disagrees"
+        for stage in stages
+    )
 
 
 def _keeps_no_clearance(finding: dict[str, Any], asked: Asked) -> bool:
@@ -51,7 +69,7 @@ def _keeps_no_clearance(finding: dict[str, Any], asked: Asked) -> bool:
     as said that they do not."""
     if not asked.clearance:
         return False
-    said = finding.get("severity") == (asked.severity or "error")
+    said = finding.get("severity") == _said_by_rule(asked)
     return finding.get("exact_relation") != "separated" or (
         finding.get("relation") == "touching" and said
     )

@@ -114,7 +114,7 @@ def _grouped(close: Iterable[tuple[Asked, Finding]]) -> list[_Alike]:
     for asked, finding in close:
         key = (
             id(asked),
-            finding.relation,
+            finding.at_rest,
             finding.exact_relation,
             finding.depth is None,
             finding.volume is None,
@@ -144,8 +144,8 @@ def _why_not(effect: Effect, group: _Alike) -> str:
     finding = group.finding
     if not group.asked.wants(effect):
         return NOT_ASKED
-    if finding.relation == "indeterminate":
+    if finding.at_rest == "indeterminate":
         return FAILED
     if effect == "distance":
-        return OVERLAP if (finding.exact_relation or finding.relation) in OVERLAPS else FAR
+        return OVERLAP if (finding.exact_relation or finding.at_rest) in OVERLAPS else FAR
     return NO_OVERLAP

@@ -20,8 +20,9 @@ DEPTH_WIDTH = 0.01
 # Seconds, in work units of a slow machine, that narrowing the interval of one pair may take.
 DEPTH_BUDGET = 2.0
 MOST_BUDGET = 86400.0
-# Up to this many bodies the pairs that the broad phase settled are listed as findings too.
-LIST_PRUNED_BODIES = 16
+# Up to this many pairs a report lists all, those that the broad phase settled too, and a table has
+# a row for each.
+LISTED_PAIRS = 60
 # Points that the contacts of a pair may list: some 5 MB of JSON.
 CONTACT_POINTS = 100_000
 
@@ -42,7 +43,7 @@ class Settings:
     cross_check: other libraries are asked too; cross_check_*: what one question may cost.
     planar: bodies are their outlines in this plane, and answers lie in it; None: as they are.
     certificate: every proven finding carries evidence that `satcheck verify` checks.
-    list_pruned: findings for pairs that the broad phase settled; None: up to 16 bodies.
+    list_pruned: findings for pairs that the broad phase settled; None: up to LISTED_PAIRS pairs.
     depth_width: relative width of a depth interval that is narrow enough.
     depth_budget: what may be spent on one such interval, in seconds of a slow machine: it buys a
     number of steps, not a time, so that the same input gives the same answer everywhere.

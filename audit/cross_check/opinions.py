@@ -1,10 +1,10 @@
 """What a peer can say about a pair, and whether that agrees with the proven relation.
 
 Each is only asked what it can tell. python-fcl: do the surfaces meet? It sees no body inside
-another, and surfaces that only touch are a matter of rounding to it, so it is held against the
-exact answer to the same question: crossing or apart. manifold3d: is there a common volume? It
-needs two closed manifolds that cover no point twice, and volumes within its tolerance tell
-nothing.
+another, and surfaces that only touch are a matter of rounding to it, so it is not asked about
+those. Surfaces that cross belong to bodies that penetrate each other, and to no others. manifold3d:
+is there a common volume? It needs two closed manifolds that cover no point twice, and volumes
+within its tolerance tell nothing.
 """
 
 from __future__ import annotations
@@ -36,25 +36,23 @@ class Opinion:
     ours: str = ""
 
 
-def say(pair: Pair, contact: Contact, peers: Peers, plan: Plan) -> None:
-    """Records one stage a peer; a disagreement becomes a warning as well."""
+def say(pair: Pair, contact: Contact, peers: Peers, plan: Plan) -> str | None:
+    """Records one stage a peer. A disagreement is a warning, and is returned in words."""
     if not contact.proven:
         plan.record(CROSS_CHECK, "no answer", "the relation is not proven: nothing to hold against")
-        return
-    for opinion in (_by_fcl(pair, peers), _by_manifold(pair, contact, peers)):
-        detail = f"{opinion.peer}: {opinion.theirs}"
-        plan.record(CROSS_CHECK, opinion.standing, detail)
+        return None
+    against = []
+    for opinion in (_by_fcl(pair, contact, peers), _by_manifold(pair, contact, peers)):
+        plan.record(CROSS_CHECK, opinion.standing, f"{opinion.peer}: {opinion.theirs}")
         if opinion.standing == "disagrees":
-            plan.complain(
-                DISAGREEMENT,
-                None,
-                f"{pair.a.id} and {pair.b.id}: {opinion.peer} says {opinion.theirs}, satcheck "
-                f"{opinion.ours} ({contact.relation}), which is decided by exact predicates; "
-                f"{opinion.peer} rounds",
-            )
+            said = f"{opinion.peer} says {opinion.theirs}, satcheck {opinion.ours}"
+            against.append(said)
+            message = f"{pair.a.id} and {pair.b.id}: {said} ({contact.relation})"
+            plan.complain(DISAGREEMENT, None, message)
+    return f"disputed: {', '.join(against)}" if against else None
 
 
-def _by_fcl(pair: Pair, peers: Peers) -> Opinion:
+def _by_fcl(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
     name = "python-fcl"
     exact = core.mesh_relation(*(core.Surface(body.mesh, False) for body in (pair.a, pair.b)))
     if exact.relation not in ("separated", "penetrating") or not exact.proven:
@@ -63,7 +61,7 @@ def _by_fcl(pair: Pair, peers: Peers) -> Opinion:
         theirs = peers.surfaces_meet(pair.a.mesh, pair.b.mesh)
     except SatcheckError as error:
         return Opinion(name, "no answer", error.message)
-    ours = exact.relation == "penetrating"
+    ours = contact.relation == "penetrating"
     return _compared(name, theirs, ours, ("surfaces that meet", "surfaces that are apart"))
 
 

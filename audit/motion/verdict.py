@@ -10,8 +10,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.movers import Paths
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.report.motion_report import Sweep
-from satcheck.audit.report.report import SEVERITIES, Finding
-from satcheck.audit.severity import Judgement, of_clearance
+from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Relation
+from satcheck.audit.severity import Judgement, by_rule, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.frozen import replace
 
@@ -21,19 +21,30 @@ def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Findin
     both."""
     found = sweep(pair, paths.a, paths.b)
     plan.record("sweep", found.relation, _detail(found))
-    judged = _judged(found, pair)
-    if judged.severity == "error" and pair.asked.severity is not None:
-        judged = Judgement(pair.asked.severity, pair.asked.rule("severity"))
+    judged = by_rule(_judged(found, pair), pair.asked)
     graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
+    relation = _worse(finding.relation, found.relation)
+    undecided = relation == "indeterminate"
     return replace(
         finding,
+        relation=relation,
+        placed_relation=finding.relation,
+        quality=None if undecided else finding.quality,
         motion=found,
         severity=judged.severity if graver else finding.severity,
         rule=judged.rule if graver else finding.rule,
         undecided=finding.undecided or judged.undecided,
-        reason=finding.reason or judged.reason,
+        reason=finding.reason or judged.reason or (found.reason if undecided else None),
         plan=tuple(plan.stages),
     )
+
+
+def _worse(placed: Relation, on_the_way: Relation) -> Relation:
+    """The relation over all: an overlap, else what is not known, else the closest."""
+    if placed in OVERLAPS:
+        return placed
+    order: tuple[Relation, ...] = ("penetrating", "indeterminate", "touching", "near", "separated")
+    return min(placed, on_the_way, key=order.index)
 
 
 def _judged(found: Sweep, pair: Pair) -> Judgement:

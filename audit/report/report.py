@@ -1,7 +1,7 @@
 """The report: plain frozen data, `satcheck.report/1`, and its one way into JSON values.
 
 World frame, right-handed, lengths in the units of the files. `normal` is a unit vector from A to
-B; `distance` is a gap > 0; `depth` is how far A has to move, without rotation, until A and B have
+B; `distance` is a gap >= 0; `depth` is how far A has to move, without rotation, until A and B have
 no common interior; `mtv` is the translation to add to A. What was not asked for is None, never 0.
 """
 
@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.contact_report import Vector as Vector
 from satcheck.core.frozen import frozen
-from satcheck.scene.rules import SEVERITIES as SEVERITIES
 from satcheck.scene.rules import Rule
-from satcheck.scene.rules import Severity as Severity
 
 if TYPE_CHECKING:
     from satcheck.audit.report.motion_report import Sweep
@@ -33,10 +31,14 @@ Relation = Literal[
     "indeterminate",
 ]
 Quality = Literal["exact", "bounded", "estimate"]
+# How grave a finding is, from the worst. silenced: an error that a rule calls `none`. none: nothing
+# was found.
+Severity = Literal["error", "warning", "note", "silenced", "none"]
+SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 # What was asked of a pair and could not be decided: how the bodies relate, whether one lies in the
 # other, whether an overlap is within its limits or a gap keeps its clearance, whether they hit on
-# the way.
-Undecided = Literal["relation", "inside", "limit", "motion"]
+# the way; cross-check: another library contradicts what was decided.
+Undecided = Literal["relation", "inside", "limit", "motion", "cross-check"]
 Verdict = Literal["pass", "fail", "incomplete"]
 Effect = Literal[
     "overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate", "sweep"
@@ -67,7 +69,8 @@ class PairCounts:
     """total = pruned + decided + allowed + indeterminate.
 
     Pruned: the world boxes are apart by more than was asked about. Allowed: the scene permits
-    contact, nothing was computed. Pairs within one ignored group are not asked and not counted.
+    contact, nothing was computed. Exempt: pairs within one ignored group, and pairs of static
+    bodies; nobody asks about them, and they are no part of the total.
     """
 
     total: int
@@ -75,6 +78,7 @@ class PairCounts:
     decided: int
     allowed: int
     indeterminate: int
+    exempt: int = 0
 
 
 @frozen
@@ -86,6 +90,7 @@ class Summary:
     it could not be decided whether an overlap is within the limits of its rules, or a gap keeps
     its clearance, at rest or on the way.
     sweeps_undecided: the pairs of which it could not be decided whether they hit while they move.
+    disputed: the pairs on which another library contradicts the answer (Settings.cross_check).
     """
 
     verdict: Verdict
@@ -94,6 +99,15 @@ class Summary:
     surfaces_only: int = 0
     limits_undecided: int = 0
     sweeps_undecided: int = 0
+    disputed: int = 0
+
+
+@frozen
+class Truncated:
+    """What `findings` leaves out: how many pairs, and why."""
+
+    pairs: int
+    reason: str
 
 
 @frozen
@@ -155,22 +169,26 @@ class Witness:
 class Finding:
     """One pair.
 
-    relation: with the touch band; exact_relation: without it (None where a capped ladder left it
-    open). tolerance: the touch band of this pair.
+    relation: with the touch band, as the bodies are placed, and at the worst of their way where
+    they move. placed_relation: as they are placed, of bodies that move. exact_relation: as they
+    are placed, without the band (None where a capped ladder left it open). tolerance: the touch
+    band of this pair.
     quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
     is proven, the depth is a proven interval; estimate: not proven.
     rule: what decided the severity, where it was no matter of course: "clearance", or the name of a
     rule. undecided: what was asked and could not be decided; the severity is then a warning at
     least.
+    distance: the gap, of bodies without a common interior; None, too, where nobody asked for it,
+    and where it need not be measured to be more than the clearance.
     volume: what both have in common; volume_error: about how far off that is, not proven (0.0: the
     volume is exactly 0.0). Neither weakens the quality.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
     as it had to be for the moved mesh to be verified free. certificate: JSON values that prove it
     (Settings.certificate), see the schema. motion: None where neither body moves against the other,
-    or their boxes stay apart; severity and undecided count it, everything else is as placed.
+    or their boxes stay apart; relation, severity and undecided count it, figures are as placed.
     """
 
-    SAID_IF_KNOWN = ("motion",)
+    SAID_IF_KNOWN = ("motion", "placed_relation")
 
     id: str
     a: str
@@ -179,6 +197,7 @@ class Finding:
     severity: Severity
     undecided: Undecided | None = None
     relation: Relation
+    placed_relation: Relation | None = None
     exact_relation: Relation | None = None
     tolerance: float | None = None
     distance: float | None = None
@@ -198,6 +217,11 @@ class Finding:
     reason: str | None = None
     plan: tuple[Stage, ...]
     baseline_state: None = None
+
+    @property
+    def at_rest(self) -> Relation:
+        """As the bodies are placed."""
+        return self.placed_relation or self.relation
 
 
 @frozen
@@ -238,7 +262,7 @@ class Exempt:
 @frozen
 class Report:
     """pose: of the robots, joint -> value; None without robots. motions: those of
-    the scene, as JSON values.
+    the scene, as JSON values. truncated: what `findings` leaves out; None: nothing.
 
     `tracebacks` is for --debug and never leaves the program in a document.
     """
@@ -255,7 +279,7 @@ class Report:
     effects: tuple[EffectReport, ...] = ()
     pose: Mapping[str, float | list[float]] | None = None
     motions: tuple[Mapping[str, Any], ...] = ()
-    truncated: None = None
+    truncated: Truncated | None = None
     tracebacks: tuple[str, ...] = ()
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:

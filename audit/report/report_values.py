@@ -55,7 +55,8 @@ def summary(one: Summary) -> dict[str, Any]:
         "by_relation": {name: one.by_relation.get(name, 0) for name in RELATIONS},
         "surfaces_only": one.surfaces_only,
         "limits_undecided": one.limits_undecided,
-        **({"sweeps_undecided": undecided} if (undecided := one.sweeps_undecided) else {}),
+        "sweeps_undecided": one.sweeps_undecided,
+        "disputed": one.disputed,
     }
 
 

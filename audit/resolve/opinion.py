@@ -31,7 +31,7 @@ class Opinion:
 def is_objected(finding: Finding, fail_on: FailOn) -> bool:
     """Whether a check fails on what the pair is known to be, or cannot tell whether an overlap is
     within its limits."""
-    if finding.undecided == "limit" and finding.relation in OVERLAPS:
+    if finding.undecided == "limit" and finding.at_rest in OVERLAPS:
         return True
     grave = SEVERITIES[: SEVERITIES.index(fail_on) + 1]
     return finding.severity in grave and (finding.undecided is None or finding.severity == "error")

@@ -37,7 +37,7 @@ def left_pairs(report: Report, known: dict[frozenset[str], str]) -> Iterator[Lef
     for finding in objected(report):
         motion = finding.motion
         far = NO_WAY if motion is None else ONLY_MOVING
-        why, relation = known.get(frozenset((finding.a, finding.b)), far), finding.relation
+        why, relation = known.get(frozenset((finding.a, finding.b)), far), finding.at_rest
         if why == ONLY_MOVING and motion is not None:
             relation = motion.relation
         yield Left(finding.a, finding.b, relation, why)

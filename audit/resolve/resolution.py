@@ -76,7 +76,7 @@ class Resolution:
     def flush(self) -> int:
         """Pairs that overlap by no more than the tolerance: to a check they touch."""
         return sum(
-            finding.relation == "touching" and finding.exact_relation in OVERLAPS
+            finding.at_rest == "touching" and finding.exact_relation in OVERLAPS
             for finding in self.report.findings
         )
 

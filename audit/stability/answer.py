@@ -83,25 +83,18 @@ def _answer(report: Report, bodies: tuple[Body, Body], largest: float) -> Answer
     if finding.relation == "indeterminate" or relation is None:
         return Answer("indeterminate", largest, reason=finding.reason or "not proven")
     known = [one.convex for one in report.bodies]
-    overlap = finding.distance is not None and finding.distance < 0
     return Answer(
         relation,
         largest,
         convex=None if None in known else all(known),
-        gap=None if overlap else finding.distance,
-        depth=_depth(finding),
+        gap=finding.distance,
+        depth=finding.depth_bounds,
         mtv=finding.mtv,
         normal=finding.normal,
         witness=finding.witness,
         hold=_hold(relation, finding, bodies),
         quality=finding.quality,
     )
-
-
-def _depth(finding: Finding) -> tuple[float, float] | None:
-    if finding.depth_bounds is not None or finding.distance is None or finding.distance >= 0:
-        return finding.depth_bounds
-    return -finding.distance, -finding.distance
 
 
 def _hold(relation: Relation, finding: Finding, bodies: tuple[Body, Body]) -> float:

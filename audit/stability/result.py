@@ -8,7 +8,8 @@ from satcheck.audit.report.report import Relation, Vector
 from satcheck.audit.stability.answer import Answer
 from satcheck.audit.stability.comparison import Comparison, Judgement
 from satcheck.audit.stability.variant import Family
-from satcheck.core.frozen import frozen
+from satcheck.audit.summary import tool
+from satcheck.core.frozen import as_dict, frozen
 
 SCHEMA = "satcheck.stability/1"
 
@@ -84,6 +85,7 @@ class Stability:
         """JSON values in a fixed order; equal input and seed give equal values."""
         return {
             "schema": SCHEMA,
+            "tool": as_dict(tool()),
             "a": self.a,
             "b": self.b,
             "seed": self.seed,

@@ -159,7 +159,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--cross-check",
     is_flag=True,
-    help="Ask python-fcl and manifold3d too, and warn where they disagree.",
+    help="Ask python-fcl and manifold3d too. Where one contradicts a verdict, the check is "
+    "incomplete.",
 )
 @click.option(
     "--certificate",

@@ -155,7 +155,7 @@ def _gap(finding: Finding) -> str:
 
 
 def _unasked(finding: Finding) -> str:
-    return "not asked" if finding.relation in OVERLAPS else ""
+    return "not asked" if finding.at_rest in OVERLAPS else ""
 
 
 def _volume(finding: Finding) -> str:

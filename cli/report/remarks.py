@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from satcheck.audit.report.report import NOT_AVAILABLE, ON_TRIANGLES
+from satcheck.audit.report.report import NOT_AVAILABLE, ON_TRIANGLES, OVERLAPS
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
     by_surfaces,
     counted,
-    is_overlap,
     issue_line,
     place,
     with_unit,
@@ -53,7 +52,7 @@ def is_lost(body: BodyReport) -> bool:
 
 def _band(finding: Finding) -> list[str]:
     """What touching is without its tolerance."""
-    if finding.relation != "touching" or finding.exact_relation in (None, "touching"):
+    if finding.at_rest != "touching" or finding.exact_relation in (None, "touching"):
         return []
     verb = "are apart" if finding.exact_relation == "separated" else "overlap"
     band = number(finding.tolerance or 0.0)
@@ -63,7 +62,7 @@ def _band(finding: Finding) -> list[str]:
 def _undecided(finding: Finding, report: Report) -> list[str]:
     """The reason, unless a line on the body or the summary says it for many pairs at once."""
     capped = finding.quality == "estimate" and report.settings["accuracy"] != "exact"
-    said = finding.undecided == "limit" or finding.quality in ("exact", "bounded")
+    said = finding.undecided in ("limit", "motion") or finding.quality in ("exact", "bounded")
     if finding.reason is None or capped or said:
         return []
     return [f"{finding.a} and {finding.b}: {finding.reason}"]
@@ -77,7 +76,7 @@ def _ruled(finding: Finding, report: Report) -> list[str]:
     rule = next((rule for rule in report.rules if rule.name == finding.rule), None)
     if rule is None:
         return []
-    limits = _limits(rule, unit_of(report.units), overlap=is_overlap(finding))
+    limits = _limits(rule, unit_of(report.units), overlap=finding.relation in OVERLAPS)
     why = f" ({rule.reason})" if rule.reason else ""
     return [f"{', '.join([f'{pair}: {finding.severity} by {rule.name}', *limits])}{why}"]
 

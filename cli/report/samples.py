@@ -110,7 +110,7 @@ def _found(findings: Sequence[Finding], unit: str | None) -> list[str]:
 
 def _line(finding: Finding, unit: str | None) -> str:
     pair = f"{finding.a} and {finding.b}"
-    if finding.relation == "separated" and finding.motion is not None:
+    if finding.at_rest == "separated" and finding.motion is not None:
         return f"{pair}, while they move: {in_motion(finding, unit)}"
     return f"{pair} {finding.relation}{_depth(finding, unit)}"
 

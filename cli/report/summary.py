@@ -6,7 +6,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from satcheck.audit.report.report import CROSS_CHECK, INTERNAL_ERROR, OVERLAPS, RELATIONS
-from satcheck.cli.report.words import by_surfaces, counted, depth, is_hit, is_overlap, with_unit
+from satcheck.cli.report.words import by_surfaces, counted, depth, is_hit, with_unit
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -20,7 +20,8 @@ def summary_line(report: Report) -> str:
     pairs = report.summary.pairs
     bodies = counted(len(report.bodies), "body", "bodies")
     if pairs.total == pairs.allowed:
-        why = "all are allowed by the scene" if pairs.total else _why_none(report)
+        exempts = f"the scene exempts all {counted(pairs.exempt, 'pair')}"
+        why = "all are allowed by the scene" if pairs.total else exempts
         line = f"{bodies}, {counted(pairs.total, 'pair')}. No pair was checked: {why}."
         return " ".join([line, *_errors(report)])
     found = _found(report)
@@ -37,12 +38,6 @@ def summary_line(report: Report) -> str:
             *_errors(report),
         ]
     )
-
-
-def _why_none(report: Report) -> str:
-    if report.exempt.groups:
-        return "all are within ignored groups, or of static bodies"
-    return "all bodies are static" if report.exempt.static_pairs else "there is none"
 
 
 def _found(report: Report) -> list[str]:
@@ -63,26 +58,32 @@ def _found(report: Report) -> list[str]:
 
 def _hits(report: Report) -> list[str]:
     """Of pairs that do not overlap as they are placed."""
-    moving = [finding for finding in report.findings if finding.motion is not None]
-    hits = sum(is_hit(f) and f.relation not in OVERLAPS for f in moving)
+    hits = sum(is_hit(f) and f.at_rest not in OVERLAPS for f in report.findings)
     return (
         [f"{counted(hits, 'pair')} {'hits' if hits == 1 else 'hit'} while moving."] if hits else []
     )
 
 
 def _worst(report: Report) -> list[str]:
-    overlaps = [f for f in report.findings if f.relation in OVERLAPS]
+    """The deepest overlap; where only some have a depth, of how many it is the deepest."""
+    overlaps = [f for f in report.findings if f.at_rest in OVERLAPS]
     deep = [f for f in overlaps if f.depth is not None]
     if not deep:
         return ["Depth not asked: --depth."] if overlaps else []
     worst = max(deep, key=lambda f: f.depth_bounds or (0.0, f.depth or 0.0))
     figure = with_unit(depth(worst, bounded="at most "), unit_of(report.units))
-    if len(deep) == 1:
+    if len(overlaps) == 1:
         return [f"Depth {figure}."]
+    pair = f"{worst.a} and {worst.b}, {figure}"
     sure = worst.depth_bounds is not None and all(
         f is worst or (f.depth or 0.0) <= worst.depth_bounds[0] for f in deep
     )
-    return [f"{'The' if sure else 'Possibly the'} deepest: {worst.a} and {worst.b}, {figure}."]
+    if len(deep) == len(overlaps):
+        return [f"{'The' if sure else 'Possibly the'} deepest: {pair}."]
+    known = f"Depth known of {len(deep):,} of {len(overlaps):,} overlaps"
+    if len(deep) == 1:
+        return [f"{known}: {pair}."]
+    return [f"{known}, {'' if sure else 'possibly '}the deepest of these: {pair}."]
 
 
 def _left_open(report: Report) -> list[str]:
@@ -91,16 +92,18 @@ def _left_open(report: Report) -> list[str]:
     if surfaces := sum(by_surfaces(finding) for finding in report.findings):
         verb = "was" if surfaces == 1 else "were"
         limits.append(f"{counted(surfaces, 'pair')} {verb} checked by surfaces only")
-    unsure = Counter(is_overlap(f) for f in report.findings if f.undecided == "limit")
+    unsure = Counter(f.relation in OVERLAPS for f in report.findings if f.undecided == "limit")
     for overlap, what in ((True, "exceed {} limits"), (False, "be closer than {} clearance")):
         if count := unsure[overlap]:
             whose = "its" if count == 1 else "their"
             limits.append(f"{counted(count, 'pair')} may {what.format(whose)}")
     if moving := report.summary.sweeps_undecided:
         limits.append(f"{counted(moving, 'pair')} may hit while moving")
+    if disputed := report.summary.disputed:
+        limits.append(f"{counted(disputed, 'answer')} {'is' if disputed == 1 else 'are'} disputed")
     if report.summary.verdict == "fail":
         return [f"{limit}." for limit in limits] + _why_failed(report)
-    if undecided := report.summary.pairs.indeterminate:
+    if undecided := sum(f.undecided == "relation" for f in report.findings):
         limits.append(
             f"{counted(undecided, 'pair')} {'is' if undecided == 1 else 'are'} indeterminate"
         )
@@ -113,33 +116,34 @@ def _left_open(report: Report) -> list[str]:
 def _why_failed(report: Report) -> list[str]:
     """What no count of relations says: clearances that are not kept, and notes that are asked
     for."""
-    close = sum(f.severity == "error" and not is_overlap(f) for f in report.findings)
+    close = sum(f.severity == "error" and f.relation not in OVERLAPS for f in report.findings)
     if close:
         verb = "does" if close == 1 else "do"
         return [f"{counted(close, 'pair')} {verb} not keep the clearance."]
-    if any(is_overlap(finding) for finding in report.findings):
+    if any(finding.relation in OVERLAPS for finding in report.findings):
         return []
     return [f"Failed by --fail-on {report.settings['fail_on']}."]
 
 
 def _cross_check(report: Report) -> list[str]:
-    """`Cross-check: 5 answers agree, 1 disagrees.`, an answer being that of one library on a pair.
-
-    Pairs that nobody could be asked about count as unanswered."""
+    """`Cross-check: 5 answers agree, 1 disagrees, 1 pair not asked.`, an answer being that of one
+    library on a pair. An opinion that could not be had is said, and is no agreement."""
     if not report.settings.get("cross_check"):
         return []
-    standings = Counter(
-        stage.result
-        for finding in report.findings
-        for stage in finding.plan
-        if stage.stage == CROSS_CHECK
-    )
-    agree, disagree = standings["agrees"], standings["disagrees"]
+    standings: Counter[str] = Counter()
+    asked = 0
+    for finding in report.findings:
+        results = [stage.result for stage in finding.plan if stage.stage == CROSS_CHECK]
+        standings.update(results)
+        asked += bool(results)
+    agree, disagree = standings.pop("agrees", 0), standings.pop("disagrees", 0)
     parts = [f"{counted(agree, 'answer')} {'agrees' if agree == 1 else 'agree'}"]
     if disagree:
         parts.append(f"{disagree:,} {'disagrees' if disagree == 1 else 'disagree'}")
-    if missing := standings["no answer"]:
-        parts.append(f"{missing:,} could not be compared")
+    if missing := standings.total():
+        parts.append(f"{missing:,} could not be had")
+    if unasked := report.summary.pairs.total - report.summary.pairs.allowed - asked:
+        parts.append(f"{counted(unasked, 'pair')} not asked about")
     return [f"Cross-check: {', '.join(parts)}."]
 
 

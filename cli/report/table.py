@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from satcheck.audit.asked.settings import LISTED_PAIRS
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.columns import columns_of, fit
 from satcheck.cli.report.explain import explain as print_explanation
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
 
     from satcheck.audit.report.report import Finding, Report
     from satcheck.cli.output import Page
-
-# More rows than this, and separated pairs are counted instead of listed.
-ROWS = 60
 
 
 def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
@@ -42,17 +40,16 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
 
 
 def _shown(report: Report) -> Sequence[Finding]:
-    """What could be examined; of more than ROWS only what is not plainly separated, at rest and on
-    the way."""
+    """What could be examined; of more than LISTED_PAIRS only what is not plainly separated, at rest
+    and on the way."""
     lost = {body.id for body in report.bodies if is_lost(body)}
     findings = [f for f in report.findings if f.a not in lost and f.b not in lost]
-    if len(findings) <= ROWS:
+    if len(findings) <= LISTED_PAIRS:
         return findings
     return [f for f in findings if _is_told(f)]
 
 
 def _is_told(finding: Finding) -> bool:
-    swept = finding.motion
-    if finding.relation != "separated" or (swept is not None and swept.relation != "separated"):
+    if finding.relation != "separated":
         return True
     return finding.reason is not None and not by_surfaces(finding)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import at_most, bounds, number
 
 if TYPE_CHECKING:
@@ -67,11 +66,6 @@ def by_surfaces(finding: Finding) -> bool:
     if swept is not None and swept.relation != "indeterminate" and swept.reason is not None:
         return True
     return UNSEEN in [stage.result for stage in finding.plan]
-
-
-def is_overlap(finding: Finding) -> bool:
-    """As the bodies are placed, or on their way."""
-    return finding.relation in OVERLAPS or is_hit(finding)
 
 
 def is_hit(finding: Finding) -> bool:

@@ -10,6 +10,7 @@ import jsonschema
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.audit.report.report import Truncated
 from satcheck.core.errors import SatcheckError
 from tests.audit.shapes import bracket, placed_scene, pose, scene_of, unit_box, write
 from tests.scene import graphs
@@ -51,10 +52,39 @@ def test_pruned_pairs_are_listed_on_request(tmp_path, listed, count):
     adds_up(report)
 
 
-def test_many_bodies_list_only_what_was_looked_at(tmp_path):
-    report = check(row(tmp_path, 20))
-    assert adds_up(report).total == 190
-    assert len(report.findings) == 19
+def test_of_many_pairs_those_with_boxes_apart_are_counted_alone(tmp_path):
+    report = check(row(tmp_path, 11))
+    assert (len(report.findings), report.truncated) == (55, None)
+    report = check(row(tmp_path, 12))
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.pruned, len(report.findings)) == (66, 55, 11)
+    assert report.truncated == Truncated(55, "their boxes are apart")
+    assert report.to_dict()["truncated"] == {"pairs": 55, "reason": "their boxes are apart"}
+
+
+@pytest.mark.parametrize(
+    ("static", "ignored", "why"),
+    [
+        ([0, 1, 2], [], "all 3 pairs: 3 of static bodies"),
+        ([], ["all"], "all 3 pairs: 3 within ignored groups"),
+        ([0, 1], ["all"], "all 3 pairs: 1 of static bodies and 2 within ignored groups"),
+    ],
+)
+def test_a_scene_that_exempts_every_pair_says_why(tmp_path, static, ignored, why):
+    write(tmp_path, box=unit_box())
+    bodies = [
+        {"id": f"b{k}", "mesh": "box.obj", "groups": ["all"], "static": k in static}
+        for k in range(3)
+    ]
+    scene = {"schema": "satcheck.scene/1", "bodies": bodies, "ignore_within_groups": ignored}
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps(scene), encoding="utf-8")
+    report = check([path])
+    pairs = adds_up(report)
+    assert (pairs.total, pairs.exempt, report.summary.verdict) == (0, 3, "incomplete")
+    (issue,) = report.issues
+    assert (issue.code, issue.severity) == ("nothing-to-check", "warning")
+    assert issue.message == f"no pair was checked: the scene exempts {why}"
 
 
 def test_allowed_pairs_cost_nothing(tmp_path):
@@ -74,7 +104,7 @@ def test_pairs_within_an_ignored_group_are_not_asked(tmp_path):
     ]
     report = check(placed_scene(tmp_path, bodies, ignore_within_groups=["arm"]))
     pairs = adds_up(report)
-    assert pairs.total == 5
+    assert (pairs.total, pairs.exempt) == (5, 1)
     assert ("a", "b") not in [(f.a, f.b) for f in report.findings]
     assert ("c", "d") in [(f.a, f.b) for f in report.findings]
 

@@ -19,12 +19,13 @@ from satcheck.cli.report.summary import summary_line
 from satcheck.core import Mesh
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import OverlapVolume
-from satcheck.scene import load_scene
+from satcheck.scene import Scene, load_scene
 from tests.audit.shapes import write
 from tests.core.test_mesh_relation import CELL, CUBE, L_SHAPE, SMALL, moved
 
 APART = moved(CELL, 9, 0, 0).mesh()
 CROSSING = L_SHAPE.mesh().translated((0.25, 0.125, 0.5))
+BESIDE = CELL.mesh().translated((1.5, 1.5, 0.0))
 WITHIN = CELL.mesh().translated((1.5, 1.5, 1.5))
 
 
@@ -41,9 +42,13 @@ class Liar(Peers):
         return OverlapVolume(0.0, 1e-12)
 
 
-def pair_of(folder: Path, *meshes: Mesh) -> Pair:
+def scene_of_meshes(folder: Path, *meshes: Mesh) -> Scene:
     faces = (([tuple(p) for p in m.vertices], [list(t) for t in m.triangles]) for m in meshes)
-    scene = load_scene(write(folder, **dict(zip("ab", faces, strict=True))))
+    return load_scene(write(folder, **dict(zip("ab", faces, strict=True))))
+
+
+def pair_of(folder: Path, *meshes: Mesh) -> Pair:
+    scene = scene_of_meshes(folder, *meshes)
     settings = Settings()
     a, b = place(scene, settings).placed.values()
     return Pair(a, b, settings, asked_by(settings))
@@ -79,7 +84,33 @@ def test_a_lie_is_a_warning_of_its_own(tmp_path: Path) -> None:
     assert found == ["disagrees", "disagrees"]
     assert {(issue.code, issue.severity) for issue in plan.issues} == {(DISAGREEMENT, "warning")}
     assert "python-fcl says surfaces that are apart" in plan.issues[0].message
-    assert "decided by exact predicates" in plan.issues[0].message
+
+
+@pytest.mark.parametrize(
+    ("second", "verdict", "severity"),
+    [(BESIDE, "incomplete", "warning"), (CROSSING, "fail", "error")],
+)
+def test_a_lie_never_passes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, second: Mesh, verdict: str, severity: str
+) -> None:
+    """What another library contradicts is undecided; an overlap stays an overlap."""
+    monkeypatch.setattr(Peers, "surfaces_meet", lambda *_: second is BESIDE)
+    report = check(scene_of_meshes(tmp_path, L_SHAPE.mesh(), second), Settings(cross_check=True))
+    (finding,) = report.findings
+    assert (report.summary.verdict, report.summary.disputed) == (verdict, 1)
+    assert (finding.severity, finding.undecided) == (severity, "cross-check")
+    assert finding.reason is not None
+    assert "python-fcl says" in finding.reason
+    assert "1 answer agrees, 1 disagrees." in summary_line(report)
+
+
+def test_an_opinion_that_cannot_be_had_is_no_agreement(tmp_path: Path) -> None:
+    scene = scene_of_meshes(tmp_path, SMALL.mesh(), moved(SMALL, 2, 0, 0).mesh())
+    line = summary_line(check(scene, Settings(cross_check=True)))
+    assert line.endswith("Cross-check: 1 answer agrees, 1 could not be had.")
+    far = scene_of_meshes(tmp_path, SMALL.mesh(), moved(SMALL, 9, 0, 0).mesh())
+    line = summary_line(check(far, Settings(cross_check=True)))
+    assert line.endswith("Cross-check: 0 answers agree, 1 pair not asked about.")
 
 
 def test_a_peer_that_dies_gives_no_answer(tmp_path: Path) -> None:

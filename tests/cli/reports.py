@@ -27,7 +27,7 @@ PENETRATING = Finding(
     relation="penetrating",
     exact_relation="penetrating",
     tolerance=2.5e-7,
-    distance=-1.0,
+    distance=None,
     depth=1.0,
     depth_bounds=(1.0, 1.0),
     quality="exact",
@@ -80,13 +80,13 @@ TOUCHING = replace(
     b="flush",
     relation="touching",
     exact_relation="penetrating",
-    distance=0.0,
 )
 UNDECIDED = replace(
     SEPARATED,
     id="block|soup",
     b="soup",
     severity="warning",
+    undecided="relation",
     relation="indeterminate",
     exact_relation=None,
     quality=None,
@@ -119,7 +119,19 @@ CONTACTS = Contacts(
     triangle_pairs=((3, 4), (3, 5)),
     totals=ContactTotals(1, 4.0, 1, 1.0, 1, 2),
 )
-SWEPT = replace(SEPARATED, id="block|passer", b="passer", motion=Sweep("separated", 0.0, 1.0))
+SWEPT = replace(
+    SEPARATED,
+    id="block|passer",
+    b="passer",
+    placed_relation="separated",
+    motion=Sweep("separated", 0.0, 1.0),
+)
+HIT = replace(
+    SWEPT,
+    severity="error",
+    relation="penetrating",
+    motion=Sweep("penetrating", 0.0, 0.5, (0.25, 0.5)),
+)
 CROSSING = replace(
     PENETRATING,
     id="block|crossing",

@@ -7,11 +7,11 @@ import re
 import pytest
 
 from satcheck.audit import Contacts
-from satcheck.audit.report.motion_report import Sweep
+from satcheck.audit.asked.settings import LISTED_PAIRS
 from satcheck.audit.report.report import INTERNAL_ERROR, Issue
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
-from satcheck.cli.report.table import ROWS, render
+from satcheck.cli.report.table import render
 from satcheck.core.frozen import replace
 from tests.cli import reports
 from tests.cli.reports import (
@@ -148,19 +148,18 @@ def test_colour_adds_nothing_but_colour() -> None:
 
 
 def test_many_separated_pairs_are_counted() -> None:
-    many = [replace(SEPARATED, id=str(i), b=f"far{i}") for i in range(ROWS)]
+    many = [replace(SEPARATED, id=str(i), b=f"far{i}") for i in range(LISTED_PAIRS)]
     text = shown(PENETRATING, *many)
     assert "block_pushed" in text
     assert "far0" not in text
-    assert f"{ROWS} more pairs, all separated" in text
+    assert f"{LISTED_PAIRS} more pairs, all separated" in text
 
 
 def test_what_hits_on_the_way_is_shown_among_many() -> None:
-    many = [replace(SEPARATED, id=str(i), b=f"far{i}") for i in range(ROWS)]
-    hit = replace(SWEPT, severity="error", motion=Sweep("penetrating", 0.0, 0.5, (0.25, 0.5)))
-    text = shown(hit, *many)
+    many = [replace(SEPARATED, id=str(i), b=f"far{i}") for i in range(LISTED_PAIRS)]
+    text = shown(reports.HIT, *many)
     assert "passer" in text
-    assert f"{ROWS} more pairs, all separated" in text
+    assert f"{LISTED_PAIRS} more pairs, all separated" in text
 
 
 def test_pairs_that_the_report_does_not_list_are_counted() -> None:
@@ -212,6 +211,17 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             (PENETRATING, replace(BOUNDED, depth_bounds=(0.9, 1.2500004))),
             "2 bodies, 2 pairs: 1 penetrating, 1 containing. Possibly the deepest: "
             "block and block_pushed, 1.",
+        ),
+        (
+            (PENETRATING, replace(BOUNDED, depth=None, depth_bounds=None, quality="exact")),
+            "2 bodies, 2 pairs: 1 penetrating, 1 containing. "
+            "Depth known of 1 of 2 overlaps: block and block_pushed, 1.",
+        ),
+        (
+            (PENETRATING, BOUNDED, replace(PENETRATING, depth=None, depth_bounds=None)),
+            "2 bodies, 3 pairs: 2 penetrating, 1 containing. Depth known of 2 of 3 overlaps, "
+            "the deepest of these: a_rather_long_name and another_rather_long_name, "
+            "1.24123 .. 1.25001.",
         ),
         (
             (replace(BOUNDED, depth_bounds=(1e-9, 1.25)),),

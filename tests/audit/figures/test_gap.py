@@ -56,7 +56,7 @@ def test_bodies_that_touch_keep_no_clearance(tmp_path):
         (1.25, 0.125, False, 0.25),
         (1.0, 0.125, True, 0.0),
         (1.0, 0.0, False, 0.0),
-        (0.75, 0.125, True, -0.25),
+        (0.75, 0.125, True, None),
     ],
 )
 def test_a_wide_band_hides_no_broken_clearance(tmp_path, shift, clearance, broken, distance):
@@ -66,7 +66,7 @@ def test_a_wide_band_hides_no_broken_clearance(tmp_path, shift, clearance, broke
         assert finding.relation == "touching"
         expected = ("error", "clearance") if broken else ("note", None)
         assert (finding.severity, finding.rule) == expected
-        assert finding.distance == pytest.approx(distance)
+        assert finding.distance == (distance and pytest.approx(distance))
 
 
 @pytest.mark.parametrize(("clearance", "severity"), [(0.75, "error"), (0.5, "note")])
@@ -84,6 +84,15 @@ def test_concave_distance(tmp_path, clearance, relation):
     assert finding.distance == 0.5
     assert finding.normal == (1.0, 0.0, 0.0)
     assert "distance" in [stage.stage for stage in finding.plan]
+
+
+@pytest.mark.parametrize("depth", [True, False])
+@pytest.mark.parametrize("body", [unit_box(1.5, 0.5, 0.5), moved(bracket(), 1, 1, 1)])
+def test_an_overlap_has_no_distance(tmp_path, body, depth):
+    """It has a depth, whether the bodies are convex or not and the depth is asked for or not."""
+    scene = scene_of(tmp_path, a=box((0, 0, 0), (2, 2, 2)), b=body)
+    finding = only(check(scene, Settings(clearance=0.5, depth=depth)))
+    assert (finding.relation, finding.distance) == ("penetrating", None)
 
 
 def test_a_capped_ladder_cannot_measure(tmp_path):

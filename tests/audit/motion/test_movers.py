@@ -33,7 +33,8 @@ def checked(folder, motions, rules=(), settings=None, **meshes):
 def test_what_hits_on_the_way_fails(tmp_path: Path) -> None:
     report = checked(tmp_path, [Motion(("a",), RIGHT)], a=unit_box(), b=unit_box(3.0))
     (finding,) = report.findings
-    assert (finding.relation, finding.severity) == ("separated", "error")
+    assert (finding.relation, finding.severity) == ("penetrating", "error")
+    assert (finding.placed_relation, finding.exact_relation) == ("separated", "separated")
     assert finding.motion.relation == "penetrating"
     assert finding.plan[-1].stage == "sweep"
     assert report.summary.verdict == "fail"
@@ -112,7 +113,8 @@ def test_the_clearance_of_a_rule_holds_on_the_way(tmp_path: Path) -> None:
     meshes = {"a": unit_box(), "b": unit_box(3.0, 1.5)}
     report = checked(tmp_path, [Motion(("a",), RIGHT)], [rule], **meshes)
     (finding,) = report.findings
-    assert (finding.relation, finding.motion.relation) == ("separated", "near")
+    assert (finding.relation, finding.motion.relation) == ("near", "near")
+    assert finding.placed_relation == "separated"
     assert (finding.severity, finding.rule) == ("error", rule.name)
 
 
