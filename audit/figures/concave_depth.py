@@ -25,46 +25,63 @@ from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import EXACT_WIDTH, UNIT_ROUNDOFF
 from satcheck.core.conventions import axis_across
 
-# Work units of the search in a second of `depth_budget`: what a slow machine of today gets done, so
-# that the budget is not exceeded there. A number and not a clock: the same input, the same answer.
-WORK_PER_SECOND = 100_000_000
+# Steps of the search in a second of `depth_budget`: what a slow machine of today gets done, so that
+# the budget is not exceeded there. A number and not a clock: the same input, the same answer.
+WORK_PER_SECOND = 500_000_000
 # An interval on both sides of a limit is narrowed again, each time by this factor.
 NARROWER = 8
 
 
 def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
-    """The depth of an overlapping pair of which the hulls do not say everything."""
+    """The depth of an overlapping pair of which the hulls do not say everything: the largest lower
+    and the least upper bound of all that was tried, beside the shortest verified translation."""
     hulls = way_out_of_hulls(pair)
     plan.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
-    lower = _cheap_lower_bound(pair, contact, plan)
-    way_out = None
+    lower, upper = _cheap_lower_bound(pair, contact, plan), hulls.upper
+    ways = [(hulls.length, hulls.normal)]
     if pair.may("exact"):
-        lower, way_out = _searched(pair, lower, hulls.upper, plan)
+        lower, upper, way_out = _searched(pair, lower, upper, plan)
+        if way_out is not None:
+            ways.insert(0, _length_and_normal(way_out))
     elif contact.proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(pair, plan))
-    if way_out is not None:
-        length, normal = _length_and_normal(way_out)
+    escape, normal = _shortest_escape(pair, ways, plan)
+    upper = min(upper, escape.bound)
+    return Depth(min(lower, upper), upper, normal, escape)
+
+
+def _shortest_escape(
+    pair: Pair, ways: list[tuple[float, Vector]], plan: Plan
+) -> tuple[Escape, Vector]:
+    """The shortest of these ways out as verified, and its normal. Each is a length and a normal,
+    the shortest first: the next is tried only where verification made one longer than that."""
+    shortest: tuple[Escape, Vector] | None = None
+    for length, normal in ways:
+        if shortest is not None and shortest[0].bound <= length:
+            break
         escape = verified_escape(pair, length, normal, plan)
-        if escape.verified:
-            return Depth(min(lower, escape.bound), escape.bound, normal, escape)
-    escape = verified_escape(pair, hulls.length, hulls.normal, plan)
-    upper = min(hulls.upper, escape.bound)
-    return Depth(min(lower, upper), upper, hulls.normal, escape)
+        if shortest is None or escape.bound < shortest[0].bound:
+            shortest = escape, normal
+    if shortest is None:
+        raise AssertionError("the hulls have a way out")
+    return shortest
 
 
-def _searched(pair: Pair, lower: float, upper: float, plan: Plan) -> tuple[float, Vector | None]:
-    """The lower bound and the way out that are narrow enough: also to say on which side of a limit
-    the depth is, as far as the budget goes."""
+def _searched(
+    pair: Pair, lower: float, upper: float, plan: Plan
+) -> tuple[float, float, Vector | None]:
+    """The bounds and the way out that are narrow enough: also to say on which side of a limit the
+    depth is, as far as the budget goes."""
     work, width = _budget(pair), pair.settings.depth_width
     found = search(pair, lower, upper, plan)
-    way_out = found.way_out
+    way_out, upper = found.way_out, min(upper, found.bound)
     while found.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, found):
         width, work = width / NARROWER, work - found.work
         if work <= 0:
             break
         found = search(pair, found.lower, found.upper, plan, width=width, work=work)
-        way_out = found.way_out or way_out
-    return found.lower, way_out
+        way_out, upper = found.way_out or way_out, min(upper, found.bound)
+    return max(lower, found.lower), upper, way_out
 
 
 def _straddles(pair: Pair, found: core.DepthInterval) -> bool:

@@ -30,9 +30,9 @@ if TYPE_CHECKING:
 # What a way out may cost among many: one that is a few percent too long is shortened with the
 # others.
 WAY_OUT_WIDTH = 0.25
-WAY_OUT_BUDGET = 0.03
+WAY_OUT_BUDGET = 0.006
 # Seconds of a slow machine that the ways out of few overlaps may take together.
-CAREFUL_BUDGET = 16.0
+CAREFUL_BUDGET = 4.0
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 

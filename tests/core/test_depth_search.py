@@ -7,6 +7,7 @@ import math
 import random
 import signal
 import threading
+import time
 from typing import Any
 
 import numpy as np
@@ -168,6 +169,48 @@ def test_an_interval_that_ran_out_of_work_is_wide_but_right() -> None:
         assert part.upper - part.lower > 0.01 * part.upper
         assert part.lower <= full.upper
         assert full.lower <= part.upper
+
+
+FAR = 1e9
+
+
+def on_grid(mesh: Mesh, size: float) -> Mesh:
+    """Of about this size, on whole numbers of the last place of coordinates about FAR."""
+    ulp = math.ulp(FAR)
+    return Mesh(np.round(mesh.vertices * (size / ulp)) * ulp, mesh.triangles)
+
+
+@pytest.mark.parametrize("size", [2e-6, 1e-3, 1.0])
+def test_far_from_the_origin_nothing_changes(size: float) -> None:
+    a = on_grid(torus(12, 5), size)
+    b = on_grid(torus(5, 4).translated(CROSSED), size)
+    upper = 6.0 * size
+    near = search(a, b, upper)
+    away = (FAR, FAR, -FAR)
+    started = time.process_time()
+    far = search(a.translated(away), b.translated(away), upper)
+    taken = time.process_time() - started
+    assert far.stop == near.stop == "narrow"
+    assert max(near.lower, far.lower) <= min(near.bound, far.bound)
+    assert far.upper - far.lower <= 0.01 * far.upper
+    assert far.upper <= far.bound <= far.upper * (1 + 1e-12)
+    assert taken < 10e-9 * max(far.work, 100_000_000)
+
+
+def test_no_more_work_is_done_than_was_allowed() -> None:
+    """A part far away: no centre helps, and moved coordinates are whole ulps, where triangles lie
+    in one plane again and again. The last query may go beyond."""
+    size, allowed = 2e-6, 20_000_000
+    a = on_grid(torus(12, 8), size).translated((FAR, FAR, 0.0))
+    b = on_grid(torus(9, 7).translated(CROSSED), size).translated((FAR, FAR, 0.0))
+    cube = box((0, 0, 0), (1, 1, 1)).mesh()
+    both = Mesh(
+        np.concatenate([b.vertices, cube.vertices]),
+        np.concatenate([b.triangles, cube.triangles + np.uint32(len(b.vertices))]),
+    )
+    found = search(a, both, upper=6.0 * size, work=allowed)
+    assert found.stop == "work spent"
+    assert allowed <= found.work <= 1.2 * allowed
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -36,10 +36,12 @@ DepthInterval checked_search(const Surface& a, const Surface& b, double upper, d
 
 void bind_depth(nb::module_& m) {
   nb::class_<DepthInterval>(m, "DepthInterval", R"(lower <= depth <= upper. way_out: a translation of a, `upper` long, after which the meshes have no common
-interior; None where none was found that is shorter than the known one. stop: "narrow" or "work spent"; boxes
+interior; None where none was found that is shorter than the known one. bound: what that proves of the depth, `upper`
+and the rounding of a's moved coordinates. stop: "narrow" or "work spent"; boxes
 of translations, exact tests of the moved meshes, convex sets of forbidden translations: what it took.)")
       .def_ro("lower", &DepthInterval::lower)
       .def_ro("upper", &DepthInterval::upper)
+      .def_ro("bound", &DepthInterval::bound)
       .def_prop_ro("way_out",
                    [](const DepthInterval& d) {
                      const Vec3 t = d.way_out;
@@ -54,7 +56,7 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
         "across"_a = -1,
         nb::call_guard<nb::gil_scoped_release>(),
         R"(The depth of two overlapping meshes as a proven interval, at most `width` wide relative to its upper end unless
-`work` units, each about a nanosecond, are spent first. upper: a known way out is this long; lower: a known bound.
+`work` steps, each about a nanosecond, are spent first. upper: a known way out is this long; lower: a known bound.
 across: an axis of the world along which nothing is moved, as bodies that are prisms along it need it; -1: none.
 The same input gives the same result on every machine. In the main thread a signal handler may raise, KeyboardInterrupt for one.
 ValueError on a length that is none, or an empty surface.)");

@@ -7,12 +7,17 @@
 
 #include <limits>
 
+#include "base/work.hpp"
 #include "exact/predicates.hpp"
 
 namespace satcheck {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+// Steps of a facet that is made, of the faces and edges that the hull gets of it included, and of a point that is held
+// against a facet: measured.
+constexpr std::uint64_t kFacetWork = 300, kHeightWork = 4;
 
 // The error bound of the 3x3 determinant, derived in predicates.cpp, with one more u because the
 // permanent is replaced by a bound that holds for all points of the bounding box.
@@ -50,6 +55,7 @@ class Builder {
       // Facets are only appended, so one pass sees every conflict list.
       if (facets_[f].alive && facets_[f].first_above != none) add_point(f);
     }
+    work_done += kFacetWork * facets_.size() + kHeightWork * heights_;
     std::vector<Triangle> triangles;
     for (const Facet& facet : facets_) {
       if (facet.alive) triangles.push_back(facet.corner);
@@ -84,6 +90,7 @@ class Builder {
   }
 
   bool assign(std::uint32_t f, std::uint32_t point) {
+    ++heights_;
     Facet& facet = facets_[f];
     const double height = rounded_height(facet, point);
     if (!is_above(facet, point, height)) return false;
@@ -187,6 +194,7 @@ class Builder {
   std::vector<std::uint32_t> visible_;
   std::vector<HorizonEdge> horizon_;
   Vec3 extent_;
+  std::uint64_t heights_ = 0;
 };
 
 }  // namespace

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "base/tolerances.hpp"
+#include "base/work.hpp"
 #include "depth/corner_plane.hpp"
+#include "depth/exact_centre.hpp"
 #include "depth/forbidden_set.hpp"
 #include "depth/overlap_proof.hpp"
 #include "depth/translation_box.hpp"
@@ -23,9 +25,9 @@
 namespace satcheck {
 namespace {
 
-// Measured, in nanoseconds.
-constexpr std::uint64_t kPlaneWork = 2, kBoxWork = 300, kPairWork = 100, kVertexWork = 5,
-                        kJudgedWork = 10'000, kPollWork = 50'000'000;
+// Steps of a plane that a translation is held against, of a box, of a vertex that is moved: measured. And how many of them
+// lie between two calls of poll().
+constexpr std::uint64_t kPlaneWork = 2, kBoxWork = 300, kVertexWork = 10, kPollWork = 50'000'000;
 
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
@@ -63,6 +65,12 @@ std::vector<Vec3> ways() {
   return found;
 }
 
+// Whether x + y, rounded to `sum`, was a float64.
+bool is_sum(double sum, double x, double y) {
+  const double part = sum - x;
+  return (x - (sum - part)) + (y - part) == 0;
+}
+
 class Search {
  public:
   Search(const Surface& a, const Surface& b, const DepthGoal& goal) : a_(a), b_(b), moved_(a), goal_(goal) {
@@ -78,11 +86,11 @@ class Search {
       open_.pop();
       open_from = box.key;
       if (std::fmax(std::fmin(open_from, covered_to_), goal_.lower) >= enough()) break;
-      if (result_.work >= goal_.work) {
+      if (work() >= goal_.work) {
         result_.stop = DepthStop::work_spent;
         break;
       }
-      if (!scanned_ && result_.work >= goal_.work / kScanAfter) {
+      if (!scanned_ && work() >= goal_.work / kScanAfter) {
         scan_spheres(std::fmax(box.key, result_.upper / kSmallestSphere));
         push(box.centre, box.half, std::move(box.sets), box.seen);
         continue;
@@ -101,8 +109,10 @@ class Search {
       split(box);
     }
     snap();
+    result_.bound = result_.upper + (result_.found ? rounding(result_.way_out) : 0);
     result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
     result_.lower = std::fmin(result_.lower, result_.upper);
+    result_.work = work();
     result_.sets = static_cast<std::uint32_t>(sets_.size());
     return result_;
   }
@@ -118,6 +128,8 @@ class Search {
     }
   }
 
+  std::uint64_t work() const { return work_done - start_; }
+
   // Translations that are longer need not be forbidden.
   double enough() const { return (1 - goal_.width) * result_.upper; }
 
@@ -125,7 +137,7 @@ class Search {
     TranslationBox box{0, centre, half, std::move(sets), seen, next_number_++};
     box.key = norm(box.nearest_to_origin());
     if (box.key >= result_.upper) return;
-    result_.work += kBoxWork;
+    work_done += kBoxWork;
     open_.push(std::move(box));
   }
 
@@ -148,7 +160,7 @@ class Search {
     double farthest = -INFINITY;
     std::size_t kept = 0;
     for (const std::uint32_t i : box.sets) {
-      result_.work += kPlaneWork * sets_[i].normal.size();
+      work_done += kPlaneWork * sets_[i].normal.size();
       const ForbiddenSet::Reach reach = sets_[i].reach(box.centre, box.half);
       if (reach.meets) box.sets[kept++] = i;
       farthest = std::fmax(farthest, reach.length);
@@ -165,7 +177,7 @@ class Search {
   // Whether no set holds t, and it is short enough to matter.
   bool is_open(const TranslationBox& box, Vec3 t) {
     return norm(t) < enough() && std::none_of(box.sets.begin(), box.sets.end(), [&](std::uint32_t i) {
-      result_.work += kPlaneWork * sets_[i].normal.size();
+      work_done += kPlaneWork * sets_[i].normal.size();
       return sets_[i].exit(t).depth > 0;
     });
   }
@@ -178,7 +190,7 @@ class Search {
     while (norm(t) < enough()) {
       ForbiddenSet::Exit deepest;
       for (const std::uint32_t i : box.sets) {
-        result_.work += kPlaneWork * sets_[i].normal.size();
+        work_done += kPlaneWork * sets_[i].normal.size();
         const ForbiddenSet::Exit exit = sets_[i].exit(t);
         if (exit.depth > deepest.depth) deepest = exit;
       }
@@ -193,8 +205,8 @@ class Search {
   }
 
   void poll() {
-    if (!goal_.poll || result_.work < next_poll_) return;
-    next_poll_ = result_.work + kPollWork;
+    if (!goal_.poll || work() < next_poll_) return;
+    next_poll_ = work() + kPollWork;
     goal_.poll();
   }
 
@@ -203,10 +215,8 @@ class Search {
   MeshRelation relation_at(Vec3 t) {
     poll();
     ++result_.mesh_tests;
-    const MeshRelation r = mesh_relation(moved_.at(t), b_);
-    result_.work += kVertexWork * a_.mesh.vertices.size() + kPairWork * (r.box_tests + r.triangle_tests) +
-                    kJudgedWork * r.judged;
-    return r;
+    work_done += kVertexWork * a_.mesh.vertices.size();
+    return mesh_relation(moved_.at(t), b_);
   }
 
   static bool is_free(const MeshRelation& r) {
@@ -224,17 +234,16 @@ class Search {
   // is known, the nearest point to the origin beyond the walls of the sets that were met.
   void ask_meshes(Vec3 t) {
     std::vector<Wall> walls;
-    for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls;) {
+    for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls && work() < goal_.work;) {
       ForbiddenSet::Exit exit = deepest_exit(t);
       if (!(exit.depth > 0)) {
         ++asked;
         const MeshRelation relation = relation_at(t);
         if (is_free(relation)) return take(t);
-        OverlapProof proof = prove_overlap(a_, moved_.at(t), b_, t, relation);
-        result_.work += proof.work;
-        if (proof.set.empty()) return;
-        exit = proof.set.exit(t);
-        sets_.push_back(std::move(proof.set));
+        ForbiddenSet set = prove_overlap(a_, moved_.at(t), b_, t, relation);
+        if (set.empty()) return;
+        exit = set.exit(t);
+        sets_.push_back(std::move(set));
       }
       walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
       const std::optional<Vec3> next = nearest_beyond(walls);
@@ -248,7 +257,7 @@ class Search {
     const Aabb point{t, t};
     for (const ForbiddenSet& set : sets_) {
       if (!meet(set.box, point)) continue;
-      result_.work += kPlaneWork * set.normal.size();
+      work_done += kPlaneWork * set.normal.size();
       const ForbiddenSet::Exit exit = set.exit(t);
       if (exit.depth > deepest.depth) deepest = exit;
     }
@@ -261,6 +270,7 @@ class Search {
     for (; radius < result_.upper; radius *= kSphereRatio) {
       for (const Vec3 way : ways()) {
         if (!(in_plane(way) == way)) continue;
+        if (work() >= goal_.work) return;
         const Vec3 t = way * radius;
         const auto holds = [&](const ForbiddenSet& set) { return set.exit(t).depth > 0; };
         if (std::any_of(sets_.begin(), sets_.end(), holds)) continue;
@@ -310,6 +320,19 @@ class Search {
     }
   }
 
+  // How much longer than t a translation may have to be: 0 where it is along an axis and adding it rounds nothing.
+  double rounding(Vec3 t) const {
+    const int axes = (t.x != 0) + (t.y != 0) + (t.z != 0);
+    double farthest = 0;
+    bool exact = true;
+    for (const Vec3 p : a_.mesh.vertices) {
+      const Vec3 moved = p + t;
+      exact = exact && is_sum(moved.x, p.x, t.x) && is_sum(moved.y, p.y, t.y) && is_sum(moved.z, p.z, t.z);
+      farthest = std::fmax(farthest, max_abs(moved));
+    }
+    return (axes > 1 ? kNormError * norm(t) : 0) + (exact ? 0 : 2 * kUnitRoundoff * farthest);
+  }
+
   // Of the triangles at which the relation was decided.
   std::vector<CornerPlane> met_planes(const MeshRelation& relation) const {
     if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return {};
@@ -320,6 +343,7 @@ class Search {
   const Surface& b_;
   MovedSurface moved_;
   DepthGoal goal_;
+  std::uint64_t start_ = work_done;
   DepthInterval result_;
   double covered_to_ = INFINITY;  // the boxes that were dropped hold no shorter way out
   std::vector<ForbiddenSet> sets_;
@@ -340,13 +364,20 @@ bool comes_first(const Mesh& a, const Mesh& b) {
   return a.triangles <= b.triangles;
 }
 
-}  // namespace
-
-DepthInterval search_depth(const Surface& a, const Surface& b, const DepthGoal& goal) {
+DepthInterval search_near_origin(const Surface& a, const Surface& b, const DepthGoal& goal) {
   if (comes_first(a.mesh, b.mesh)) return Search(a, b, goal).run();
   DepthInterval result = Search(b, a, goal).run();
   result.way_out = Vec3{} - result.way_out;
   return result;
+}
+
+}  // namespace
+
+DepthInterval search_depth(const Surface& a, const Surface& b, const DepthGoal& goal) {
+  const Vec3 centre = exact_centre(a, b);
+  if (centre == Vec3{}) return search_near_origin(a, b, goal);
+  MovedSurface moved_a(a), moved_b(b);
+  return search_near_origin(moved_a.at(-centre), moved_b.at(-centre), goal);
 }
 
 }  // namespace satcheck

@@ -13,7 +13,7 @@ struct DepthGoal {
   double upper;            // a known way out is this long
   double lower = 0;        // known to be a lower bound of the depth
   double width = 0.01;     // the interval may stay this wide, relative to its upper end
-  std::uint64_t work = 0;  // units that may be spent, each about a nanosecond; the same on every machine
+  std::uint64_t work = 0;  // steps that may be spent (base/work.hpp)
   int across = -1;         // an axis of the world along which nothing is moved: the depth in the plane; -1: none
   std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
 };
@@ -29,6 +29,8 @@ struct DepthInterval {
   // when it is shorter than the way out that was known.
   bool found = false;
   Vec3 way_out;
+  // An upper bound of the depth: `upper`, and what rounding took from the moved coordinates and from that length.
+  double bound = INFINITY;
   DepthStop stop = DepthStop::narrow;
   std::uint64_t work = 0;
   std::uint32_t boxes = 0, mesh_tests = 0, sets = 0;

@@ -14,11 +14,15 @@
 
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
+#include "base/work.hpp"
 #include "convex/polytope.hpp"
 #include "exact/triangle_distance.hpp"
 
 namespace satcheck {
 namespace {
+
+// Steps of a box or triangle that is visited, and of a plane that it is held against: measured.
+constexpr std::uint64_t kVisitWork = 60, kPlaneWork = 3;
 
 constexpr int kBoxPlanes = 6;  // the first ones, of the surface's own box
 constexpr std::size_t kMaxPlanes = 80;
@@ -60,8 +64,7 @@ struct Farther {
 
 class Growth {
  public:
-  Growth(const Surface& solid, Vec3 seed, const Metric& metric, std::size_t& work)
-      : solid_(solid), seed_(seed), metric_(metric), work_(work) {
+  Growth(const Surface& solid, Vec3 seed, const Metric& metric) : solid_(solid), seed_(seed), metric_(metric) {
     const Aabb& box = solid.bvh.nodes[0].box;
     pad_ = kPlaneError * std::fmax(max_abs(box.min), max_abs(box.max));
     for (int axis = 0; axis < 3; ++axis) {
@@ -76,7 +79,7 @@ class Growth {
     while (!queue_.empty()) {
       const Candidate next = queue_.top();
       queue_.pop();
-      ++work_;
+      work_done += kVisitWork + kPlaneWork * planes_.size();
       if (next.triangle) {
         if (!cut_off(corners(solid_.mesh, next.index))) return std::nullopt;
         continue;
@@ -201,7 +204,6 @@ class Growth {
   const Surface& solid_;
   Vec3 seed_;
   Metric metric_;
-  std::size_t& work_;
   double pad_ = 0;
   std::vector<Plane> planes_;
   std::priority_queue<Candidate, std::vector<Candidate>, Farther> queue_;
@@ -209,10 +211,9 @@ class Growth {
 
 }  // namespace
 
-std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric,
-                                             std::size_t& work) {
+std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric) {
   if (!solid.solid || winding_number(solid, seed).value_or(0) == 0) return std::nullopt;
-  return Growth(solid, seed, metric, work).run();
+  return Growth(solid, seed, metric).run();
 }
 
 Metric metric_of(const InnerRegion& region) {

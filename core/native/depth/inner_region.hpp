@@ -19,9 +19,7 @@ struct InnerRegion {
 using Metric = Mat3;
 
 // Nothing where the seed is not strictly inside or so close to the surface that rounding decides.
-// `work` is increased by the number of boxes and triangles that were looked at.
-std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric,
-                                             std::size_t& work);
+std::optional<InnerRegion> grow_inner_region(const Surface& solid, Vec3 seed, const Metric& metric);
 
 // The metric in which the region's vertices spread evenly.
 Metric metric_of(const InnerRegion& region);

@@ -13,29 +13,22 @@
 namespace satcheck {
 namespace {
 
-// Measured, in nanoseconds: a box or triangle that a growing region visits, a query of the climb to a
-// common point, a sum of vertices that goes into the hull of a set.
-constexpr std::uint64_t kVisitWork = 100, kQueryWork = 5000, kSumWork = 250;
-
 class Proof {
  public:
   Proof(const Surface& a, const Surface& b, Vec3 t) : a_(a), b_(b), t_(t) {}
 
-  OverlapProof take() { return std::move(result_); }
+  ForbiddenSet take() { return std::move(set_); }
 
   // Of the sets that two metrics a side give, the one that holds t the deepest.
   void by_regions(const Surface& moved, const MeshRelation& relation) {
     if (!a_.solid || !b_.solid) return;
-    std::size_t queries = 0, visits = 0;
-    const auto common = common_point(moved, b_, relation, queries);
-    if (common) {
-      const std::vector<InnerRegion> in_a = regions(a_, common->point - t_, visits);
-      const std::vector<InnerRegion> in_b = regions(b_, common->point, visits);
+    if (const auto common = common_point(moved, b_, relation)) {
+      const std::vector<InnerRegion> in_a = regions(a_, common->point - t_);
+      const std::vector<InnerRegion> in_b = regions(b_, common->point);
       for (const InnerRegion& p : in_a) {
         for (const InnerRegion& q : in_b) keep_deepest(p.vertices, q.vertices);
       }
     }
-    result_.work += kQueryWork * queries + kVisitWork * visits;
   }
 
   void by_triangles(const MeshRelation& relation) {
@@ -46,10 +39,10 @@ class Proof {
   }
 
  private:
-  static std::vector<InnerRegion> regions(const Surface& solid, Vec3 seed, std::size_t& visits) {
+  static std::vector<InnerRegion> regions(const Surface& solid, Vec3 seed) {
     std::vector<InnerRegion> found;
-    if (auto round = grow_inner_region(solid, seed, {}, visits)) {
-      auto spread = grow_inner_region(solid, seed, metric_of(*round), visits);
+    if (auto round = grow_inner_region(solid, seed, {})) {
+      auto spread = grow_inner_region(solid, seed, metric_of(*round));
       found.push_back(std::move(*round));
       if (spread) found.push_back(std::move(*spread));
     }
@@ -57,24 +50,23 @@ class Proof {
   }
 
   void keep_deepest(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) {
-    result_.work += kSumWork * part_of_a.size() * part_of_b.size();
     ForbiddenSet set = forbidden_set(part_of_a, part_of_b);
     const double depth = set.exit(t_).depth;
     if (!(depth > depth_)) return;
     depth_ = depth;
-    result_.set = std::move(set);
+    set_ = std::move(set);
   }
 
   const Surface& a_;
   const Surface& b_;
   Vec3 t_;
   double depth_ = 0;
-  OverlapProof result_;
+  ForbiddenSet set_;
 };
 
 }  // namespace
 
-OverlapProof prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
+ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
                            const MeshRelation& relation) {
   Proof proof(a, b, t);
   proof.by_regions(moved, relation);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/mesh.hpp"
+#include "base/work.hpp"
 
 namespace satcheck {
 
@@ -54,6 +55,9 @@ inline Aabb box_at(const Bvh& bvh, const Mesh& mesh, std::uint32_t place) {
   return place < bvh.boxes.size() ? bvh.boxes[place] : triangle_box(mesh, bvh.order[place]);
 }
 
+// Steps of a visit to a node: measured.
+inline constexpr std::uint64_t kNodeWork = 10;
+
 // Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.
 // Returns whether all were visited.
 template <class Visit>
@@ -63,6 +67,7 @@ bool visit_box(const Bvh& bvh, const Mesh& mesh, const Aabb& query, Visit visit)
   while (!stack.empty()) {
     const BvhNode& node = bvh.nodes[stack.back()];
     stack.pop_back();
+    work_done += kNodeWork;
     if (!meet(node.box, query)) continue;
     if (!node.is_leaf()) {
       stack.push_back(node.first + 1);

@@ -49,7 +49,7 @@ Vec3 starting_point(const Surface& a, const Surface& b, const MeshRelation& r) {
   return (c[0] + c[1] + c[2]) * (1.0 / 3);
 }
 
-std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshRelation& r, std::size_t& work) {
+std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshRelation& r) {
   if (!r.point) return std::nullopt;
   const Vec3 start = starting_point(a, b, r);
   const Vec3 into_a = inward(a, r.triangle_a), into_b = inward(b, r.triangle_b);
@@ -58,7 +58,6 @@ std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshR
   for (int k = 0; k < kHalvings; ++k, step *= 0.5) {
     for (const Vec3 way : ways) {
       if (way == Vec3{}) continue;
-      ++work;
       if (inside_both(a, b, start + way * step)) return start + way * step;
     }
   }
@@ -67,9 +66,8 @@ std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshR
 
 }  // namespace
 
-std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
-                                        std::size_t& work) {
-  const std::optional<Vec3> start = first_inside(a, b, relation, work);
+std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation) {
+  const std::optional<Vec3> start = first_inside(a, b, relation);
   if (!start) return std::nullopt;
   // Within the ball that reaches to the nearer surface no surface is crossed.
   Vec3 p = *start;
@@ -84,7 +82,6 @@ std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, cons
       for (int k = 0; k < kStrideHalvings && !climbed; ++k, stride *= 0.5) {
         const Vec3 q = p + way * stride;
         const NearestPoint at_a = nearest_point(a, q), at_b = nearest_point(b, q);
-        ++work;
         if (std::fmin(at_a.distance, at_b.distance) <= depth * (1 + 1.0 / 64)) continue;
         p = q;
         on_a = at_a;

@@ -14,8 +14,7 @@ struct CommonPoint {
 };
 
 // Starts from the evidence of a relation with a common interior. Nothing where no point with a proven
-// winding number was found. `work`: increased by the number of queries.
-std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
-                                        std::size_t& work);
+// winding number was found.
+std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation);
 
 }  // namespace satcheck

@@ -4,14 +4,19 @@
 #include <utility>
 
 #include "base/patches.hpp"
+#include "base/work.hpp"
 #include "exact/predicates.hpp"
 #include "mesh/self_contact.hpp"
 
 namespace satcheck {
 namespace {
 
+// Steps of a triangle that is joined to its neighbours: measured.
+constexpr std::uint64_t kTriangleWork = 10;
+
 template <class IsFree>
 DisjointSets connect_corners(const Mesh& mesh, IsFree is_free) {
+  work_done += kTriangleWork * mesh.triangles.size();
   DisjointSets sets(mesh.vertices.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!is_free(t)) continue;

@@ -58,23 +58,20 @@ Mesh bracket() {
 void boxes_are_filled() {
   for (const double scale : {1.0, 1e-30, 1e30}) {
     const Surface solid = make_surface(box({0, 0, 0}, Vec3{1, 2, 3} * scale), true);
-    std::size_t work = 0;
-    const auto region = grow_inner_region(solid, Vec3{0.25, 0.5, 0.125} * scale, {}, work);
+    const auto region = grow_inner_region(solid, Vec3{0.25, 0.5, 0.125} * scale, {});
     CHECK(region.has_value());
     CHECK(region && volume(*region) > 6 * scale * scale * scale * (1 - 1e-10));
     CHECK(region && lies_inside(*region, solid));
-    CHECK(work > 0);
   }
 }
 
 void an_arm_is_filled() {
   const Surface solid = make_surface(bracket(), true);
-  std::size_t work = 0;
   for (const Vec3 seed : {Vec3{1, 1, 1}, {5, 1, 3}, {1, 5.5, 2}, {1.9, 1.9, 2}, {2.5, 1.75, 3.5}}) {
-    const auto round = grow_inner_region(solid, seed, {}, work);
+    const auto round = grow_inner_region(solid, seed, {});
     CHECK(round && lies_inside(*round, solid));
     if (!round) continue;
-    const auto spread = grow_inner_region(solid, seed, metric_of(*round), work);
+    const auto spread = grow_inner_region(solid, seed, metric_of(*round));
     CHECK(spread && lies_inside(*spread, solid));
     // The whole corner block at least: planes that give way take a little of it.
     CHECK(volume(*round) > 12);
@@ -87,27 +84,25 @@ void round_and_hollow_solids() {
   const Surface hollow = make_surface(shell, true), ball = make_surface(uv_sphere(24), true);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-3, 3);
-  std::size_t work = 0;
   int grown = 0;
   for (int k = 0; k < 40; ++k) {
     const Vec3 seed{coordinate(random), coordinate(random), coordinate(random)};
-    const auto region = grow_inner_region(hollow, seed, {}, work);
+    const auto region = grow_inner_region(hollow, seed, {});
     CHECK(region.has_value() == (winding_number(hollow, seed).value_or(0) != 0));
     if (!region) continue;
     ++grown;
     CHECK(lies_inside(*region, hollow));
   }
   CHECK(grown > 20);
-  const auto middle = grow_inner_region(ball, {0.01, 0.02, 0.03}, {}, work);
+  const auto middle = grow_inner_region(ball, {0.01, 0.02, 0.03}, {});
   CHECK(middle && lies_inside(*middle, ball));
   CHECK(middle && volume(*middle) > 0.5 * measure_topology(ball.mesh).volume);
 }
 
 void seeds_that_are_not_inside_have_no_region() {
   const Surface solid = make_surface(bracket(), true);
-  std::size_t work = 0;
   for (const Vec3 seed : {Vec3{3, 3, 1}, {-1, 1, 1}, {0, 1, 1}, {2, 2, 2}, {1, 1, 1e-16}}) {
-    CHECK(!grow_inner_region(solid, seed, {}, work));
+    CHECK(!grow_inner_region(solid, seed, {}));
   }
 }
 

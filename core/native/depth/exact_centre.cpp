@@ -1,0 +1,41 @@
+#include "depth/exact_centre.hpp"
+
+#include <cmath>
+
+#include "base/numeric_range.hpp"
+
+namespace satcheck {
+namespace {
+
+// Farther than so many times the size of both.
+constexpr double kFar = 4;
+
+// c is a multiple of a power of two g >= the size, so for every coordinate x, at least 3.5 sizes from 0 and at most 1.5
+// from c, x - c is a multiple of the last place of x, or of g, and smaller than x: a float64.
+double exact_middle(double low, double high) {
+  const double size = high - low, middle = low * 0.5 + high * 0.5;
+  if (!(std::fabs(middle) > kFar * size)) return 0;
+  if (size == 0) return low;
+  const double grid = std::ldexp(1.0, std::ilogb(size) + 1);
+  return std::round(middle / grid) * grid;
+}
+
+bool stays_in_range(const Surface& surface, Vec3 centre) {
+  for (const Vec3 p : surface.mesh.vertices) {
+    const Vec3 q = p - centre;
+    if (!in_range(q.x) || !in_range(q.y) || !in_range(q.z)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Vec3 exact_centre(const Surface& a, const Surface& b) {
+  Aabb box = a.bvh.nodes[0].box;
+  box.include(b.bvh.nodes[0].box);
+  const Vec3 centre{exact_middle(box.min.x, box.max.x), exact_middle(box.min.y, box.max.y),
+                    exact_middle(box.min.z, box.max.z)};
+  return stays_in_range(a, centre) && stays_in_range(b, centre) ? centre : Vec3{};
+}
+
+}  // namespace satcheck
