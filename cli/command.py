@@ -10,7 +10,7 @@ from importlib import import_module
 import click
 
 from satcheck.cli.commands import COMMANDS
-from satcheck.cli.commands.options import HELP_NAMES
+from satcheck.cli.commands.options import HELP_NAMES, Group
 
 DEFAULT_COMMAND = "check"
 
@@ -22,7 +22,7 @@ def meant(word: str) -> str | None:
     return next(iter(get_close_matches(word, COMMANDS, n=1)), None)
 
 
-class _Satcheck(click.Group):
+class _Satcheck(Group):
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         if not args or args[0] not in COMMANDS:
             args = [DEFAULT_COMMAND, *args]

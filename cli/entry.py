@@ -7,7 +7,7 @@ import os
 import sys
 
 from satcheck.cli import exit_codes
-from satcheck.cli.output import talk
+from satcheck.cli.output import abandon, cannot_write, talk
 from satcheck.cli.plain import plain_choices
 
 COMPLETION_VARIABLE = "_SATCHECK_COMPLETE"
@@ -47,7 +47,13 @@ def _called(arguments: list[str]) -> object:
     if choices is None:
         from satcheck.cli.command import satcheck
 
-        return satcheck.main(prog_name="satcheck", standalone_mode=False)
+        try:
+            return satcheck.main(prog_name="satcheck", standalone_mode=False)
+        except OSError as error:
+            if COMPLETION_VARIABLE not in os.environ:
+                raise
+            abandon(sys.stdout)
+            raise cannot_write("standard output", error.strerror) from None
     from satcheck.cli.checking import run
 
     return run(choices)

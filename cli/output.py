@@ -24,6 +24,9 @@ _READER_LEFT = (errno.EPIPE, errno.EINVAL)
 _NO_REPORTS = frozenset(
     {".html", ".htm", ".svg", ".png", ".pdf", ".xml", ".sarif", ".csv", ".toml", ".yaml"}
 )
+_STANDARD_OUTPUT = ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
+# What becomes of the bytes of a file name that are no text.
+_UNDECODABLE = "backslashreplace"
 _COLOUR = r"(\x1b\[[0-9;]*m)"  # few calls need it: compiled at its first use
 
 
@@ -56,7 +59,7 @@ def talk(line: str) -> None:
 
 def cannot_write(where: str, reason: str | None) -> click.ClickException:
     """The document could not be delivered. To be raised."""
-    return failure(f"{where}: cannot write the report: {reason} [cannot-write]")
+    return failure(f"{where}: cannot write: {reason} [cannot-write]")
 
 
 def form_of(form: str | None, output: Path | None) -> str:
@@ -97,7 +100,7 @@ class Document:
 
     def deliver(self, render: Render, output: Path | None, *, utf8: bool = False) -> None:
         """Write what `render` makes of a page: to the file, plain, or else to standard output."""
-        if output is None:
+        if output is None or _is_standard_output(output):
             self.write(render(self.page), utf8=utf8)
         else:
             write_file(output, render(PLAIN_PAGE))
@@ -113,12 +116,12 @@ class Document:
         if self._stream is None:
             return
         if utf8 and hasattr(self._stream, "reconfigure"):
-            self._stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+            self._stream.reconfigure(encoding="utf-8", errors=_UNDECODABLE)
         try:
             self._stream.writelines(_pieces(text))
             self._stream.flush()
         except OSError as error:
-            _abandon(self._stream)
+            abandon(self._stream)
             if error.errno not in _READER_LEFT:
                 raise cannot_write("standard output", error.strerror) from None
 
@@ -137,19 +140,16 @@ def harmless(line: str, *, colour: bool = False) -> str:
     )
 
 
-def write_file(path: Path, text: str | Sequence[str]) -> None:
-    """Write UTF-8 to a file, one text or its pieces; cannot_write() where that fails."""
-    try:
-        with path.open("w", encoding="utf-8", errors="backslashreplace", newline="") as stream:
-            stream.writelines(_pieces(text))
-    except OSError as error:
-        raise cannot_write(str(path), error.strerror) from None
+def write_file(path: Path, content: bytes | str | Sequence[str]) -> None:
+    """Replace a file as a whole: by bytes, by one text or its pieces, in UTF-8; cannot_write()
+    where that fails, and the file is then what it was."""
+    from satcheck.cli.replacing import replace_file
 
-
-def write_bytes(path: Path, content: bytes) -> None:
-    """Write them as they are; cannot_write() where that fails."""
     try:
-        path.write_bytes(content)
+        if isinstance(content, bytes):
+            replace_file(path, (content,))
+        else:
+            replace_file(path, (text.encode(errors=_UNDECODABLE) for text in _pieces(content)))
     except OSError as error:
         raise cannot_write(str(path), error.strerror) from None
 
@@ -158,10 +158,22 @@ def _pieces(text: str | Sequence[str]) -> Sequence[str]:
     return (text,) if isinstance(text, str) else text
 
 
-def _abandon(stream: TextIO) -> None:
+def abandon(stream: TextIO) -> None:
     """Throw away what is still buffered, or the interpreter complains about it at exit."""
     with contextlib.suppress(OSError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def _is_standard_output(path: Path) -> bool:
+    """By its name: where the descriptor of that leads is not where documents go."""
+    if not path.is_symlink() and "fd" not in path.parts:
+        return False
+    from satcheck.cli.replacing import last_link
+
+    try:
+        return str(last_link(path)) in _STANDARD_OUTPUT
+    except OSError:
+        return False
 
 
 def _talk_descriptor() -> int:

@@ -10,7 +10,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
-from satcheck.cli.output import Document, talk, write_file
+from satcheck.cli.output import Document, talk
 from satcheck.cli.posing import Posing, poses_of
 from satcheck.core.frozen import frozen
 
@@ -50,10 +50,7 @@ def run(choices: Choices) -> int:
     found = _suggest(scene, choices)
     pairs = chosen(found, never=choices.never)
     text = _render(found, choices, scene)
-    if choices.output:
-        write_file(choices.output, text)
-    else:
-        document.write(text, utf8=True)
+    document.deliver(lambda _: text, choices.output, utf8=True)
     for issue in found.issues:
         if issue.severity == "error" and issue.code not in {known.code for known in scene.issues}:
             talk(f"satcheck: {issue_line(issue)}")

@@ -9,7 +9,7 @@ import click
 
 from satcheck.cli import exit_codes
 from satcheck.cli.checking import load, refuse_early
-from satcheck.cli.output import Document, write_bytes, write_file
+from satcheck.cli.output import Document, write_file
 from satcheck.cli.report.png import EXTRA, is_available, png
 from satcheck.core.frozen import frozen
 
@@ -85,7 +85,7 @@ def _write_plot(found: Tradeoff, path: Path) -> None:
 
     form = path.suffix.lower()
     if form == ".png":
-        write_bytes(path, png(svg(found.pairs)))
+        write_file(path, png(svg(found.pairs)))
     else:
         write_file(path, svg(found.pairs) if form == ".svg" else page(found.pairs))
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import click
 
-from satcheck.cli.commands.options import HELP_NAMES
+from satcheck.cli.commands.options import HELP_NAMES, Group
 
 
-@click.group("cache", context_settings=HELP_NAMES)
+@click.group("cache", cls=Group, context_settings=HELP_NAMES)
 def command() -> None:
     """The cache of convex parts: info, clear.
 

@@ -17,6 +17,7 @@ from satcheck.cli.choices import (
 )
 from satcheck.cli.commands.options import (
     HELP_NAMES,
+    Command,
     debug_option,
     form_option,
     jobs_option,
@@ -43,7 +44,7 @@ class _DefaultContext(click.Context):
         return self.parent.command_path if self.parent else super().command_path
 
 
-class _DefaultCommand(click.Command):
+class _DefaultCommand(Command):
     context_class = _DefaultContext
 
     def collect_usage_pieces(self, _: click.Context) -> list[str]:
@@ -83,8 +84,9 @@ def _others(ctx: click.Context) -> list[tuple[str, click.Command]]:
 def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not ctx.resilient_parsing:
         from satcheck._version import __version__
+        from satcheck.cli.output import Document
 
-        click.echo(f"satcheck {__version__}")
+        Document().write(f"satcheck {__version__}\n")
         ctx.exit()
 
 

@@ -18,6 +18,38 @@ _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 SPLITS = ("nodes", "components", "none")
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
+
+
+class Command(click.Command):
+    """Its help is a document like any other: when it cannot be written, that is said."""
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        return _written(super().get_help_option(ctx))
+
+
+class Group(click.Group):
+    """The same of a group of commands, and of those in it."""
+
+    command_class = Command
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        return _written(super().get_help_option(ctx))
+
+
+def _written(option: click.Option | None) -> click.Option | None:
+    if option is not None:
+        option.callback = _show_help
+    return option
+
+
+def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    from satcheck.cli.output import Document
+
+    if wanted and not ctx.resilient_parsing:
+        Document().write(f"{ctx.get_help()}\n")
+        ctx.exit()
+
+
 _STANDARD_OUTPUT = Path("-")
 
 

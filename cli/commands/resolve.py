@@ -9,6 +9,7 @@ import click
 
 from satcheck.cli.commands.options import (
     HELP_NAMES,
+    Command,
     debug_option,
     jobs_option,
     open_option,
@@ -21,7 +22,7 @@ from satcheck.cli.commands.robots import package_option
 from satcheck.cli.lengths import length
 
 
-@click.command("resolve", context_settings=HELP_NAMES)
+@click.command("resolve", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("SCENE")
 @click.option(
     "-o",

@@ -8,6 +8,7 @@ import click
 
 from satcheck.cli.commands.options import (
     HELP_NAMES,
+    Command,
     debug_option,
     form_option,
     output_option,
@@ -17,7 +18,7 @@ from satcheck.cli.commands.options import (
 from satcheck.cli.output import form_of
 
 
-@click.command("stability", context_settings=HELP_NAMES)
+@click.command("stability", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("A B")
 @click.option(
     "--samples",

@@ -8,6 +8,7 @@ import click
 
 from satcheck.cli.commands.options import (
     HELP_NAMES,
+    Command,
     debug_option,
     output_option,
     outside_option,
@@ -20,7 +21,7 @@ from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_opti
 FORMATS = ("toml", "json", "srdf")
 
 
-@click.command("suggest", context_settings=HELP_NAMES)
+@click.command("suggest", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("SCENE")
 @click.option(
     "--never",

@@ -9,6 +9,7 @@ import click
 
 from satcheck.cli.commands.options import (
     HELP_NAMES,
+    Command,
     debug_option,
     form_option,
     output_option,
@@ -19,7 +20,7 @@ from satcheck.cli.commands.options import (
 from satcheck.cli.output import form_of
 
 
-@click.command("tradeoff", context_settings=HELP_NAMES)
+@click.command("tradeoff", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("A B")
 @click.option(
     "--repeat",

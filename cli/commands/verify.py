@@ -8,13 +8,14 @@ import click
 
 from satcheck.cli.commands.options import (
     HELP_NAMES,
+    Command,
     debug_option,
     outside_option,
     table_or_json_option,
 )
 
 
-@click.command("verify", context_settings=HELP_NAMES)
+@click.command("verify", cls=Command, context_settings=HELP_NAMES)
 @click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
 @click.option(
     "--root",

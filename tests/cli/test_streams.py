@@ -58,24 +58,40 @@ def test_output_file_that_cannot_be_written(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
-@pytest.mark.parametrize("arguments", [APART, ("schema",), ("cache", "info")])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        APART,
+        ("--format", "json", *APART),
+        ("schema",),
+        ("cache", "info"),
+        ("--help",),
+        ("resolve", "-h"),
+        ("cache", "info", "--help"),
+        ("schema", "-h"),
+        ("--version",),
+        ("bash_source",),
+    ],
+)
 def test_a_full_disk_is_an_error(arguments: tuple[str, ...]) -> None:
+    completes = arguments == ("bash_source",)
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            command(*arguments),
+            command(*(() if completes else arguments)),
             cwd=SAMPLES,
-            env=environment(),
+            env=environment({"_SATCHECK_COMPLETE": "bash_source"} if completes else None),
             stdout=full,
             stderr=subprocess.PIPE,
             check=False,
         )
     assert done.returncode == 2
-    assert b"cannot write" in done.stderr
-    assert b"Traceback" not in done.stderr
+    said = b"satcheck: error: standard output: cannot write: No space left on device [cannot-write]"
+    assert done.stderr.splitlines() == [said]
 
 
 @pytest.mark.parametrize(
-    ("arguments", "code"), [(PUSHED, 1), (APART, 0), (("--help",), 0), (("schema",), 0)]
+    ("arguments", "code"),
+    [(PUSHED, 1), (APART, 0), (("--help",), 0), (("cache", "-h"), 0), (("schema",), 0)],
 )
 def test_a_reader_that_leaves_early_changes_nothing(arguments: tuple[str, ...], code: int) -> None:
     process = subprocess.Popen(
