@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 from satcheck.core import Mesh
@@ -65,17 +66,21 @@ def _read(source: Source, allowed: ReadLimits, flat: bool) -> RawScene:
         return alone(read_native(source))
     is_gltf = source.format in ("glb", "gltf")
     if is_gltf and len(source.data) <= limits.IN_PROCESS_BYTES:
-        from satcheck.scene.loading.flatten import flattened
         from satcheck.scene.loading.gltf import read_gltf
+        from satcheck.scene.loading.gltf_meshes import NeedsChild
 
-        directory = str(source.location.absolute().parent)
-        scene = read_gltf(
-            memoryview(source.data),
-            directory,
-            binary=source.format == "glb",
-            allow_outside=allowed.allow_outside,
-        )
-        return alone(flattened(scene)) if flat else scene
+        with suppress(NeedsChild):
+            scene = read_gltf(
+                memoryview(source.data),
+                str(source.location.absolute().parent),
+                binary=source.format == "glb",
+                allow_outside=allowed.allow_outside,
+            )
+            if not flat:
+                return scene
+            from satcheck.scene.loading.flatten import flattened
+
+            return alone(flattened(scene))
     from satcheck.scene.loading.foreign import read_foreign
 
     return read_foreign(

@@ -7,13 +7,25 @@ from array import array
 from satcheck.core import Mesh
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import Block, Matrix, RawMesh, RawScene
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, Matrix, RawMesh, RawScene
 
 
 def flattened(scene: RawScene) -> RawMesh:
-    """One mesh of all nodes. Raises MeshFileError when one of them cannot be used, and when all
-    together exceed the triangle limit."""
-    placed = [(_usable(scene.parts[node.part].mesh), node.matrix) for node in scene.nodes]
+    """One mesh of all nodes; one of lines or points alone adds nothing but a warning.
+
+    Raises MeshFileError when another one cannot be used, and when all together exceed the triangle
+    limit.
+    """
+    warnings = dict(scene.warnings)
+    placed = []
+    for node in scene.nodes:
+        mesh = scene.parts[node.part].mesh
+        if isinstance(mesh, RawMesh):
+            placed.append((mesh, node.matrix))
+        elif mesh.code == NO_SURFACE:
+            warnings["ignored-geometry"] = mesh.message
+        else:
+            raise mesh
     total = sum(len(mesh.triangles) // 12 for mesh, _ in placed)
     if total > limits.MAX_TRIANGLES:
         raise MeshFileError(
@@ -23,7 +35,6 @@ def flattened(scene: RawScene) -> RawMesh:
     vertices, triangles = concatenate(
         [(mesh.vertices, mesh.triangles, matrix) for mesh, matrix in placed]
     )
-    warnings = dict(scene.warnings)
     for mesh in meshes:
         warnings |= dict(mesh.warnings)
     return RawMesh(
@@ -35,12 +46,6 @@ def flattened(scene: RawScene) -> RawMesh:
         units=meshes[0].units,
         warnings=tuple(warnings.items()),
     )
-
-
-def _usable(mesh: RawMesh | MeshFileError) -> RawMesh:
-    if isinstance(mesh, MeshFileError):
-        raise mesh
-    return mesh
 
 
 def concatenate(parts: list[tuple[Block, Block, Matrix | None]]) -> tuple[Block, Block]:

@@ -40,4 +40,5 @@ def _read(request: protocol.Request) -> RawScene:
         request.directory,
         binary=request.format == "glb",
         allow_outside=request.allow_outside,
+        isolated=True,
     )

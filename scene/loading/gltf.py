@@ -1,4 +1,4 @@
-"""glTF 2.0 and GLB: the meshes of the default scene, placed by its nodes, in their rest shape.
+"""glTF 2.0 and GLB: the meshes of the default scene, placed by its nodes, as the file stores them.
 
 Read here and not by a general loader: everything that has to be checked before such a loader may
 be trusted (chunks, buffers, views, accessors, the node graph) is most of the reading itself, and a
@@ -9,42 +9,76 @@ cameras, animations are never touched. Sources: the Khronos glTF 2.0 specificati
 from __future__ import annotations
 
 import sys
-from array import array
+from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from satcheck.core.frozen import replace
 from satcheck.core.transform import of_quaternion, placed
 from satcheck.scene._readers import read_json
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.flatten import concatenate
-from satcheck.scene.loading.gltf_buffers import Accessors, integer, items, member, split_glb
-from satcheck.scene.loading.placing import instances, multiply, tidy_name
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.loading import limits
+from satcheck.scene.loading.gltf_accessors import Accessors
+from satcheck.scene.loading.gltf_buffers import (
+    BufferViews,
+    extension,
+    integer,
+    items,
+    member,
+    split_glb,
+)
+from satcheck.scene.loading.gltf_meshes import DRACO, Meshes, Shape
+from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
+from satcheck.scene.loading.raw_mesh import (
+    NO_SURFACE,
+    Matrix,
+    RawMesh,
+    RawNode,
+    RawPart,
+    RawScene,
+)
 from satcheck.scene.plain_ids import UniqueNames
 
-_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
-_VERTEX_BYTES = 24
-_NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
 # Extensions a file may require without changing where its triangles are.
-_HARMLESS_PREFIXES = ("KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "KHR_xmp_")
-_HARMLESS = frozenset({"KHR_mesh_quantization"})
-# Extensions that add geometry even where they are optional.
-_ADDING = frozenset({"EXT_mesh_gpu_instancing"})
+_HARMLESS_PREFIXES = (
+    "KHR_materials_",
+    "KHR_texture_",
+    "KHR_lights_",
+    "KHR_xmp_",
+    "EXT_texture_",
+    "EXT_lights_",
+)
+_INSTANCING = "EXT_mesh_gpu_instancing"
+_READ = frozenset(
+    {
+        DRACO,
+        _INSTANCING,
+        "EXT_meshopt_compression",
+        "KHR_meshopt_compression",
+        "KHR_mesh_quantization",
+    }
+)
 
 
 def read_gltf(
-    data: memoryview, directory: str, *, binary: bool, allow_outside: bool = False
+    data: memoryview,
+    directory: str,
+    *,
+    binary: bool,
+    allow_outside: bool = False,
+    isolated: bool = False,
 ) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
 
     directory: where relative buffer URIs start, and what they may not leave unless allow_outside.
-    binary: GLB. Raises MeshFileError without a file name.
+    binary: GLB. isolated: whether this process may crash. Raises MeshFileError without a file
+    name, and NeedsChild where it must be isolated and is not.
     """
     text, chunk = split_glb(data) if binary else (data, None)
     document = _parse_json(text)
     _check_extensions(document)
-    accessors = Accessors(document, chunk, directory, allow_outside=allow_outside)
-    return _Scene(document, accessors).read()
+    views = BufferViews(document, chunk, directory, allow_outside=allow_outside)
+    accessors = Accessors(document, views)
+    return _Scene(document, accessors, Meshes(document, accessors, isolated=isolated)).read()
 
 
 def _parse_json(data: memoryview) -> dict[str, Any]:
@@ -80,45 +114,119 @@ def _json_with_reasons(text: str) -> Any:
 
 def _check_extensions(document: dict[str, Any]) -> None:
     for name in items(document, "extensionsRequired"):
-        harmless = name in _HARMLESS or str(name).startswith(_HARMLESS_PREFIXES)
-        if not harmless:
+        if name not in _READ and not str(name).startswith(_HARMLESS_PREFIXES):
             raise MeshFileError("unsupported-feature", f"the file requires extension {name!r}")
-    for name in items(document, "extensionsUsed"):
-        if name in _ADDING:
-            raise MeshFileError("unsupported-feature", f"extension {name!r} is not read")
 
 
 class _Scene:
-    def __init__(self, document: dict[str, Any], accessors: Accessors) -> None:
+    def __init__(self, document: dict[str, Any], accessors: Accessors, meshes: Meshes) -> None:
         self._document = document
         self._accessors = accessors
         self._nodes = items(document, "nodes")
-        self._all_meshes = items(document, "meshes")
-        self._meshes: dict[int, RawMesh | MeshFileError] = {}
-        self._skinned: set[int] = set()
-        self._ignored: dict[str, str] = {}  # warnings about meshes that have no triangles
+        self._meshes = meshes
+        self._parents: dict[int, int] | None = None
+        self._copied = 0
 
     def read(self) -> RawScene:
         nodes = instances(
             [(root, self._matrix(root)) for root in self._roots()],
             children=self._children,
-            has_mesh=self._has_triangles,
+            has_mesh=lambda node: self._mesh_of(node) >= 0,
             name=self._name,
             kind="node",
         )
-        if not nodes:
+        placed = [(self._shape(node.key), node) for node in nodes]
+        shapes = {shape: place for place, shape in enumerate(dict.fromkeys(s for s, _ in placed))}
+        meshes = [self._mesh(shape) for shape in shapes]
+        if all(isinstance(mesh, MeshFileError) and mesh.code == NO_SURFACE for mesh in meshes):
             raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
-        meshes = [self._mesh_of(node.key) for node in nodes]
-        used = {mesh: place for place, mesh in enumerate(dict.fromkeys(meshes))}
-        names = UniqueNames()
+        names, paths = UniqueNames(), UniqueNames()
         return RawScene(
-            parts=tuple(RawPart(names.unique(self._mesh_name(n)), self._found(n)) for n in used),
-            nodes=tuple(
-                RawNode(node.path, used[mesh], node.matrix)
-                for node, mesh in zip(nodes, meshes, strict=True)
+            parts=tuple(
+                RawPart(names.unique(self._mesh_name(shape.mesh)), mesh)
+                for shape, mesh in zip(shapes, meshes, strict=True)
             ),
-            warnings=tuple(self._ignored.items()),
+            nodes=tuple(
+                RawNode(paths.unique(path), shapes[shape], matrix)
+                for shape, node in placed
+                for path, matrix in self._copies(node)
+            ),
         )
+
+    def _shape(self, number: int) -> Shape:
+        node, mesh = self._nodes[number], self._mesh_of(number)
+        skin = integer(node, "skin", -1) if "skin" in node else None
+        return Shape(mesh, self._meshes.weights(mesh, node), skin)
+
+    def _mesh(self, shape: Shape) -> RawMesh | MeshFileError:
+        """A mesh that cannot be used counts: its nodes must not get lost."""
+        try:
+            joints = None if shape.skin is None else self._skin(shape.skin)
+            return self._meshes.read(shape, joints)
+        except MeshFileError as error:
+            return error
+
+    def _copies(self, node: Instance[int]) -> list[tuple[str, Matrix | None]]:
+        """(path, matrix) of a node, or of each instance that it draws in its own place."""
+        instancing = extension(self._nodes[node.key], _INSTANCING)
+        if "skin" in self._nodes[node.key]:  # its joints place it
+            return [(node.path, None)]
+        if instancing is None:
+            return [(node.path, node.matrix)]
+        attributes = instancing.get("attributes")
+        if not isinstance(attributes, dict):
+            raise MeshFileError("bad-record", f"node {node.key}: instances without attributes")
+        columns = self._accessors.columns(attributes)
+        given = (
+            columns("TRANSLATION", "VEC3"),
+            columns("ROTATION", "VEC4"),
+            columns("SCALE", "VEC3"),
+        )
+        counts = {len(values) for values in given if values is not None}
+        if len(counts) != 1:
+            raise MeshFileError("count-mismatch", f"node {node.key}: how many instances is unclear")
+        (count,) = counts
+        self._copied += count
+        if self._copied > limits.MAX_PLACEMENTS:
+            raise MeshFileError("too-large", f"{self._copied} instances and more")
+        translations, rotations, scales = (values or [None] * count for values in given)
+        return [
+            (f"{node.path}[{i}]", multiply(node.matrix, _placement(*parts)))
+            for i, parts in enumerate(zip(translations, rotations, scales, strict=True))
+        ]
+
+    def _skin(self, number: int) -> tuple[Matrix, ...]:
+        """For each joint of a skin the matrix from the coordinates of the mesh to the world."""
+        skin = member(items(self._document, "skins"), number, "skin")
+        joints = [self._node_number(joint) for joint in items(skin, "joints")]
+        bound: list[Matrix | None] = [None] * len(joints)
+        if "inverseBindMatrices" in skin:
+            columns = self._accessors.numbers(integer(skin, "inverseBindMatrices", -1), "MAT4")
+            bound = [_from_columns(matrix, f"skin {number}") for matrix in columns]
+        if len(bound) < len(joints):
+            raise MeshFileError("count-mismatch", f"skin {number}: a joint lacks its matrix")
+        return tuple(
+            multiply(self._world(joint), inverse) or IDENTITY
+            for joint, inverse in zip(joints, bound, strict=False)
+        )
+
+    def _world(self, node: int) -> Matrix | None:
+        """Where a node stands in the world."""
+        if self._parents is None:
+            self._parents = {
+                child: parent
+                for parent in range(len(self._nodes))
+                for child, _ in self._children(parent)
+            }
+        matrix = self._matrix(node)
+        seen = {node}
+        while (parent := self._parents.get(node)) is not None:
+            if parent in seen:
+                raise MeshFileError("reference-cycle", f"node {parent} contains itself: a cycle")
+            seen.add(parent)
+            matrix = multiply(self._matrix(parent), matrix)
+            node = parent
+        return matrix
 
     def _roots(self) -> list[int]:
         scenes = items(self._document, "scenes")
@@ -146,120 +254,28 @@ class _Scene:
         name = tidy_name(self._nodes[number].get("name"), "")
         mesh = self._mesh_of(number)
         if not name and mesh >= 0:
-            name = tidy_name(self._all_meshes[mesh].get("name"), "")
+            name = tidy_name(self._meshes.name(mesh), "")
         return name or f"node{number}"
 
     def _mesh_name(self, number: int) -> str:
-        return tidy_name(self._all_meshes[number].get("name"), f"mesh{number}")
+        return tidy_name(self._meshes.name(number), f"mesh{number}")
 
     def _matrix(self, number: int) -> Matrix | None:
         node = member(self._nodes, number, "node")
         if "matrix" in node:
-            columns = _numbers(node, "matrix", 16, number)
-            if columns[3:16:4] != [0.0, 0.0, 0.0, 1.0]:
-                raise MeshFileError("bad-record", f"node {number}: the matrix is not affine")
-            return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
-        placement: Matrix | None = None
-        if "translation" in node:
-            x, y, z = _numbers(node, "translation", 3, number)
-            placement = (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
-        if "rotation" in node:
-            placement = multiply(placement, _rotation(_numbers(node, "rotation", 4, number)))
-        if "scale" in node:
-            x, y, z = _numbers(node, "scale", 3, number)
-            scale = (x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1)
-            placement = multiply(placement, scale)
-        return placement
+            return _from_columns(_numbers(node, "matrix", 16, number), f"node {number}")
+        translation, rotation, scale = (
+            _numbers(node, key, count, number) if key in node else None
+            for key, count in (("translation", 3), ("rotation", 4), ("scale", 3))
+        )
+        return _placement(translation, rotation, scale)
 
     def _mesh_of(self, number: int) -> int:
         """The number of a node's mesh, -1 for none."""
         mesh = integer(member(self._nodes, number, "node"), "mesh", -1)
         if mesh >= 0:
-            member(self._all_meshes, mesh, "mesh")
+            self._meshes.name(mesh)  # there is one
         return mesh
-
-    def _has_triangles(self, number: int) -> bool:
-        """A mesh that cannot be used counts: its nodes must not get lost."""
-        mesh = self._mesh_of(number)
-        if mesh < 0:
-            return False
-        if "skin" in self._nodes[number]:
-            self._skinned.add(mesh)
-        if mesh not in self._meshes:
-            try:
-                self._meshes[mesh] = self._mesh(mesh)
-            except MeshFileError as error:
-                self._meshes[mesh] = error
-        found = self._meshes[mesh]
-        return isinstance(found, MeshFileError) or bool(found.triangles)
-
-    def _found(self, number: int) -> RawMesh | MeshFileError:
-        found = self._meshes[number]
-        if isinstance(found, MeshFileError) or number not in self._skinned:
-            return found
-        skinned = ("rest-shape", "skinning is ignored: the rest shape is used")
-        return replace(found, warnings=(*found.warnings, skinned))
-
-    def _mesh(self, number: int) -> RawMesh:
-        """All primitives that have triangles, as one."""
-        warnings: dict[str, str] = {}
-        primitives = (
-            self._primitive(primitive, f"mesh {number}", warnings)
-            for primitive in items(self._all_meshes[number], "primitives")
-        )
-        vertices, triangles = concatenate(
-            [(*primitive, None) for primitive in primitives if primitive is not None]
-        )
-        if not triangles:
-            self._ignored |= warnings
-        return RawMesh(
-            vertices=vertices,
-            triangles=triangles,
-            precision="float32",
-            units="meter",
-            warnings=tuple(warnings.items()),
-        )
-
-    def _primitive(
-        self, primitive: Any, where: str, warnings: dict[str, str]
-    ) -> tuple[bytes, bytes] | None:
-        """(float64 vertices, uint32 triangles), None where it has no triangles."""
-        mode = integer(primitive, "mode", _TRIANGLES)
-        if mode in _NO_TRIANGLES:
-            warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
-            return None
-        attributes = primitive.get("attributes")
-        if mode > _FAN or not isinstance(attributes, dict) or "POSITION" not in attributes:
-            raise MeshFileError("bad-record", f"{where}: a primitive without positions or mode")
-        if primitive.get("targets"):
-            warnings["rest-shape"] = "morphing is ignored: the rest shape is used"
-        positions = self._accessors.positions(integer(attributes, "POSITION", -1))
-        count = len(positions) // _VERTEX_BYTES
-        if "indices" in primitive:
-            corners, largest = self._accessors.indices(integer(primitive, "indices", -1))
-        else:
-            corners, largest = array("I", range(count)).tobytes(), count - 1
-        if corners and largest >= count:
-            raise MeshFileError(
-                "index-out-of-range",
-                f"{where}: index out of range: {largest} of {count} vertices",
-            )
-        return positions, _triangles(corners, mode, where)
-
-
-def _triangles(numbers: bytes, mode: int, where: str) -> bytes:
-    corners = array("I", numbers)
-    if mode == _TRIANGLES:
-        if len(corners) % 3:
-            raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
-        return numbers
-    triangles = array("I")
-    for i in range(len(corners) - 2):
-        if mode == _FAN:
-            triangles.extend((corners[i + 1], corners[i + 2], corners[0]))
-        else:  # in a strip, every other triangle runs backwards
-            triangles.extend((corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]))
-    return triangles.tobytes()
 
 
 def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[float]:
@@ -272,7 +288,31 @@ def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[fl
     return [float(value) for value in values]
 
 
-def _rotation(quaternion: list[float]) -> Matrix:
+def _from_columns(columns: Sequence[float], where: str) -> Matrix:
+    if tuple(columns[3:16:4]) != (0.0, 0.0, 0.0, 1.0):
+        raise MeshFileError("bad-record", f"{where}: the matrix is not affine")
+    return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
+
+
+def _placement(
+    translation: Sequence[float] | None,
+    rotation: Sequence[float] | None,
+    scale: Sequence[float] | None,
+) -> Matrix | None:
+    """Scaled, then turned by a quaternion x, y, z, w, then moved."""
+    placement: Matrix | None = None
+    if translation is not None:
+        x, y, z = translation
+        placement = (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
+    if rotation is not None:
+        placement = multiply(placement, _rotation(rotation))
+    if scale is not None:
+        x, y, z = scale
+        placement = multiply(placement, (x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1))
+    return placement
+
+
+def _rotation(quaternion: Sequence[float]) -> Matrix:
     if not any(quaternion):
         raise MeshFileError("bad-record", "a rotation quaternion is zero")
     x, y, z, w = quaternion

@@ -1,31 +1,25 @@
-"""The binary half of glTF: GLB chunks, buffers, views and accessors, each range checked."""
+"""The binary half of glTF: GLB chunks, buffers and buffer views, each range checked."""
 
 from __future__ import annotations
 
-import sys
-from array import array
 from pathlib import Path
 from typing import Any
 
-from satcheck.scene._readers import float64_of, uint32_of
+from satcheck.scene._readers import ReadError, unpack_meshopt
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading import limits
 
 _GLB_HEADER = 12  # bytes: magic, version, length of the file
 _CHUNK_HEADER = 8  # length, type
 _JSON_CHUNK = 0x4E4F534A
 _BIN_CHUNK = 0x004E4942
 
-# componentType: array type code, and the largest value a normalized integer stands for 1.0 with.
-_COMPONENTS = {
-    5120: ("b", 127.0),
-    5121: ("B", 255.0),
-    5122: ("h", 32767.0),
-    5123: ("H", 65535.0),
-    5125: ("I", 0.0),
-    5126: ("f", 0.0),
-}
-_COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-_INDEX_TYPES = frozenset("BHI")
+# Both pack a buffer view in the same way.
+_MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+_MODES = frozenset({"ATTRIBUTES", "TRIANGLES", "INDICES"})
+_FILTERS = frozenset(
+    {"NONE", "EXPONENTIAL", "QUATERNION"}
+)  # the others are for normals and colours
 
 
 def items(owner: Any, key: str) -> list[Any]:
@@ -95,8 +89,15 @@ def _two_numbers(data: memoryview, offset: int) -> tuple[int, int]:
     return int.from_bytes(data[offset:middle], "little"), int.from_bytes(data[middle:end], "little")
 
 
-class Accessors:
-    """Typed arrays of a glTF document; buffers are read when first asked for."""
+def extension(owner: dict[str, Any], name: str) -> dict[str, Any] | None:
+    """What the extension of this name says of an object."""
+    extensions = owner.get("extensions", {})
+    found = extensions.get(name) if isinstance(extensions, dict) else None
+    return found if isinstance(found, dict) else None
+
+
+class BufferViews:
+    """The buffer views of a glTF document; buffers are read when first asked for."""
 
     def __init__(
         self,
@@ -106,69 +107,33 @@ class Accessors:
         *,
         allow_outside: bool,
     ) -> None:
-        self._accessors = items(document, "accessors")
         self._views = items(document, "bufferViews")
         self._infos = items(document, "buffers")
         self._chunk = chunk
         self._directory = directory
         self._allow_outside = allow_outside
         self._buffers: dict[int, memoryview] = {}
+        self._unpacked: dict[int, memoryview] = {}
+        self._unpacked_bytes = 0
 
-    def positions(self, index: int) -> bytes:
-        """x, y, z of each element, little-endian float64, all finite."""
-        values, normalized = self._read(index, "VEC3")
-        code = values.typecode
-        if code == "I":
-            raise MeshFileError("bad-record", f"accessor {index}: positions of type uint32")
-        if code == "f":
-            coordinates = float64_of(values.tobytes())
-            if coordinates is None:
-                raise MeshFileError("non-finite", f"accessor {index}: non-finite coordinates")
-            return coordinates
-        if not normalized:
-            return array("d", values).tobytes()
-        one = next(largest for known, largest in _COMPONENTS.values() if known == code)
-        return array("d", (max(value / one, -1.0) for value in values)).tobytes()
-
-    def indices(self, index: int) -> tuple[bytes, int]:
-        """Vertex numbers, little-endian uint32, and the largest of them."""
-        values, _ = self._read(index, "SCALAR")
-        if values.typecode not in _INDEX_TYPES:
-            raise MeshFileError("bad-record", f"accessor {index}: indices are not unsigned")
-        return uint32_of(values.tobytes(), values.itemsize)
-
-    def _read(self, index: int, kind: str) -> tuple[array[Any], bool]:
-        accessor = member(self._accessors, index, "accessor")
-        component = _COMPONENTS.get(integer(accessor, "componentType", 0))
-        if component is None or accessor.get("type") != kind:
-            raise MeshFileError("bad-record", f"accessor {index}: {kind} expected")
-        if "sparse" in accessor or "bufferView" not in accessor:
-            raise MeshFileError("unsupported-feature", f"accessor {index}: sparse data")
-        values = array(component[0])
-        row = values.itemsize * _COLUMNS[kind]
-        count = integer(accessor, "count", 0)
-        view_number = integer(accessor, "bufferView", 0)
-        view, stride = self._view(view_number, row)
-        start = integer(accessor, "byteOffset", 0)
-        needed = start + (count - 1) * stride + row if count else start
-        if needed > len(view):
-            raise MeshFileError(
-                "index-out-of-range",
-                f"accessor {index} exceeds its buffer view {view_number}: "
-                f"{count} elements need {needed} bytes, it has {len(view)}",
-            )
-        if stride == row:
-            values.frombytes(view[start : start + count * row])
-        else:
-            rows = (start + i * stride for i in range(count))
-            values.frombytes(b"".join(view[at : at + row] for at in rows))
-        if sys.byteorder == "big":
-            values.byteswap()
-        return values, accessor.get("normalized") is True
-
-    def _view(self, number: int, row: int) -> tuple[memoryview, int]:
-        """(its bytes, bytes from one element to the next)."""
+    def view(self, number: int) -> memoryview:
         view = member(self._views, number, "buffer view")
+        for name in _MESHOPT:
+            packed = extension(view, name)
+            if packed is not None:
+                if number not in self._unpacked:
+                    self._unpacked[number] = memoryview(self._unpack(number, view, packed))
+                return self._unpacked[number]
+        return self._range(view, f"buffer view {number}")
+
+    def stride(self, number: int, row: int) -> int:
+        """Bytes from one element of the view to the next; row: those of an element."""
+        stride = integer(member(self._views, number, "buffer view"), "byteStride", row)
+        if stride < row:
+            raise MeshFileError("bad-record", f"buffer view {number}: elements overlap")
+        return stride
+
+    def _range(self, view: dict[str, Any], what: str) -> memoryview:
         buffer_number = integer(view, "buffer", 0)
         buffer = self._buffer(buffer_number)
         start = integer(view, "byteOffset", 0)
@@ -176,13 +141,34 @@ class Accessors:
         if end > len(buffer):
             raise MeshFileError(
                 "index-out-of-range",
-                f"buffer view {number} ends at byte {end}, "
-                f"beyond buffer {buffer_number} of {len(buffer)} bytes",
+                f"{what} ends at byte {end}, beyond buffer {buffer_number} of {len(buffer)} bytes",
             )
-        stride = integer(view, "byteStride", row)
-        if stride < row:
-            raise MeshFileError("bad-record", f"buffer view {number}: elements overlap")
-        return buffer[start:end], stride
+        return buffer[start:end]
+
+    def _unpack(self, number: int, view: dict[str, Any], packed: dict[str, Any]) -> bytes:
+        """The bytes of a view that meshopt packed."""
+        count, stride = integer(packed, "count", 0), integer(packed, "byteStride", 0)
+        mode, filter_ = packed.get("mode"), packed.get("filter", "NONE")
+        if mode not in _MODES or filter_ not in _FILTERS or count * stride == 0:
+            raise MeshFileError(
+                "bad-record",
+                f"buffer view {number}: meshopt data of mode {mode!r} and filter {filter_!r}",
+            )
+        if count * stride != integer(view, "byteLength", 0):
+            raise MeshFileError(
+                "count-mismatch",
+                f"buffer view {number}: {count} elements of {stride} bytes are not its length",
+            )
+        self._unpacked_bytes += count * stride
+        if self._unpacked_bytes > limits.MAX_UNPACKED_BYTES:
+            raise MeshFileError(
+                "too-large", f"meshopt data unpacks to {self._unpacked_bytes} bytes and more"
+            )
+        stream = bytes(self._range(packed, f"buffer view {number}"))
+        found = unpack_meshopt(stream, mode, count, stride, filter_)
+        if isinstance(found, ReadError):
+            raise MeshFileError(found.code, f"buffer view {number}: {found.message}")
+        return found
 
     def _buffer(self, number: int) -> memoryview:
         if number not in self._buffers:

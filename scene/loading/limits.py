@@ -21,3 +21,8 @@ MAX_PART_BYTES = 1024 * BYTES_PER_MEGABYTE
 # glTF is read by our own code, every range checked; what its JSON can cost is a few tens of times
 # its size, so up to here a child process would only cost time.
 IN_PROCESS_BYTES = 4 * BYTES_PER_MEGABYTE
+
+# glTF data that takes next to no room in the file: what meshopt unpacks, of a file together, and
+# the zeros of an accessor that lists only its other elements.
+MAX_UNPACKED_BYTES = 512 * BYTES_PER_MEGABYTE
+MAX_ZEROS = 1_000_000

@@ -9,6 +9,7 @@ from satcheck.scene.errors import MeshFileError
 
 Precision = Literal["written-digits", "float32", "float64"]
 Block = bytes | memoryview
+NO_SURFACE = "no-surface"  # the code of a mesh of lines or points alone
 Matrix = tuple[float, ...]  # row-major 4x4 for column vectors
 
 

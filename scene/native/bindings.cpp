@@ -19,6 +19,7 @@
 
 #include "base/large_pages.hpp"
 #include "json_document.hpp"
+#include "meshopt.hpp"
 #include "placement.hpp"
 #include "readers.hpp"
 #include "typed_arrays.hpp"
@@ -103,6 +104,21 @@ ReadOutcome read_stl_in_pieces(int descriptor, std::size_t size) {
   }
 }
 
+std::variant<nb::bytes, ReadError> unpack_buffer_view(const nb::bytes& stream, const std::string& mode, std::size_t count,
+                                                      std::size_t stride, const std::string& filter) {
+  const MeshoptMode known = mode == "ATTRIBUTES"  ? MeshoptMode::attributes
+                            : mode == "TRIANGLES" ? MeshoptMode::triangles
+                                                  : MeshoptMode::indices;
+  try {
+    std::string elements = unpack_meshopt({stream.c_str(), stream.size()}, known, count, stride);
+    if (filter == "EXPONENTIAL") undo_exponential_filter(elements);
+    if (filter == "QUATERNION") undo_quaternion_filter(elements);
+    return nb::bytes(elements.data(), elements.size());
+  } catch (ReadError& error) {
+    return std::move(error);
+  }
+}
+
 const char* precision_name(const MeshData& mesh) {
   switch (mesh.precision) {
     case Precision::written_digits: return "written-digits";
@@ -175,6 +191,11 @@ NB_MODULE(_readers, m) {
         "OSError where it cannot be read.");
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
+
+  m.def("unpack_meshopt", &unpack_buffer_view, nb::arg("stream"), nb::arg("mode"), nb::arg("count"), nb::arg("stride"),
+        nb::arg("filter"),
+        "The `count` elements of `stride` bytes of a glTF buffer view that meshopt packed. mode: \"ATTRIBUTES\", \"TRIANGLES\" or "
+        "\"INDICES\"; filter: \"NONE\", \"EXPONENTIAL\" or \"QUATERNION\".");
 
   m.def("read_file", &read_file, nb::arg("descriptor"), nb::arg("size"),
         "Up to `size` bytes of an open file from where it stands; OSError where it cannot be read.");

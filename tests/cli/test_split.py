@@ -10,7 +10,7 @@ import pytest
 from satcheck.cli.commands.options import SPLITS
 from satcheck.scene.scene_builder import Split
 from tests.cli.process import VALIDATOR, satcheck
-from tests.scene import files
+from tests.scene import files, graphs
 
 
 def test_the_choices_are_those_of_the_loader() -> None:
@@ -39,6 +39,22 @@ def test_units_of_a_file_are_those_of_lengths() -> None:
         ran = satcheck("--format", "json", "--no-depth", "--clearance", clearance, "gripper.glb")
         found = {(one["a"], one["b"]): one["relation"] for one in ran.document["findings"]}
         assert found["gripper/palm", "payload"] == relation
+
+
+def test_a_node_of_lines_is_no_pass(tmp_path: Path) -> None:
+    document, buffer = graphs.meshes("cube", "line")
+    document["meshes"][1]["primitives"] = [{"attributes": {"POSITION": 0}, "mode": 1}]
+    far = {"name": "c", "mesh": 0, "translation": [3, 0, 0]}
+    document["nodes"] = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 1}, far]
+    document["scenes"] = [{"nodes": [0, 1, 2]}]
+    path = tmp_path / "lines.glb"
+    path.write_bytes(files.glb(document, buffer))
+    ran = satcheck("--format", "json", str(path))
+    assert ran.code == 3
+    assert ran.document["summary"]["pairs"]["indeterminate"] == 2
+    assert [(issue["code"], issue["body"]) for issue in ran.document["issues"]] == [
+        ("no-surface", "b")
+    ]
 
 
 def test_components_of_a_plain_mesh(tmp_path: Path) -> None:

@@ -160,7 +160,7 @@ def test_gltf_strided_positions_strips_and_fans(tmp_path):
 def test_gltf_says_what_it_leaves_out(tmp_path):
     document, buffer = files.gltf_document()
     document["meshes"][0]["primitives"].append({"attributes": {"POSITION": 0}, "mode": 1})
-    document["nodes"][0]["skin"] = 0
+    document["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}]
     file = loaded(tmp_path, "a.glb", files.glb(document, buffer))
     assert set(warnings(file)) == {"ignored-geometry", "rest-shape"}
 

@@ -187,21 +187,35 @@ def test_a_file_of_which_nothing_can_be_used_is_one_unreadable_body(tmp_path):
     assert [issue.code for issue in scene.issues] == ["missing-resource"]
 
 
-def test_a_skin_is_warned_about_at_its_body(tmp_path):
+def test_a_bad_skin_loses_its_own_nodes(tmp_path):
     nodes = [{"name": "a", "mesh": 0, "skin": 0}, {"name": "b", "mesh": 1}]
     scene = scene_of(tmp_path, "a.glb", graphs.glb(nodes, "skinned", "stiff"))
-    assert [(issue.code, issue.body) for issue in scene.issues] == [("rest-shape", "a")]
+    assert [body.id for body in scene.bodies] == ["b"]
+    assert [(lost.id, lost.issue.code) for lost in scene.unreadable] == [
+        ("a", "index-out-of-range")
+    ]
 
 
-def test_lines_are_no_body_and_not_silent(tmp_path):
+def lines_beside_a_cube():
     document, buffer = graphs.meshes("cube", "line")
     lines = {"attributes": {"POSITION": 0}, "mode": 1}
     document["meshes"][1]["primitives"] = [lines]
     document["nodes"] = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 1}]
     document["scenes"] = [{"nodes": [0, 1]}]
-    scene = scene_of(tmp_path, "a.glb", files.glb(document, buffer))
+    return files.glb(document, buffer)
+
+
+def test_a_node_of_lines_is_a_body_that_cannot_be_checked(tmp_path):
+    scene = scene_of(tmp_path, "a.glb", lines_beside_a_cube())
     assert [body.id for body in scene.bodies] == ["a"]
-    assert [(issue.code, issue.body) for issue in scene.issues] == [("ignored-geometry", None)]
+    (lost,) = scene.unreadable
+    assert (lost.id, lost.issue.code, lost.issue.severity) == ("b", "no-surface", "warning")
+
+
+def test_lines_in_a_file_that_is_one_body_are_a_warning(tmp_path):
+    (tmp_path / "a.glb").write_bytes(lines_beside_a_cube())
+    (body,) = load_scene([tmp_path / "a.glb"], split="none").bodies
+    assert [issue.code for issue in body.file.issues] == ["ignored-geometry"]
 
 
 def test_a_shared_mesh_names_itself_in_its_one_warning(tmp_path):

@@ -1,0 +1,75 @@
+"""Primitives of glTF that Draco packed (KHR_draco_mesh_compression), through DracoPy.
+
+Draco's decoder may crash on damaged data, so this runs in the reading child only. Positions are
+those that the decoder gives: packing rounded them, and may have put them in another order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.gltf_accessors import Accessors
+from satcheck.scene.loading.gltf_buffers import integer
+
+
+class Unpacked:
+    """packed: what the extension says. attributes: accessors of the primitive by name.
+
+    Raises MeshFileError. triangles: little-endian uint32 vertex numbers, three each.
+    """
+
+    def __init__(
+        self, accessors: Accessors, packed: dict[str, Any], attributes: dict[str, Any]
+    ) -> None:
+        import DracoPy
+
+        self._accessors = accessors
+        self._attributes = attributes
+        self._ids = packed.get("attributes")
+        data = accessors.bytes_of_view(integer(packed, "bufferView", -1))
+        try:
+            self._mesh: Any = DracoPy.decode(data)
+        except (DracoPy.FileTypeException, ValueError, MemoryError) as error:
+            raise MeshFileError("bad-record", f"Draco data: {error}") from None
+        if not isinstance(self._mesh, DracoPy.DracoMesh) or not isinstance(self._ids, dict):
+            raise MeshFileError("bad-record", "Draco data: no mesh")
+        faces = self._mesh.faces
+        count = len(self._mesh.points)
+        if len(faces) and int(faces.max()) >= count:
+            raise MeshFileError(
+                "index-out-of-range",
+                f"Draco data: index out of range: {faces.max()} of {count} vertices",
+            )
+        self.triangles: bytes = faces.astype("<u4").tobytes()
+
+    def positions(self) -> bytes:
+        import numpy as np
+
+        found = self._columns("POSITION", 3)
+        if found is None:
+            raise MeshFileError("bad-record", "Draco data: no positions")
+        if not np.isfinite(found).all():
+            raise MeshFileError("non-finite", "Draco data: non-finite coordinates")
+        positions: bytes = found.astype("<f8").tobytes()
+        return positions
+
+    def columns(self, name: str, kind: str) -> Sequence[tuple[float, ...]] | None:
+        """As Accessors.columns(): what Draco did not pack has an accessor of its own."""
+        found = self._columns(name, 4)
+        if found is None:
+            return self._accessors.columns(self._attributes)(name, kind)
+        return [tuple(row) for row in found.tolist()]
+
+    def _columns(self, name: str, count: int) -> Any:
+        """An attribute that Draco packed, its integers as the accessor says what they stand for."""
+        id_ = self._ids.get(name)
+        if id_ is None:
+            return None
+        found = self._mesh.get_attribute_by_unique_id(id_) if type(id_) is int else None
+        data = None if found is None else found["data"]
+        if data is None or data.ndim != 2 or data.shape[1] != count:
+            raise MeshFileError("bad-record", f"Draco data: no attribute {id_!r} for {name}")
+        one = self._accessors.one(integer(self._attributes, name, -1))
+        return data if one is None or data.dtype.kind == "f" else (data / one).clip(min=-1.0)

@@ -1,0 +1,168 @@
+"""The meshes of glTF: their primitives as triangles, in the shape that the file stores."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Sequence
+from typing import Any
+
+from satcheck.core.frozen import frozen
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.flatten import concatenate
+from satcheck.scene.loading.gltf_accessors import Accessors
+from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, Matrix, RawMesh
+
+DRACO = "KHR_draco_mesh_compression"
+
+_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
+_NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
+_VERTEX_BYTES = 24
+
+
+class NeedsChild(Exception):
+    """The file has data for a library that may crash: it is to be read in a child process."""
+
+
+@frozen
+class Shape:
+    """A mesh, and what gives it its shape at a node: the weights of its morph targets, and the
+    number of its skin."""
+
+    mesh: int
+    weights: tuple[float, ...] = ()
+    skin: int | None = None
+
+
+class Meshes:
+    """isolated: whether this process may crash."""
+
+    def __init__(self, document: dict[str, Any], accessors: Accessors, *, isolated: bool) -> None:
+        self._meshes = items(document, "meshes")
+        self._accessors = accessors
+        self._isolated = isolated
+        self._requires_draco = DRACO in items(document, "extensionsRequired")
+
+    def name(self, number: int) -> object:
+        return member(self._meshes, number, "mesh").get("name")
+
+    def weights(self, number: int, node: dict[str, Any]) -> tuple[float, ...]:
+        """Of the morph targets of a mesh at a node; () where none is moved."""
+        mesh = member(self._meshes, number, "mesh")
+        values = items(node if "weights" in node else mesh, "weights")
+        if not all(type(value) in (int, float) for value in values):
+            raise MeshFileError("bad-record", f"mesh {number}: weights should be numbers")
+        return tuple(map(float, values)) if any(values) else ()
+
+    def read(self, shape: Shape, joints: Sequence[Matrix] | None) -> RawMesh:
+        """All primitives that have triangles, as one.
+
+        joints: of the skin, each from the coordinates of the mesh to the world. Raises
+        MeshFileError, `NO_SURFACE` where there are no triangles.
+        """
+        warnings: dict[str, str] = {}
+        where = f"mesh {shape.mesh}"
+        parts = (
+            self._primitive(primitive, shape, joints, where, warnings)
+            for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives")
+        )
+        vertices, triangles = concatenate([(*part, None) for part in parts if part is not None])
+        if not triangles:
+            raise MeshFileError(NO_SURFACE, f"{where} has no triangles, only lines or points")
+        return RawMesh(
+            vertices=vertices,
+            triangles=triangles,
+            precision="float32",
+            units="meter",
+            warnings=tuple(warnings.items()),
+        )
+
+    def _primitive(
+        self,
+        primitive: Any,
+        shape: Shape,
+        joints: Sequence[Matrix] | None,
+        where: str,
+        warnings: dict[str, str],
+    ) -> tuple[Block, Block] | None:
+        """(float64 vertices, uint32 triangles), None where it has no triangles."""
+        mode = integer(primitive, "mode", _TRIANGLES)
+        if mode in _NO_TRIANGLES:
+            warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
+            return None
+        attributes = primitive.get("attributes")
+        if mode > _FAN or not isinstance(attributes, dict) or "POSITION" not in attributes:
+            raise MeshFileError("bad-record", f"{where}: a primitive without positions or mode")
+        packed = self._packed(primitive, attributes)
+        if packed is not None:
+            if not self._isolated:
+                raise NeedsChild
+            from satcheck.scene.loading.gltf_draco import Unpacked
+
+            unpacked = Unpacked(self._accessors, packed, attributes)
+            positions, triangles = unpacked.positions(), unpacked.triangles
+            columns = unpacked.columns
+        else:
+            positions = self._accessors.positions(integer(attributes, "POSITION", -1))
+            triangles = self._triangles(primitive, mode, len(positions) // _VERTEX_BYTES, where)
+            columns = self._accessors.columns(attributes)
+        if primitive.get("targets"):
+            warnings["rest-shape"] = "morph targets have the weights that the file stores"
+            if shape.weights:
+                positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
+        if joints is not None:
+            from satcheck.scene.loading.gltf_shapes import skinned
+
+            warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
+            positions = skinned(positions, columns, joints, where)
+        return positions, triangles
+
+    def _packed(
+        self, primitive: dict[str, Any], attributes: dict[str, Any]
+    ) -> dict[str, Any] | None:
+        """What Draco packed, unless the file has the same without it."""
+        packed = extension(primitive, DRACO)
+        needed = [*(value for key, value in attributes.items() if key == "POSITION")]
+        needed += [primitive["indices"]] if "indices" in primitive else []
+        plain = all(type(n) is int and self._accessors.has_data(n) for n in needed)
+        return None if plain and not self._requires_draco else packed
+
+    def _triangles(self, primitive: dict[str, Any], mode: int, count: int, where: str) -> bytes:
+        if "indices" in primitive:
+            corners, largest = self._accessors.indices(integer(primitive, "indices", -1))
+        else:
+            corners, largest = array("I", range(count)).tobytes(), count - 1
+        if corners and largest >= count:
+            raise MeshFileError(
+                "index-out-of-range",
+                f"{where}: index out of range: {largest} of {count} vertices",
+            )
+        return _as_list(corners, mode, where)
+
+    def _morphed(self, positions: Block, targets: list[Any], weights: Sequence[float]) -> Block:
+        from satcheck.scene.loading.gltf_shapes import morphed
+
+        if len(targets) != len(weights):
+            raise MeshFileError("count-mismatch", f"{len(weights)} weights, {len(targets)} targets")
+        moves = [
+            (weight, self._accessors.positions(integer(target, "POSITION", -1)))
+            for weight, target in zip(weights, targets, strict=True)
+            if weight and isinstance(target, dict) and "POSITION" in target
+        ]
+        return morphed(positions, moves)
+
+
+def _as_list(numbers: bytes, mode: int, where: str) -> bytes:
+    """The corners of strips and fans, three a triangle."""
+    corners = array("I", numbers)
+    if mode == _TRIANGLES:
+        if len(corners) % 3:
+            raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
+        return numbers
+    triangles = array("I")
+    for i in range(len(corners) - 2):
+        if mode == _FAN:
+            triangles.extend((corners[i + 1], corners[i + 2], corners[0]))
+        else:  # in a strip, every other triangle runs backwards
+            triangles.extend((corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]))
+    return triangles.tobytes()
