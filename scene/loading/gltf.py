@@ -177,23 +177,21 @@ class _Scene:
         if not isinstance(attributes, dict):
             raise MeshFileError("bad-record", f"node {node.key}: instances without attributes")
         columns = self._accessors.columns(attributes)
-        given = (
-            columns("TRANSLATION", "VEC3"),
-            columns("ROTATION", "VEC4"),
-            columns("SCALE", "VEC3"),
-        )
-        counts = {len(values) for values in given if values is not None}
+        translations = columns("TRANSLATION", "VEC3")
+        rotations = columns("ROTATION", "VEC4")
+        scales = columns("SCALE", "VEC3")
+        counts = {len(given) for given in (translations, rotations, scales) if given is not None}
         if len(counts) != 1:
             raise MeshFileError("count-mismatch", f"node {node.key}: how many instances is unclear")
         (count,) = counts
         self._copied += count
         if self._copied > limits.MAX_PLACEMENTS:
             raise MeshFileError("too-large", f"{self._copied} instances and more")
-        translations, rotations, scales = (values or [None] * count for values in given)
-        return [
-            (f"{node.path}[{i}]", multiply(node.matrix, _placement(*parts)))
-            for i, parts in enumerate(zip(translations, rotations, scales, strict=True))
-        ]
+        copies = []
+        for i in range(count):
+            parts = (given[i] if given else None for given in (translations, rotations, scales))
+            copies.append((f"{node.path}[{i}]", multiply(node.matrix, _placement(*parts))))
+        return copies
 
     def _skin(self, number: int) -> tuple[Matrix, ...]:
         """For each joint of a skin the matrix from the coordinates of the mesh to the world."""

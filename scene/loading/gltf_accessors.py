@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from array import array
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from satcheck.scene._readers import float64_of, uint32_of
@@ -25,6 +25,9 @@ _COMPONENTS = {
 }
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _INDEX_TYPES = frozenset("BHI")
+
+# The elements of the vertex attribute of a name and a type, None where there is none of this name.
+Columns = Callable[[str, str], Sequence[tuple[float, ...]] | None]
 
 
 class Accessors:
@@ -60,10 +63,8 @@ class Accessors:
             raise MeshFileError("bad-record", f"accessor {index}: indices are not unsigned")
         return uint32_of(values.tobytes(), values.itemsize)
 
-    def columns(
-        self, attributes: dict[str, Any]
-    ) -> Callable[[str, str], list[tuple[float, ...]] | None]:
-        """numbers() by the name of an attribute; None where there is none of this name."""
+    def columns(self, attributes: dict[str, Any]) -> Columns:
+        """attributes: numbers of accessors by name."""
 
         def named(name: str, kind: str) -> list[tuple[float, ...]] | None:
             return self.numbers(integer(attributes, name, -1), kind) if name in attributes else None

@@ -27,14 +27,15 @@ class Unpacked:
 
         self._accessors = accessors
         self._attributes = attributes
-        self._ids = packed.get("attributes")
+        ids = packed.get("attributes")
         data = accessors.bytes_of_view(integer(packed, "bufferView", -1))
         try:
             self._mesh: Any = DracoPy.decode(data)
         except (DracoPy.FileTypeException, ValueError, MemoryError) as error:
             raise MeshFileError("bad-record", f"Draco data: {error}") from None
-        if not isinstance(self._mesh, DracoPy.DracoMesh) or not isinstance(self._ids, dict):
+        if not isinstance(self._mesh, DracoPy.DracoMesh) or not isinstance(ids, dict):
             raise MeshFileError("bad-record", "Draco data: no mesh")
+        self._ids: dict[str, Any] = ids
         faces = self._mesh.faces
         count = len(self._mesh.points)
         if len(faces) and int(faces.max()) >= count:

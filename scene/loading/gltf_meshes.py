@@ -9,7 +9,7 @@ from typing import Any
 from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
-from satcheck.scene.loading.gltf_accessors import Accessors
+from satcheck.scene.loading.gltf_accessors import Accessors, Columns
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, Matrix, RawMesh
 
@@ -100,8 +100,9 @@ class Meshes:
             from satcheck.scene.loading.gltf_draco import Unpacked
 
             unpacked = Unpacked(self._accessors, packed, attributes)
-            positions, triangles = unpacked.positions(), unpacked.triangles
-            columns = unpacked.columns
+            positions: Block = unpacked.positions()
+            triangles = unpacked.triangles
+            columns: Columns = unpacked.columns
         else:
             positions = self._accessors.positions(integer(attributes, "POSITION", -1))
             triangles = self._triangles(primitive, mode, len(positions) // _VERTEX_BYTES, where)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.gltf_accessors import Columns
 from satcheck.scene.loading.raw_mesh import Block, Matrix
-
-# The elements of a vertex attribute, None where there is none of this name.
-Columns = Callable[[str, str], Sequence[tuple[float, ...]] | None]
 
 
 def morphed(positions: Block, moves: Sequence[tuple[float, Block]]) -> bytes:
