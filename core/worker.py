@@ -76,12 +76,15 @@ class Worker:
 
     The child is started by the first request, and again by the next one after it was lost. It runs
     with one OpenMP thread. Threads may share a worker: they take turns.
+
+    answered: number of requests that the present child has answered.
     """
 
     def __init__(self, module: str, *, megabytes: int) -> None:
         self._module = module
         self._megabytes = megabytes
         self._child: _Child | None = None
+        self.answered = 0
         self._turn = threading.Lock()
 
     def ask(self, request: bytes, *, seconds: float) -> bytes:
@@ -94,6 +97,7 @@ class Worker:
             deadline = time.monotonic() + seconds
             if self._child is None:
                 self._child = _Child(self._module, self._megabytes)
+                self.answered = 0
             try:
                 frame = self._child.answer(request, deadline)
             except BaseException:  # Ctrl-C
@@ -101,6 +105,7 @@ class Worker:
                 raise
             if frame is None:
                 raise self._lost(seconds)
+            self.answered += 1
             return self._reply(*frame)
 
     def close(self) -> None:
@@ -115,6 +120,7 @@ class Worker:
 
     def _end(self) -> _Child | None:
         child, self._child = self._child, None
+        self.answered = 0
         if child is not None:
             child.end()
         return child

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.bodies import Scene
+from satcheck.scene.input_kind import kind_of
 from satcheck.scene.mesh_files import (
     DEFAULT_MEGABYTES_PER_FILE,
     DEFAULT_SECONDS_PER_FILE,
@@ -18,11 +19,6 @@ from satcheck.scene.scene_builder import SceneBuilder, Split
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
-
-SCENE_SUFFIXES = frozenset((".json", ".toml"))
-ROBOT_SUFFIXES = frozenset((".urdf", ".xacro"))
-SRDF_SUFFIX = ".srdf"
-
 
 def load_scene(
     paths: Sequence[str | Path],
@@ -46,8 +42,9 @@ def load_scene(
     A `.toml` file is a scene of the form satcheck.scene/1, a `.json` file one of this form or of
     satcheck-scene-1; its groups are its own, and get -2, -3, ... where several scenes have them;
     its rules are about its own bodies, mesh files and robots, without own bodies about all.
-    A `.urdf` file is a robot at rest, a body for each <collision>; a `.srdf` file says which of its
-    links may touch. packages: where the packages lie that a URDF names, see `robot.MeshPlaces`.
+    A `.urdf` file, or one of another ending that is XML with <robot> around it, is a robot at rest,
+    a body for each <collision>; a `.srdf` file says which of its links may touch. packages: where
+    the packages lie that a URDF names, see `robot.MeshPlaces`.
     Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
     the id of their file where there are several), with -2, -3, ... where they occur again.
     allow_outside: the files that a scene, a robot or a glTF file names may lie outside of its
@@ -73,12 +70,12 @@ def load_scene(
     if split == "none":
         files.read_ahead(((path, Path(path)) for path in given if is_mesh(path)), meanwhile)
     for path in given:
-        suffix = _suffix(path)
-        if suffix in SCENE_SUFFIXES:
+        kind = kind_of(path)
+        if kind == "scene":
             builder.add_scene(scenes[path])
-        elif suffix in ROBOT_SUFFIXES:
+        elif kind == "robot":
             builder.add_robot(path, Path(path), packages, allow_outside)
-        elif suffix == SRDF_SUFFIX:
+        elif kind == "srdf":
             builder.add_srdf(path, Path(path))
         elif split == "none":
             builder.add_mesh(next(ids), path, Path(path))
@@ -89,7 +86,7 @@ def load_scene(
 
 def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFile]:
     """The scene files among the inputs, by their paths. Raises SceneFileError."""
-    paths = [path for path in given if _suffix(path) in SCENE_SUFFIXES]
+    paths = [path for path in given if kind_of(path) == "scene"]
     if not paths:
         return {}
     from satcheck.scene.format.reading import read_scene_file
@@ -105,13 +102,9 @@ def is_rules(path: str) -> bool:
 
 
 def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:
-    return bool(scenes[path].bodies) if path in scenes else _suffix(path) != SRDF_SUFFIX
-
-
-def _suffix(path: str) -> str:
-    return Path(path).suffix.lower()
+    return bool(scenes[path].bodies) if path in scenes else kind_of(path) != "srdf"
 
 
 def is_mesh(path: str) -> bool:
     """Whether it is to be read as a mesh file, and not as a scene or a robot."""
-    return _suffix(path) not in {SRDF_SUFFIX, *SCENE_SUFFIXES, *ROBOT_SUFFIXES}
+    return kind_of(path) == "mesh"

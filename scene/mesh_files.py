@@ -13,6 +13,7 @@ from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import ReadLimits, load_mesh_file
 from satcheck.scene.loading.native import NATIVE_FORMATS
+from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK
@@ -26,7 +27,10 @@ DEFAULT_MEGABYTES_PER_FILE = 2048
 
 
 class MeshFiles:
-    """Reads each file once, by whatever path and however many bodies use it."""
+    """Reads each file once, by whatever path and however many bodies use it.
+
+    Formats that need large parsers are read in a child process, which ends with this object.
+    """
 
     def __init__(
         self,
@@ -37,6 +41,7 @@ class MeshFiles:
         hashed: bool = True,
     ) -> None:
         self._limits = ReadLimits(seconds, megabytes, allow_outside, hashed)
+        self._children = ReadingChildren(megabytes)
         self._places: dict[Path, Path] = {}
         self._wholes: dict[Path, MeshFile | MeshFileError] = {}
         self._nodes: dict[tuple[Path, bool], Nodes | MeshFileError] = {}
@@ -104,7 +109,7 @@ class MeshFiles:
         load = load_mesh_file
         if is_drawing(location):
             from satcheck.scene.drawing.bodies import load_drawing as load
-        return load(path, location, self._limits)
+        return load(path, location, self._limits, self._children)
 
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
         """The file taken apart."""
@@ -122,10 +127,12 @@ class MeshFiles:
         if is_drawing(location):
             from satcheck.scene.drawing.bodies import load_shapes
 
-            return load_shapes(path, location, self._limits)
+            return load_shapes(path, location, self._limits, self._children)
         from satcheck.scene.loading.nodes import load_nodes
 
-        return load_nodes(path, location, self._limits, components=components)
+        return load_nodes(
+            path, location, self._limits, self._children, components=components
+        )
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
         """One node of the file by its path, which may end in "#" and the number of a component."""

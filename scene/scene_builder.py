@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -239,11 +239,21 @@ class SceneBuilder:
             composed=self._taken_apart or not self._only_meshes,
             issues=(
                 *self._issues,
-                *(lost.issue for lost in self._unreadable),
+                *_of_lost(self._unreadable),
                 *issues_of_files(self._bodies),
                 *([differ] if differ else ()),
             ),
         )
+
+
+def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:
+    """One issue a cause: bodies that are lost for the same reason share it."""
+    causes: dict[tuple[str, str | None, str], list[Issue]] = {}
+    for body in bodies:
+        reason = body.issue
+        causes.setdefault((reason.code, reason.file, reason.message), []).append(reason)
+    for first, *others in causes.values():
+        yield replace(first, body=None) if others else first
 
 
 def _node_id(path: str | None, file_id: str, alone: bool) -> str:

@@ -18,26 +18,31 @@ from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading import ReadLimits
 from satcheck.scene.loading.foreign import refused_by_worker
 from satcheck.scene.loading.nodes import Node, Nodes
+from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 
 
-def load_drawing(path: str, location: Path, allowed: ReadLimits) -> MeshFile:
+def load_drawing(
+    path: str, location: Path, allowed: ReadLimits, children: ReadingChildren
+) -> MeshFile:
     """An SVG or DXF file as one mesh, all its shapes together.
 
     The resolution is how far flattened curves may be off their polygons, and the rounding of the
     coordinates. Raises MeshFileError.
     """
-    source, found = _read(path, location, allowed, whole=True)
+    source, found = _read(path, location, allowed, children, whole=True)
     (sheet,) = found["sheets"]
     issues = _ignored(source, found)
     return _sheet_file(source, found["units"], {**sheet, "name": None}, issues)
 
 
-def load_shapes(path: str, location: Path, allowed: ReadLimits) -> Nodes:
+def load_shapes(
+    path: str, location: Path, allowed: ReadLimits, children: ReadingChildren
+) -> Nodes:
     """Its shapes, each a node by its name; one that cannot be used does not stop the others."""
-    source, found = _read(path, location, allowed, whole=False)
+    source, found = _read(path, location, allowed, children, whole=False)
     names = UniqueNames()
     nodes = []
     for sheet in found["sheets"]:
@@ -54,7 +59,7 @@ def _ignored(source: Source, found: dict[str, Any]) -> tuple[Issue, ...]:
 
 
 def _read(
-    path: str, location: Path, allowed: ReadLimits, *, whole: bool
+    path: str, location: Path, allowed: ReadLimits, children: ReadingChildren, *, whole: bool
 ) -> tuple[Source, dict[str, Any]]:
     source = read_source(
         path, location, max_bytes=allowed.file_bytes, formats=DRAWINGS, hashed=allowed.hashed
@@ -63,9 +68,9 @@ def _read(
         found = read_drawing(
             source.format,
             source.data,
+            children,
             whole=whole,
             seconds=allowed.seconds,
-            megabytes=allowed.megabytes,
         )
     except WorkerError as error:
         raise refused_by_worker(error, source, allowed.megabytes) from error

@@ -16,18 +16,17 @@ from satcheck.scene.errors import MeshFileError
 
 if TYPE_CHECKING:
     from satcheck.scene.drawing.sheet import Sheet
+    from satcheck.scene.loading.reading_children import ReadingChildren
 
 _WORKER = "satcheck.scene.drawing.reading"
 
 
 def read_drawing(
-    form: str, data: bytes, *, whole: bool, seconds: float, megabytes: int
+    form: str, data: bytes, children: ReadingChildren, *, whole: bool, seconds: float
 ) -> dict[str, Any]:
     """The reply as above; raises MeshFileError for a refusal, WorkerError for a child that died."""
-    from satcheck.core.worker import run_isolated
-
     request = f"{form} {'whole' if whole else 'shapes'}\n".encode() + data
-    reply = run_isolated(_WORKER, request, seconds=seconds, megabytes=megabytes)
+    reply = children.ask(_WORKER, request, seconds=seconds)
     found: dict[str, Any] = json.loads(reply)
     if "refusal" in found:
         code, message = found["refusal"]

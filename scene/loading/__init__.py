@@ -14,6 +14,7 @@ from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
+from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.resolution import file_resolution, placement_step
 
@@ -36,13 +37,16 @@ class ReadLimits:
         return self.megabytes * limits.BYTES_PER_MEGABYTE // limits.FILE_SHARE_OF_MEMORY
 
 
-def load_mesh_file(path: str, location: Path, allowed: ReadLimits) -> MeshFile:
+def load_mesh_file(
+    path: str, location: Path, allowed: ReadLimits, children: ReadingChildren
+) -> MeshFile:
     """Reads one mesh file as one mesh: all that it holds, where it places it.
 
-    path: its name in messages and reports. location: where it lies. Raises MeshFileError.
+    path: its name in messages and reports. location: where it lies. children: read the formats that
+    this process does not. Raises MeshFileError.
     """
     source = open_source(path, location, allowed)
-    scene = read_scene(source, allowed, flat=True)
+    scene = read_scene(source, allowed, children, flat=True)
     raw = _only_mesh(scene)
     return mesh_file(source, raw)
 
@@ -51,17 +55,21 @@ def open_source(path: str, location: Path, allowed: ReadLimits) -> Source:
     return read_source(path, location, max_bytes=allowed.file_bytes, hashed=allowed.hashed)
 
 
-def read_scene(source: Source, allowed: ReadLimits, *, flat: bool) -> RawScene:
+def read_scene(
+    source: Source, allowed: ReadLimits, children: ReadingChildren, *, flat: bool
+) -> RawScene:
     """The meshes of a file and where it places them; flat: as one mesh. Raises MeshFileError."""
     try:
-        return _read(source, allowed, flat)
+        return _read(source, allowed, children, flat)
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=source.path) from error.__cause__
     except (MemoryError, OverflowError, ValueError) as error:
         raise _refusal(source, error) from error
 
 
-def _read(source: Source, allowed: ReadLimits, flat: bool) -> RawScene:
+def _read(
+    source: Source, allowed: ReadLimits, children: ReadingChildren, flat: bool
+) -> RawScene:
     if source.format in NATIVE_FORMATS:
         return alone(read_native(source))
     is_gltf = source.format in ("glb", "gltf")
@@ -85,6 +93,7 @@ def _read(source: Source, allowed: ReadLimits, flat: bool) -> RawScene:
 
     return read_foreign(
         source,
+        children,
         flat=flat,
         allow_outside=allowed.allow_outside,
         seconds=allowed.seconds,

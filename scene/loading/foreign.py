@@ -6,11 +6,12 @@ before, the parser, the checks after) happens in `foreign_worker`, with a time a
 
 from __future__ import annotations
 
-from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout, run_isolated
+from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
 from satcheck.scene.codes import CODES
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import protocol
 from satcheck.scene.loading.raw_mesh import RawScene
+from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 
 _WORKER = "satcheck.scene.loading.foreign_worker"
@@ -22,7 +23,13 @@ _CODE_OF_WORKER = {
 
 
 def read_foreign(
-    source: Source, *, flat: bool, allow_outside: bool, seconds: float, megabytes: int
+    source: Source,
+    children: ReadingChildren,
+    *,
+    flat: bool,
+    allow_outside: bool,
+    seconds: float,
+    megabytes: int,
 ) -> RawScene:
     """The meshes of a GLB, glTF, 3MF or DAE file; flat: as one mesh. Raises MeshFileError."""
     directory = str(source.location.absolute().parent)
@@ -30,7 +37,7 @@ def read_foreign(
         source.format, directory, source.data, flat=flat, allow_outside=allow_outside
     )
     try:
-        reply = run_isolated(_WORKER, request, seconds=seconds, megabytes=megabytes)
+        reply = children.ask(_WORKER, request, seconds=seconds)
     except WorkerError as error:
         raise refused_by_worker(error, source, megabytes) from error
     try:

@@ -19,6 +19,7 @@ from satcheck.scene.loading import (
     read_scene,
 )
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawPart
+from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
 
@@ -49,7 +50,14 @@ class Nodes:
     issues: tuple[Issue, ...] = ()
 
 
-def load_nodes(path: str, location: Path, allowed: ReadLimits, *, components: bool) -> Nodes:
+def load_nodes(
+    path: str,
+    location: Path,
+    allowed: ReadLimits,
+    children: ReadingChildren,
+    *,
+    components: bool,
+) -> Nodes:
     """Reads one mesh file and takes it apart.
 
     components: each node once more, into parts that share no edge. They are numbered by their
@@ -57,7 +65,7 @@ def load_nodes(path: str, location: Path, allowed: ReadLimits, *, components: bo
     MeshFileError where nothing can be used.
     """
     source = open_source(path, location, allowed)
-    scene = read_scene(source, allowed, flat=False)
+    scene = read_scene(source, allowed, children, flat=False)
     splitter = _Splitter(source, components)
     meshes = [splitter.split(part) for part in scene.parts]
     _refuse_too_many(sum(len(meshes[node.part]) for node in scene.nodes), path)

@@ -14,7 +14,7 @@ from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.primitives import Primitive
 from satcheck.scene.robot.kinematics import link_poses, scaled
-from satcheck.scene.robot.model import Collision, Link, MeshReference, Robot, UnknownShape
+from satcheck.scene.robot.model import Collision, Link, MeshReference, RefusedShape, Robot
 from satcheck.scene.robot.packages import MeshPlaces
 from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf, State
@@ -78,17 +78,37 @@ class SceneRobot:
 
 def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
     """One part a <collision>: called as the link, and where that has several "link/name" or
-    "link/number"."""
+    "link/number". Parts that are lost for one cause have one message, which counts them."""
+    found = [
+        (link, collision, number, _source(collision, places))
+        for link in robot.links.values()
+        for number, collision in enumerate(link.collisions, 1)
+    ]
+    lost: dict[tuple[str, str], list[Collision]] = {}
+    for _, collision, _, source in found:
+        if isinstance(source, MeshFileError):
+            lost.setdefault((source.code, source.message), []).append(collision)
     return [
         Part(
             id=_part_id(link, collision, number),
             link=link.name,
             offset=_offset(collision),
-            source=_source(collision, places),
+            source=_placed(source, lost[source.code, source.message])
+            if isinstance(source, MeshFileError)
+            else source,
         )
-        for link in robot.links.values()
-        for number, collision in enumerate(link.collisions, 1)
+        for link, collision, number, source in found
     ]
+
+
+def _placed(cause: MeshFileError, lost: Sequence[Collision]) -> MeshFileError:
+    """The cause with what it costs, and where the file says so first."""
+    first, number = lost[0], len(lost)
+    place = f"line {first.line}"
+    if isinstance(first.geometry, MeshReference):
+        place += f": {first.geometry.uri!r}" if number == 1 else f" ({first.geometry.uri})"
+    start = place if number == 1 else f"{number} bodies, the first in {place}"
+    return MeshFileError(cause.code, f"{start}: {cause.message}")
 
 
 def bare_links(robot: Robot) -> list[Issue]:
@@ -208,9 +228,9 @@ def _source(collision: Collision, places: MeshPlaces) -> Path | Primitive | Mesh
             try:
                 return places.locate(uri)
             except MeshFileError as error:
-                return MeshFileError(error.code, f"line {collision.line}: {error.message}")
-        case UnknownShape(reason):
-            return MeshFileError("unsupported-feature", reason)
+                return error
+        case RefusedShape(code, reason):
+            return MeshFileError(code, reason)
     return collision.geometry
 
 

@@ -77,12 +77,7 @@ def _check_mimics(joints: Sequence[tuple[Joint, Element]]) -> None:
     for joint, element in joints:
         chain = [joint]
         while (mimic := chain[-1].mimic) is not None:
-            leader = by_name.get(mimic.joint)
-            if leader is None:
-                element.refuse(
-                    f"{chain[-1].name!r} mimics joint {mimic.joint!r}, which is not there",
-                    "index-out-of-range",
-                )
+            leader = by_name[mimic.joint]
             if leader.freedoms > 1:
                 element.refuse(f"{chain[-1].name!r} mimics {leader.name!r}, a {leader.kind} joint")
             if leader in chain:

@@ -25,13 +25,14 @@ class MeshReference:
 
 
 @frozen
-class UnknownShape:
-    """Geometry that is not read, and what there is to say about it."""
+class RefusedShape:
+    """Geometry that cannot be used, and why. code: of `codes.CODES`."""
 
+    code: str
     reason: str
 
 
-Geometry = MeshReference | Primitive | UnknownShape
+Geometry = MeshReference | Primitive | RefusedShape
 
 
 @frozen

@@ -1,8 +1,10 @@
-"""Where the mesh files lie that a URDF names: package://, file://, and plain paths.
+"""Where the mesh files lie that a URDF names: package://, model://, file://, and plain paths.
 
-A URDF may come from anywhere, so it does not choose what is opened: only what lies in its own
-folder, in the ROS package around it (the nearest folder above with a package.xml), or in a folder
-that the user named. Anything else needs `allow_outside`.
+A URDF may come from anywhere, so it does not choose what is opened: only what lies in its package,
+or in a folder that the user named. Anything else needs `allow_outside`.
+
+The package of a URDF is the nearest folder upwards with a package.xml (or Gazebo's model.config),
+else the folder that holds the URDF's folder, as most repositories lie: robot/urdf, robot/meshes.
 """
 
 from __future__ import annotations
@@ -14,11 +16,11 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.robot.package_name import MANIFESTS, name_in_manifest
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
+_SUBSTITUTION = re.compile(r"\$[({]")
 _PACKAGE_SCHEMES = frozenset(("package", "model"))
-_MANIFEST = "package.xml"
-_OR_A_ROOT = f"; so does a {_MANIFEST} in the nearest folder that holds both, the root of a package"
 
 
 class MeshPlaces:
@@ -26,7 +28,8 @@ class MeshPlaces:
 
     packages: the name of a package, or of a folder in it ("name/meshes"), -> where it lies; the
     longest name that fits counts. Without one a package is looked for among the folders above the
-    URDF and beside these, then in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH.
+    URDF and beside these, then in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; by the name of its
+    folder, then by the <name> in its package.xml.
     """
 
     def __init__(
@@ -39,45 +42,60 @@ class MeshPlaces:
         self._folder = Path(urdf).parent
         self._packages = {name.strip("/"): Path(place) for name, place in (packages or {}).items()}
         self._allow_outside = allow_outside
-        self._own = [folder.resolve() for folder in (self._folder, *_package_around(self._folder))]
+        self._root = self._upwards(_steps_to_root(self._folder))
+        self._own = self._root.resolve()
 
     def locate(self, uri: str) -> Path:
-        """The path of an existing file, relative where the URDF's was. Raises MeshFileError."""
+        """The path of an existing file, relative where the URDF's was.
+
+        Raises MeshFileError. Its message names the cause and not the file, so that files that are
+        lost for the same cause have the same message.
+        """
         if "\0" in uri:
-            raise MeshFileError("bad-record", f"mesh path {uri!r} holds a NUL character")
+            raise MeshFileError("bad-record", "the path holds a NUL character")
+        if _SUBSTITUTION.search(uri):
+            message = "$(...) is a macro that xacro replaces: expand the file first"
+            raise MeshFileError("xacro", message)
         match = _SCHEME.fullmatch(uri)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", uri)
         if scheme in _PACKAGE_SCHEMES:
-            return self._in_package(uri, rest.lstrip("/"))  # some write package:///name
+            return self._in_package(rest.replace("\\", "/").lstrip("/"))  # some write package:///
         if scheme not in ("", "file"):
-            raise MeshFileError("unsupported-feature", f"{uri}: {scheme}:// is not fetched")
-        place = _tidy(self._folder / (unquote(rest) if scheme else rest))
-        if not place.is_file():
-            raise MeshFileError("missing-resource", f"mesh file {uri!r} is missing (no {place})")
+            raise MeshFileError("unsupported-feature", f"{scheme}:// is not fetched")
+        place = _existing(self._folder, rest, quoted=scheme == "file")
         if not self._may_open(place):
             raise MeshFileError(
-                "outside-path", f"{self._outside(uri, place)}: --allow-outside lets it{_OR_A_ROOT}"
+                "outside-path",
+                f"it lies {self._outside()}: --allow-outside lets it, and so does a package.xml "
+                "in the folder that holds both",
             )
         return place
 
-    def _in_package(self, uri: str, rest: str) -> Path:
+    def _in_package(self, rest: str) -> Path:
         name, _, inner = rest.partition("/")
         if named := self._named(rest):
-            if not named.is_file():
-                raise MeshFileError("missing-resource", f"{uri}: there is no {named}")
             return named
-        found = [folder for folder in self._candidates(name) if folder.is_dir()]
-        places = [place for folder in found if (place := _tidy(folder / inner)).is_file()]
-        for place in places:
+        found = [folder for folder in self._folders_of(name) if folder.is_dir()]
+        places = []
+        reasons = []
+        for folder in found:
+            try:
+                place = _existing(folder, inner, quoted=True)
+            except MeshFileError as error:
+                reasons.append(error)
+                continue
             if self._may_open(place) or _is_from_environment(place):
                 return place
-        give = f"--package {name}=DIR"
+            places.append(place)
         if places:
-            leave = f"--allow-outside or {give} lets it{_OR_A_ROOT}"
-            message = f"{self._outside(uri, places[0])}: {leave}"
+            message = f"package {name!r} lies {self._outside()}: --package {name}={found[0]} lets it"
             raise MeshFileError("outside-path", message)
-        looked = f"there is no {_tidy(found[0] / inner)}" if found else "the package is not found"
-        raise MeshFileError("missing-resource", f"{uri}: {looked}: {give} says where it lies")
+        if reasons:
+            hint = f"--package {name}=DIR names another package"
+            raise MeshFileError(reasons[0].code, f"{reasons[0].message}: {hint}")
+        likely = self._own if (self._own / inner).is_file() else "DIR"
+        message = f"package {name!r} is not found: --package {name}={likely} says where it lies"
+        raise MeshFileError("missing-resource", message)
 
     def _named(self, rest: str) -> Path | None:
         """By the user's own mapping, which is trusted as far as its folder reaches."""
@@ -85,35 +103,75 @@ class MeshPlaces:
         for length in range(len(parts), 0, -1):
             folder = self._packages.get("/".join(parts[:length]))
             if folder is not None:
-                place = _tidy(folder.joinpath(*parts[length:]))
-                if not self._allow_outside and not _within(place, folder.resolve()):
-                    raise MeshFileError(
-                        "outside-path", f"package://{rest} leaves {folder}: refused"
-                    )
-                return place
+                inside = "/".join(parts[length:])
+                if not self._allow_outside and not _within(folder / inside, folder.resolve()):
+                    raise MeshFileError("outside-path", f"the path leaves {folder}: refused")
+                return _existing(folder, inside, quoted=True)
         return None
 
-    def _candidates(self, name: str) -> Iterator[Path]:
+    def _folders_of(self, name: str) -> Iterator[Path]:
+        """Where a package of that name may lie, the most likely place first."""
+        yield from self._by_folder_name(name)
+        yield from self._by_manifest(name)
+
+    def _by_folder_name(self, name: str) -> Iterator[Path]:
         absolute = self._folder.absolute()
         for steps, above in enumerate((absolute, *absolute.parents)):
-            folder = _tidy(self._folder.joinpath(*[".."] * steps))
+            folder = self._upwards(steps)
             if above.name == name:
                 yield folder
             yield folder / name
         for root in _environment():
             yield root if root.name == name else root / name
 
+    def _by_manifest(self, name: str) -> Iterator[Path]:
+        for root in (self._root, *_environment()):
+            for folder in (root, *_folders_in(root)):
+                if name_in_manifest(folder) == name:
+                    yield folder
+
+    def _upwards(self, steps: int) -> Path:
+        return _tidy(self._folder.joinpath(*[".."] * steps))
+
     def _may_open(self, place: Path) -> bool:
-        return self._allow_outside or any(_within(place, folder) for folder in self._own)
+        return self._allow_outside or _within(place, self._own)
 
-    def _outside(self, uri: str, place: Path) -> str:
-        return f"{uri} is {place}, outside the folder of the URDF"
+    def _outside(self) -> str:
+        return f"outside of {self._own}, where the package of the URDF is"
 
 
-def _package_around(folder: Path) -> list[Path]:
+def _steps_to_root(folder: Path) -> int:
+    """How far the package lies above the folder of the URDF. Without a manifest it is one step,
+    but never the root of the file system."""
     absolute = folder.absolute()
     around = (absolute, *absolute.parents)
-    return [above for above in around if (above / _MANIFEST).is_file()][:1]
+    for steps, above in enumerate(around):
+        if any((above / manifest).is_file() for manifest in MANIFESTS):
+            return steps
+    return 1 if len(around) > 2 else 0
+
+
+def _existing(folder: Path, path: str, *, quoted: bool) -> Path:
+    r"""The file at `path` from `folder`. quoted: %20 may stand for a space.
+
+    A path is taken as it stands where it exists, then with \ for /, as Windows writes it.
+    """
+    spellings = [path, unquote(path)] if quoted else [path]
+    spellings += [spelling.replace("\\", "/") for spelling in spellings if "\\" in spelling]
+    places = [_tidy(folder / spelling) for spelling in spellings]
+    for place in places:
+        if place.is_file():
+            return place
+    above = places[-1].parent
+    what = f"the file is not in {above}" if above.is_dir() else f"there is no folder {above}"
+    raise MeshFileError("missing-resource", what)
+
+
+def _folders_in(folder: Path) -> list[Path]:
+    try:
+        return sorted(entry for entry in folder.iterdir() if entry.is_dir())
+    except OSError:  # a variable may name folders that are not there
+        return []
 
 
 def _environment() -> list[Path]:

@@ -16,11 +16,11 @@ _DIGITS = 6
 def joint_samples(
     robots: Sequence[Robot], count: int, seed: int, fixed: Pose | None = None
 ) -> list[Pose]:
-    """`count` poses, uniform within the limits; continuous joints from -pi to pi.
+    """`count` poses, uniform within the limits; joints that turn without any from -pi to pi.
 
     Each value is rounded to six significant digits. The first poses of a longer list are those of a
     shorter one; no machine or version of Python changes them. Joints of `fixed` keep its values;
-    planar and floating joints, which have no limits, stay at 0, and mimics follow.
+    joints that slide without limits stay at 0, planar and floating ones too; mimics follow.
     """
     # Random.random() is the one method whose sequence Python promises to keep.
     draw = random.Random(seed).random
@@ -38,9 +38,9 @@ def joint_samples(
 
 
 def _range(joint: Joint) -> tuple[float, float]:
-    if joint.limits is None:
-        return -math.pi, math.pi
-    return joint.limits.lower, joint.limits.upper
+    if joint.limits is not None:
+        return joint.limits.lower, joint.limits.upper
+    return (0.0, 0.0) if joint.kind == "prismatic" else (-math.pi, math.pi)
 
 
 def _between(low: float, high: float, share: float) -> float:

@@ -1,20 +1,22 @@
-"""URDF -> Robot, strictly: what would move a body, or make it vanish, is refused with its line.
+"""URDF -> Robot. What could move, hide or reshape a body is an error, any other slip a warning.
 
-The format: http://wiki.ros.org/urdf/XML. Only what places geometry is read. Elements that cannot
-change where it lies (inertial, transmission, gazebo, ...) are passed over; one that is unknown
-inside a link or a joint is a warning, for it may be a misspelt one.
+The format: http://wiki.ros.org/urdf/XML. Only what places geometry is read. A fault of a joint or
+of a link refuses the robot, with its line; one inside a <collision> costs that body only. Elements
+that cannot change where a body lies (inertial, transmission, gazebo, ...) are passed over; one that
+is unknown inside a link or a joint is a warning, for it may be a misspelt one.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import get_args
+from typing import NoReturn, get_args
 
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.issue import Issue, issue
+from satcheck.scene.errors import SceneFileError
+from satcheck.scene.issue import Issue
 from satcheck.scene.primitives import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
@@ -27,19 +29,27 @@ from satcheck.scene.robot.model import (
     Link,
     MeshReference,
     Mimic,
+    RefusedShape,
     Robot,
-    UnknownShape,
     Vector,
 )
+from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, read_tree
 
 _KINDS: tuple[JointKind, ...] = get_args(JointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the axis where none is given
 _LIMITED = ("revolute", "prismatic")
+_UNLIMITED = "taken to have no limits"
 _LINK_PARTS = frozenset(("collision", "visual", "inertial"))
 _JOINT_PARTS = frozenset(
     ("origin", "parent", "child", "axis", "limit", "mimic", "dynamics", "calibration")
 ) | {"safety_controller"}
+_SIZES: dict[str, dict[str, int]] = {  # shape -> its sizes -> how many numbers each is
+    "box": {"size": 3},
+    "sphere": {"radius": 1},
+    "cylinder": {"radius": 1, "length": 1},
+    "capsule": {"radius": 1, "length": 1},
+}
 _COLLISION_PARTS = frozenset(("origin", "geometry"))
 # What simulators add to links, joints and collisions, and what places nothing.
 _EXTENSIONS = frozenset(("contact", "material", "sensor", "verbose", "hardwareInterface", "limits"))
@@ -56,7 +66,7 @@ def read_urdf(path: str, location: Path) -> tuple[Robot, tuple[Issue, ...]]:
 class _Reader:
     def __init__(self, path: str) -> None:
         self._path = path
-        self._unknown: dict[str, list[tuple[Element, str]]] = {}
+        self._slips = Slips()
 
     def read(self, root: Element) -> tuple[Robot, tuple[Issue, ...]]:
         links: dict[str, Link] = {}
@@ -67,88 +77,137 @@ class _Reader:
             links[link.name] = link
         if not links:
             root.refuse("a robot without links")
+        names = [element.text("name") for element in root.all("joint")]
         joints: dict[str, tuple[Joint, Element]] = {}
         for element in root.all("joint"):
-            joint = self._joint(element)
+            joint = self._joint(element, names)
             if joint.name in joints:
                 element.refuse(f"a second joint {joint.name!r}", "duplicate-id")
             joints[joint.name] = joint, element
         base, ordered = in_order(root, links, list(joints.values()))
         name = root.attributes.get("name") or Path(self._path).stem
-        return Robot(name, self._path, base, links, ordered), self._unknown_elements()
+        return Robot(name, self._path, base, links, ordered), self._slips.issues(self._path)
 
     def _link(self, element: Element) -> Link:
         name = element.text("name")
         self._note_unknown(element, _LINK_PARTS)
+        found = (self._collision(one) for one in element.all("collision"))
         return Link(
             name=name,
-            collisions=tuple(self._collision(one) for one in element.all("collision")),
+            collisions=tuple(collision for collision in found if collision is not None),
             visual=bool(element.all("visual")),
         )
 
-    def _collision(self, element: Element) -> Collision:
+    def _collision(self, element: Element) -> Collision | None:
+        """None: there is nothing that could collide, and a warning says so."""
         self._note_unknown(element, _COLLISION_PARTS)
-        geometry = element.need("geometry")
-        shapes = geometry.children
-        if len(shapes) != 1:
-            geometry.refuse(f"should hold one shape, not {len(shapes)}")
-        return Collision(
-            name=element.attributes.get("name") or None,
-            origin=_origin(element),
-            geometry=_geometry(shapes[0]),
-            line=element.line,
-        )
+        name = element.attributes.get("name") or None
+        try:
+            shape = _only_shape(element)
+            if shape is None:
+                self._slips.note("no-shape", element, "a <collision> without geometry: no body")
+                return None
+            if _is_point(shape):
+                self._slips.note("no-shape", shape, f"a <{shape.tag}> of size 0: no body")
+                return None
+            return Collision(name, _origin(element), _geometry(shape), element.line)
+        except SceneFileError as error:
+            return Collision(name, IDENTITY, RefusedShape(error.code, error.message), element.line)
 
-    def _joint(self, element: Element) -> Joint:
+    def _joint(self, element: Element, names: Sequence[str]) -> Joint:
         name = element.text("name")
         self._note_unknown(element, _JOINT_PARTS)
         given = element.text("type")
         kind = next((kind for kind in _KINDS if kind == given), None)
         if kind is None:
             element.refuse(f"type {given!r} is none of {', '.join(_KINDS)}")
-        mimic = element.only("mimic") if kind != "fixed" else None
-        if mimic is not None and kind in ("planar", "floating"):
-            mimic.refuse(f"a {kind} joint cannot mimic another")
         return Joint(
             name=name,
             kind=kind,
             parent=element.need("parent").text("link"),
             child=element.need("child").text("link"),
             origin=_origin(element),
-            axis=_X if kind in ("fixed", "floating") else _axis(element.only("axis")),
+            axis=_X if kind in ("fixed", "floating") else self._axis(element),
             limits=self._limits(element, kind),
-            mimic=None if mimic is None else _mimic(mimic),
+            mimic=None if kind == "fixed" else self._mimic(element, kind, names),
         )
+
+    def _axis(self, joint: Element) -> Vector:
+        """Of length 1; one that has it already stays as it is, to the bit."""
+        element = joint.only("axis")
+        if element is None:
+            return _X
+        element.knows(("xyz",), others=True)
+        for name in sorted(element.attributes.keys() - {"xyz"}):
+            self._slips.note("unknown-attribute", element, f"{name!r} of an <axis> is ignored")
+        axis = _vector(element, "xyz", _X)
+        length = math.hypot(*axis)
+        if not (length > 0.0 and math.isfinite(length)):
+            element.refuse("an axis of length 0" if length == 0.0 else "the axis is too long")
+        x, y, z = (c / length for c in axis)
+        return x, y, z
 
     def _limits(self, element: Element, kind: JointKind) -> Limits | None:
         limit = element.only("limit")
         if kind not in _LIMITED:
             return None
         if limit is None:
-            element.refuse(f"a {kind} joint without <limit>: how far it goes has to be said")
+            self._slips.note("no-limits", element, f"a {kind} joint without <limit>: {_UNLIMITED}")
+            return None
         limit.knows(("lower", "upper"), others=True)
         limits = Limits(limit.number("lower", 0.0), limit.number("upper", 0.0))
         if limits.lower > limits.upper:
-            limit.refuse(f"lower {limits.lower:g} is above upper {limits.upper:g}")
+            self._slips.note("no-limits", limit, f"lower is above upper: {_UNLIMITED}")
+            return None
         return limits
+
+    def _mimic(self, joint: Element, kind: JointKind, names: Sequence[str]) -> Mimic | None:
+        element = joint.only("mimic")
+        if element is None:
+            return None
+        if kind in ("planar", "floating"):
+            element.refuse(f"a {kind} joint cannot mimic another")
+        element.knows(("joint", "multiplier", "offset"))
+        mimic = Mimic(
+            joint=element.text("joint"),
+            multiplier=element.number("multiplier", 1.0),
+            offset=element.number("offset", 0.0),
+        )
+        if mimic.joint in names:
+            return mimic
+        missing = f"mimics joint {mimic.joint!r}, which is not there"
+        if mimic.offset:  # where it stands depends on what is missing
+            element.refuse(missing, "index-out-of-range")
+        self._slips.note("no-leader", element, "mimics a joint that is not there: moves by itself")
+        return None
 
     def _note_unknown(self, element: Element, known: frozenset[str]) -> None:
         for child in element.children:
             if child.tag not in known and child.tag not in _EXTENSIONS and ":" not in child.tag:
                 close = get_close_matches(child.tag, sorted(known), n=1)
                 hint = f" (did you mean <{close[0]}>?)" if close else ""
-                found = self._unknown.setdefault(child.tag, [])
-                found.append((child, f"in <{element.tag}>{hint}"))
+                cause = f"unknown <{child.tag}> in <{element.tag}>{hint}: ignored"
+                self._slips.note("unknown-element", child, cause)
 
-    def _unknown_elements(self) -> tuple[Issue, ...]:
-        """A warning for each name."""
-        issues = []
-        for tag, found in self._unknown.items():
-            first, where = found[0]
-            more = f", and {len(found) - 1} more" if len(found) > 1 else ""
-            message = f"line {first.line}: unknown <{tag}> {where}{more}: ignored"
-            issues.append(issue("unknown-element", message, file=self._path))
-        return tuple(issues)
+
+def _only_shape(collision: Element) -> Element | None:
+    """None where the collision says nothing of a shape, in no spelling."""
+    geometry = collision.only("geometry")
+    if geometry is None:
+        if all(child.tag in _COLLISION_PARTS for child in collision.children):
+            return None
+        collision.refuse("<geometry> is missing")
+    if len(geometry.children) > 1:
+        geometry.refuse(f"should hold one shape, not {len(geometry.children)}")
+    return geometry.children[0] if geometry.children else None
+
+
+def _is_point(shape: Element) -> bool:
+    """Whether all sizes are 0: nothing that could collide."""
+    sizes = _SIZES.get(shape.tag, {})
+    return bool(sizes) and sizes.keys() == shape.attributes.keys() and not any(
+        any(shape.numbers(name, count)) for name, count in sizes.items()
+    )
 
 
 def _geometry(shape: Element) -> Geometry:
@@ -158,9 +217,8 @@ def _geometry(shape: Element) -> Geometry:
         shape.refuse(str(error))
 
 
-def _unknown(shape: Element) -> UnknownShape:
-    known = ", ".join(_SHAPES)
-    return UnknownShape(f"line {shape.line}: <{shape.tag}> is no geometry that is read ({known})")
+def _unknown(shape: Element) -> NoReturn:
+    shape.refuse(f"no geometry that is read ({', '.join(_SHAPES)})", "unsupported-feature")
 
 
 def _mesh(shape: Element) -> MeshReference:
@@ -215,28 +273,6 @@ def _origin(owner: Element) -> tuple[float, ...]:
     if math.hypot(x, y, z, w) == 0.0:
         origin.refuse("a quaternion of length 0")
     return from_quaternion(xyz, (x, y, z, w))
-
-
-def _axis(element: Element | None) -> Vector:
-    """Of length 1; one that has it already stays as it is, to the bit."""
-    if element is None:
-        return _X
-    element.knows(("xyz",))
-    axis = _vector(element, "xyz", _X)
-    length = math.hypot(*axis)
-    if not (length > 0.0 and math.isfinite(length)):
-        element.refuse("an axis of length 0" if length == 0.0 else "the axis is too long")
-    x, y, z = (c / length for c in axis)
-    return x, y, z
-
-
-def _mimic(element: Element) -> Mimic:
-    element.knows(("joint", "multiplier", "offset"))
-    return Mimic(
-        joint=element.text("joint"),
-        multiplier=element.number("multiplier", 1.0),
-        offset=element.number("offset", 0.0),
-    )
 
 
 def _vector(element: Element, attribute: str, default: Vector | None = None) -> Vector:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -20,6 +20,11 @@ _MAX_BYTES = 64 << 20
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
 _XACRO = re.compile(r"\$[({]")
 EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE.urdf)"
+_XACRO_NAMESPACE = "xacro"  # at the end of its URI; the prefix is free
+# Xacro that makes no element: definitions, and anything within what places no geometry.
+_DEFINES = frozenset(("property", "arg", "macro"))
+_PLACES_NOTHING = frozenset(("visual", "inertial", "gazebo", "transmission", "material"))
+_DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
 @dataclass(slots=True)
@@ -36,11 +41,20 @@ class Element:
         return [child for child in self.children if child.tag == tag]
 
     def only(self, tag: str) -> Element | None:
-        """The one child of that name, or None; several are refused."""
+        """The one child of that name, or None; several are refused unless they say the same."""
         found = self.all(tag)
-        if len(found) > 1:
-            found[1].refuse(f"a second <{tag}> in one <{self.tag}>")
+        for other in found[1:]:
+            if not other.says_the_same_as(found[0]):
+                other.refuse(f"a second <{tag}> in one <{self.tag}>")
         return found[0] if found else None
+
+    def says_the_same_as(self, other: Element) -> bool:
+        return (
+            self.tag == other.tag
+            and self.attributes == other.attributes
+            and len(self.children) == len(other.children)
+            and all(map(Element.says_the_same_as, self.children, other.children))
+        )
 
     def need(self, tag: str) -> Element:
         return self.only(tag) or self.refuse(f"<{tag}> is missing")
@@ -111,7 +125,50 @@ def read_tree(path: str, location: Path, root: str) -> Element:
     document = _parse(path, data)
     if document.tag != root:
         document.refuse(f"the outermost element should be <{root}>", "not-this-format")
+    _refuse_macros(document)
     return document
+
+
+def _refuse_macros(document: Element) -> None:
+    """Macros that may stand for geometry: nobody knows what a file holds before they expand."""
+    prefixes = tuple(
+        f"{name.removeprefix('xmlns:')}:"
+        for name, uri in document.attributes.items()
+        if name.startswith("xmlns:") and uri.endswith(_XACRO_NAMESPACE)
+    )
+    found = list(_macros(document, (*prefixes, "xacro:")))
+    if found:
+        more = f", and {len(found) - 1} more elements are" if len(found) > 1 else ""
+        found[0].refuse(f"{EXPAND}{more}", "xacro")
+
+
+def _macros(element: Element, prefixes: tuple[str, ...]) -> Iterator[Element]:
+    for child in element.children:
+        prefix, _, name = child.tag.rpartition(":")
+        if f"{prefix}:" in prefixes:
+            if name not in _DEFINES:
+                yield child
+        elif child.tag not in _PLACES_NOTHING:
+            yield from _macros(child, prefixes)
+
+
+def first_tags(head: bytes, count: int) -> list[str]:
+    """The names of the first elements of a document that may be cut off; fewer of what is no XML
+    any more."""
+    parser = guarded_parser(namespaces=False)
+    tags: list[str] = []
+    parser.StartElementHandler = lambda tag, _: tags.append(tag)
+    try:
+        parse_xml(lambda: parser.Parse(_with_declaration_first(head), False))
+    except MeshFileError:
+        pass  # said by the reader
+    return tags[:count]
+
+
+def _with_declaration_first(data: bytes) -> bytes:
+    """Lines or spaces before <?xml ...?>, a common slip, move behind it: lines keep their numbers
+    but for the first."""
+    return _DECLARATION.sub(rb"\2\1", data)
 
 
 def _parse(path: str, data: bytes) -> Element:
@@ -121,15 +178,13 @@ def _parse(path: str, data: bytes) -> Element:
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         element = Element(tag, attributes, parser.CurrentLineNumber, path)
-        if tag.startswith("xacro:"):
-            element.refuse(EXPAND, "xacro")
         around[-1].children.append(element)
         around.append(element)
 
     parser.StartElementHandler = start
     parser.EndElementHandler = lambda _: around.pop()
     try:
-        parse_xml(lambda: parser.Parse(data, True))
+        parse_xml(lambda: parser.Parse(_with_declaration_first(data), True))
     except MeshFileError as error:
         still = around[-1]
         ends = (

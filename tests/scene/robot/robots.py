@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene import SceneFileError
+from satcheck.scene import Issue, SceneFileError
 from satcheck.scene.robot import Robot, read_urdf
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
@@ -30,9 +30,13 @@ def robot_of(*elements: str) -> str:
 
 
 def read(folder: Path, text: str) -> Robot:
+    return read_with_issues(folder, text)[0]
+
+
+def read_with_issues(folder: Path, text: str) -> tuple[Robot, tuple[Issue, ...]]:
     path = folder / "r.urdf"
     path.write_text(text)
-    return read_urdf("r.urdf", path)[0]
+    return read_urdf("r.urdf", path)
 
 
 def refusal(folder: Path, text: str) -> tuple[str, str]:

@@ -11,8 +11,8 @@ from tests.scene.robot.robots import joint, link, read, refusal, robot_of
 LINKS = [link(name) for name in "abc"]
 
 
-def mimic(leader: str) -> str:
-    return f'<mimic joint="{leader}"/>'
+def mimic(leader: str, offset: float = 0.0) -> str:
+    return f'<mimic joint="{leader}" offset="{offset}"/>'
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_joints_come_after_those_that_carry_them(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("first", "second", "code", "said"),
     [
-        (("continuous", mimic("x")), ("continuous", ""), "index-out-of-range", "mimics joint 'x'"),
+        (("continuous", mimic("x", 1)), ("continuous", ""), "index-out-of-range", "mimics joint 'x'"),
         (("continuous", mimic("j")), ("continuous", ""), "reference-cycle", "mimics itself"),
         (
             ("continuous", mimic("k")),

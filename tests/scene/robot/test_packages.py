@@ -40,7 +40,7 @@ def test_beside_the_urdf(tmp_path: Path) -> None:
     assert places(tmp_path).locate(f"file://{tmp_path}/meshes/a%20b.stl") == mesh
     code, message = refusal(places(tmp_path), "meshes/b.stl")
     assert code == "missing-resource"
-    assert str(tmp_path / "meshes" / "b.stl") in message
+    assert str(tmp_path / "meshes") in message
 
 
 def test_relative_paths_stay_relative(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -51,17 +51,85 @@ def test_relative_paths_stay_relative(tmp_path: Path, monkeypatch: pytest.Monkey
     assert MeshPlaces("urdf/r.urdf").locate("package://arm/urdf/a.stl") == Path("urdf/a.stl")
 
 
-def test_outside_its_folder_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> None:
-    mesh = file(tmp_path / "meshes" / "a.stl")
-    urdf = tmp_path / "urdf"
+def test_without_a_package_xml_the_package_is_the_folder_around_that_of_the_urdf(
+    tmp_path: Path,
+) -> None:
+    mesh = file(tmp_path / "arm" / "meshes" / "a.stl")
+    urdf = tmp_path / "arm" / "urdf"
     urdf.mkdir()
+    for uri in ("../meshes/a.stl", str(mesh), f"file://{mesh}", "package://arm/meshes/a.stl"):
+        assert places(urdf).locate(uri) == mesh
+
+
+def test_outside_its_package_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "meshes" / "a.stl")
+    urdf = tmp_path / "arm" / "urdf"
+    urdf.mkdir(parents=True)
     (urdf / "link.stl").symlink_to(mesh)
-    for uri in ("../meshes/a.stl", str(mesh), f"file://{mesh}", "link.stl"):
+    for uri in ("../../meshes/a.stl", str(mesh), f"file://{mesh}", "link.stl"):
         code, message = refusal(places(urdf), uri)
         assert code == "outside-path"
+        assert str(tmp_path / "arm") in message
         assert "--allow-outside" in message
-        assert "so does a package.xml in the nearest folder that holds both" in message
+        assert "so does a package.xml in the folder that holds both" in message
         assert places(urdf, allow_outside=True).locate(uri).samefile(mesh)
+
+
+def test_a_package_xml_is_the_border_however_near(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "meshes" / "a.stl")
+    file(tmp_path / "arm" / "package.xml")
+    assert refusal(places(tmp_path / "arm"), "../meshes/a.stl")[0] == "outside-path"
+    file(tmp_path / "package.xml")
+    (tmp_path / "arm" / "package.xml").unlink()
+    assert places(tmp_path / "arm" / "urdf" / "old").locate("../../../meshes/a.stl") == mesh
+
+
+def test_the_root_of_the_file_system_is_no_package() -> None:
+    assert MeshPlaces("/x/r.urdf")._root == Path("/x")
+
+
+MANIFEST = '<?xml version="1.0"?><package format="2"><name> arm_description </name></package>'
+
+
+@pytest.mark.parametrize("manifest", [MANIFEST, f"<!-- a name -->{MANIFEST[21:]}"])
+def test_a_package_has_the_name_that_it_gives_itself(tmp_path: Path, manifest: str) -> None:
+    mesh = file(tmp_path / "arm-main" / "meshes" / "a.stl")
+    (tmp_path / "arm-main" / "package.xml").write_text(manifest)
+    urdf = tmp_path / "arm-main" / "urdf"
+    urdf.mkdir()
+    assert places(urdf).locate("package://arm_description/meshes/a.stl") == mesh
+    assert refusal(places(urdf), "package://other/meshes/a.stl")[0] == "missing-resource"
+    (tmp_path / "arm-main" / "package.xml").write_text("<package><name>arm_desc")
+    assert refusal(places(urdf), "package://arm_description/meshes/a.stl")[0] == "missing-resource"
+
+
+def test_ros_packages_have_the_names_that_they_give_themselves(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = file(tmp_path / "ws" / "arm-main" / "a.stl")
+    (tmp_path / "ws" / "arm-main" / "package.xml").write_text(MANIFEST)
+    monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path / 'gone'}:{tmp_path / 'ws'}")
+    urdf = tmp_path / "a" / "b"
+    urdf.mkdir(parents=True)
+    assert places(urdf).locate("package://arm_description/a.stl") == mesh
+
+
+def test_windows_separators_and_quoted_spaces(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "arm" / "meshes" / "a b.stl")
+    urdf = tmp_path / "arm" / "urdf"
+    urdf.mkdir()
+    for uri in (
+        "..\\meshes\\a b.stl",
+        "package://arm\\meshes\\a b.stl",
+        "package://arm/meshes/a%20b.stl",
+    ):
+        assert places(urdf).locate(uri) == mesh
+
+
+def test_a_file_that_is_there_as_it_is_written_counts(tmp_path: Path) -> None:
+    mesh = file(tmp_path / "a%20b.stl")
+    file(tmp_path / "a b.stl")
+    assert places(tmp_path).locate("package://x/a%20b.stl".replace("x", tmp_path.name)) == mesh
 
 
 def test_the_package_around_a_urdf_belongs_to_it(tmp_path: Path) -> None:
@@ -82,7 +150,7 @@ def test_a_package_beside_is_found_but_has_to_be_allowed(tmp_path: Path) -> None
     uri = "package://meshes_of_arm/a.stl"
     code, message = refusal(places(urdf), uri)
     assert code == "outside-path"
-    assert "--package meshes_of_arm=DIR" in message
+    assert f"--package meshes_of_arm={mesh.parent} lets it" in message
     assert places(urdf, allow_outside=True).locate(uri) == mesh
     assert places(urdf, packages={"meshes_of_arm": mesh.parent}).locate(uri) == mesh
 
@@ -123,6 +191,10 @@ def test_the_longest_name_given_counts_and_is_trusted_as_far_as_its_folder(tmp_p
         ("package://nowhere/a.stl", "missing-resource", "--package nowhere=DIR"),
         ("https://example.org/a.stl", "unsupported-feature", "https:// is not fetched"),
         ("a\0.stl", "bad-record", "NUL"),
+        ("$(find arm)/a.stl", "xacro", "expand the file first"),
+        ("file://$(find arm)/a.stl", "xacro", "expand the file first"),
+        ("meshes/a.stl", "missing-resource", "there is no folder"),
+        ("a.stl", "missing-resource", "the file is not in"),
     ],
 )
 def test_what_is_not_found(tmp_path: Path, uri: str, code: str, said: str) -> None:

@@ -7,9 +7,18 @@ from pathlib import Path
 import pytest
 
 from satcheck.scene.primitives import Box, Capsule, Cylinder, Sphere
-from satcheck.scene.robot.model import Limits, MeshReference, Mimic, UnknownShape
+from satcheck.scene.robot.model import Limits, MeshReference, Mimic, RefusedShape
 from satcheck.scene.robot.urdf import read_urdf
-from tests.scene.robot.robots import SAMPLES, joint, link, read, refusal, robot_of
+from tests.scene.robot.robots import (
+    BOX,
+    SAMPLES,
+    joint,
+    link,
+    read,
+    read_with_issues,
+    refusal,
+    robot_of,
+)
 
 LIMIT = '<limit lower="-1" upper="2"/>'
 
@@ -58,14 +67,14 @@ def test_shapes(tmp_path: Path, shape: str, expected: object) -> None:
 def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Path) -> None:
     robot = read(tmp_path, robot_of(geometry("<plane/>")))
     shape = robot.links["a"].collisions[0].geometry
-    assert isinstance(shape, UnknownShape)
+    assert isinstance(shape, RefusedShape)
+    assert shape.code == "unsupported-feature"
     assert shape.reason.startswith("line 2: <plane>")
 
 
 @pytest.mark.parametrize(
     ("shape", "said"),
     [
-        ("", "should hold one shape, not 0"),
         ('<sphere radius="1"/><sphere radius="1"/>', "should hold one shape, not 2"),
         ('<box size="1 2"/>', 'size="1 2" should be 3 numbers'),
         ('<box size="1 2 nan"/>', 'size="nan" is no finite number'),
@@ -73,6 +82,8 @@ def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Pat
         ('<box size="1 2 1_0"/>', 'size="1_0" is no finite number'),
         ('<box size="1,0 2 3"/>', 'size="1,0" is no finite number'),
         ('<box size="1 2 0"/>', "should be positive"),
+        ('<cylinder radius="0" length="1"/>', "should be positive"),
+        ('<sphere radius="x"/>', "is no finite number"),
         ('<box sise="1 2 3"/>', "unknown attribute 'sise' (did you mean 'size'?)"),
         ("<box/>", 'attribute "size" is missing'),
         ('<sphere radius="-1"/>', "should be positive"),
@@ -82,10 +93,40 @@ def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Pat
         ('<mesh filename="a.stl" scale="2"/>', 'scale="2" should be 3 numbers'),
     ],
 )
-def test_wrong_shapes_are_refused_with_their_line(tmp_path: Path, shape: str, said: str) -> None:
-    _, message = refusal(tmp_path, robot_of("", geometry(shape)))
-    assert message.startswith("line 3: <")
-    assert said in message
+def test_a_wrong_shape_costs_its_body_only(tmp_path: Path, shape: str, said: str) -> None:
+    robot = read(tmp_path, robot_of("", geometry(shape), link("b"), joint("j", "a", "b")))
+    assert isinstance(robot.links["b"].collisions[0].geometry, Box)
+    found = robot.links["a"].collisions[0].geometry
+    assert isinstance(found, RefusedShape)
+    assert found.reason.startswith("line 3: <")
+    assert said in found.reason
+
+
+@pytest.mark.parametrize(
+    ("collision", "said"),
+    [
+        ("<collision/>", "a <collision> without geometry: no body"),
+        ("<collision><geometry/></collision>", "a <collision> without geometry: no body"),
+        (geometry('<box size="0 0 0"/>')[len('<link name="a">') : -7], "a <box> of size 0"),
+        (geometry('<sphere radius="0.0"/>')[len('<link name="a">') : -7], "a <sphere> of size 0"),
+    ],
+)
+def test_what_has_no_extent_has_no_body(tmp_path: Path, collision: str, said: str) -> None:
+    robot, issues = read_with_issues(tmp_path, robot_of(link("a", collision + collision)))
+    assert robot.links["a"].collisions == ()
+    (found,) = issues
+    assert found.code == "no-shape"
+    assert found.severity == "warning"
+    assert found.message.startswith("line 2: ")
+    assert said in found.message
+    assert found.message.endswith("(2 times)")
+
+
+def test_a_misspelt_geometry_is_not_passed_over(tmp_path: Path) -> None:
+    text = robot_of(link("a", '<collision><geometri><box size="1 1 1"/></geometri></collision>'))
+    found = read(tmp_path, text).links["a"].collisions[0].geometry
+    assert isinstance(found, RefusedShape)
+    assert "<geometry> is missing" in found.reason
 
 
 @pytest.mark.parametrize(
@@ -100,23 +141,26 @@ def test_wrong_shapes_are_refused_with_their_line(tmp_path: Path, shape: str, sa
     ],
 )
 def test_wrong_origins(tmp_path: Path, origin: str, said: str) -> None:
-    assert said in refusal(tmp_path, robot_of(geometry('<box size="1 1 1"/>', origin)))[1]
+    text = robot_of(geometry('<box size="1 1 1"/>', origin))
+    found = read(tmp_path, text).links["a"].collisions[0].geometry
+    assert isinstance(found, RefusedShape)
+    assert said in found.reason
+    text = robot_of(link("a"), link("b"), joint("j", "a", "b", inside=origin))
+    assert said.replace("collision", "joint") in refusal(tmp_path, text)[1]
 
 
 @pytest.mark.parametrize(
     ("kind", "inside", "said"),
     [
         ("hinge", "", "type 'hinge' is none of revolute, continuous, prismatic"),
-        ("revolute", "", "a revolute joint without <limit>"),
-        ("prismatic", "", "a prismatic joint without <limit>"),
-        ("revolute", '<limit lower="2" upper="1"/>', "lower 2 is above upper 1"),
         ("revolute", '<limit lover="0" upper="1"/>', "did you mean 'lower'?"),
         ("revolute", LIMIT + '<axis xyz="0 0 0"/>', "an axis of length 0"),
         ("revolute", LIMIT + '<axis xyz="0 1"/>', "should be 3 numbers"),
         ("planar", '<mimic joint="k"/>', "a planar joint cannot mimic"),
         ("floating", '<mimic joint="k"/>', "a floating joint cannot mimic"),
         ("revolute", LIMIT + "<mimic/>", 'attribute "joint" is missing'),
-        ("revolute", LIMIT + LIMIT, "a second <limit> in one <joint>"),
+        ("revolute", LIMIT + '<limit lower="0" upper="2"/>', "a second <limit> in one <joint>"),
+        ("revolute", LIMIT + '<axis xzy="0 0 1"/>', "did you mean 'xyz'?"),
     ],
 )
 def test_wrong_joints(tmp_path: Path, kind: str, inside: str, said: str) -> None:
@@ -125,6 +169,53 @@ def test_wrong_joints(tmp_path: Path, kind: str, inside: str, said: str) -> None
     assert code == "bad-robot"
     assert message.startswith("line 4: <")
     assert said in message
+
+
+@pytest.mark.parametrize(
+    ("kind", "inside", "code", "said"),
+    [
+        ("revolute", "", "no-limits", "a revolute joint without <limit>: taken to have no limits"),
+        ("prismatic", "", "no-limits", "a prismatic joint without <limit>"),
+        ("revolute", '<limit lower="2" upper="1"/>', "no-limits", "lower is above upper"),
+        ("revolute", LIMIT + '<axis xyz="0 0 1" rpy="0 0 0"/>', "unknown-attribute", "'rpy'"),
+        ("revolute", LIMIT + '<mimic joint="gone"/>', "no-leader", "mimics a joint that is not"),
+    ],
+)
+def test_slips_of_joints_are_warnings(
+    tmp_path: Path, kind: str, inside: str, code: str, said: str
+) -> None:
+    joints = [joint("j", "a", "b", kind, inside), joint("k", "b", "c", kind, inside)]
+    robot, issues = read_with_issues(tmp_path, robot_of(*map(link, "abc"), *joints))
+    (found,) = issues
+    assert (found.code, found.severity) == (code, "warning")
+    assert found.message.startswith("line 5: ")
+    assert said in found.message
+    assert found.message.endswith("(2 times)")
+    assert robot.joints[0].free
+    if code == "no-limits":
+        assert robot.joints[0].limits is None
+
+
+def test_a_leader_that_is_not_there_matters_where_the_offset_does(tmp_path: Path) -> None:
+    mimic = LIMIT + '<mimic joint="gone" offset="0.5"/>'
+    text = robot_of(link("a"), link("b"), joint("j", "a", "b", "revolute", mimic))
+    assert refusal(tmp_path, text) == (
+        "index-out-of-range",
+        "line 4: <mimic>: mimics joint 'gone', which is not there",
+    )
+
+
+def test_what_is_said_twice_in_the_same_words_is_said_once(tmp_path: Path) -> None:
+    axis = '<axis xyz="0 1 0"/>'
+    text = robot_of(link("a"), link("b"), joint("j", "a", "b", "continuous", axis + axis))
+    assert read(tmp_path, text).joints[0].axis == (0.0, 1.0, 0.0)
+
+
+def test_lines_before_the_declaration_do_not_matter(tmp_path: Path) -> None:
+    text = "\n\n<?xml version='1.0'?>\n" + robot_of(link("a"))
+    assert read(tmp_path, text).root == "a"
+    text = "\n\n<?xml version='1.0'?>\n" + robot_of(link("a"), link("a"))
+    assert refusal(tmp_path, text)[1].startswith("line 6: ")
 
 
 def test_a_joint_without_its_links(tmp_path: Path) -> None:
@@ -157,7 +248,7 @@ def test_what_is_misspelt_is_told_and_what_simulators_add_is_not(tmp_path: Path)
     _, issues = read_urdf("r.urdf", path)
     assert {issue.code for issue in issues} == {"unknown-element"}
     assert [issue.message for issue in issues] == [
-        "line 2: unknown <colision> in <link> (did you mean <collision>?), and 1 more: ignored",
+        "line 2: unknown <colision> in <link> (did you mean <collision>?): ignored (2 times)",
         "line 3: unknown <x> in <link>: ignored",
     ]
 
@@ -175,9 +266,13 @@ def test_what_does_not_matter_is_no_reason_to_refuse(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        robot_of('<xacro:macro name="x"/>'),
-        robot_of(geometry('<box size="${w} 1 1"/>')),
-        robot_of(geometry('<box size="1 1 $(arg h)"/>')),
+        robot_of('<xacro:arm name="x"/>', link("a"), "<xacro:arm/>"),
+        robot_of('<xacro:include filename="x"/>'),
+        robot_of(link("a", "<xacro:box/>")),
+        robot_of('<x:arm xmlns:x="http://www.ros.org/wiki/xacro"/>').replace(
+            "<robot", '<robot xmlns:x="http://www.ros.org/wiki/xacro"'
+        ),
+        robot_of(link("b") + joint("j", "a", "b", inside='<origin xyz="${w} 1 1"/>'), link("a")),
     ],
 )
 def test_xacro_has_to_be_expanded(tmp_path: Path, text: str) -> None:
@@ -185,3 +280,19 @@ def test_xacro_has_to_be_expanded(tmp_path: Path, text: str) -> None:
     assert code == "xacro"
     assert "line 2" in message
     assert "expand it first" in message
+
+
+@pytest.mark.parametrize("size", ["${w} 1 1", "1 1 $(arg h)"])
+def test_xacro_inside_of_a_collision_costs_its_body(tmp_path: Path, size: str) -> None:
+    robot = read(tmp_path, robot_of(geometry(f'<box size="{size}"/>')))
+    found = robot.links["a"].collisions[0].geometry
+    assert isinstance(found, RefusedShape)
+    assert found.code == "xacro"
+    assert "expand it first" in found.reason
+
+
+def test_xacro_that_makes_no_geometry_does_not_matter(tmp_path: Path) -> None:
+    macros = '<xacro:property name="x" value="1"/><xacro:macro name="m"><xacro:n/></xacro:macro>'
+    seen = "<visual><xacro:grey/></visual>"
+    robot = read(tmp_path, robot_of(macros, link("a", BOX + seen), "<gazebo><xacro:g/></gazebo>"))
+    assert len(robot.links["a"].collisions) == 1

@@ -1,0 +1,53 @@
+"""What an input is, by its ending, and where that says nothing by the root of its XML."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.drawing import DRAWINGS
+from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.source import FORMATS
+
+InputKind = Literal["mesh", "scene", "robot", "srdf"]
+
+SCENE_SUFFIXES = frozenset((".json", ".toml"))
+_KINDS: dict[str, InputKind] = {
+    **dict.fromkeys(SCENE_SUFFIXES, "scene"),
+    **dict.fromkeys((*FORMATS, *DRAWINGS), "mesh"),
+    ".urdf": "robot",
+    ".srdf": "srdf",
+}
+_XACRO = ".xacro"  # a robot, or the SRDF of one, once it is expanded
+# What an SRDF says, and no URDF: in both the outermost element is <robot>.
+_SRDF_ELEMENTS = frozenset(
+    ("group", "group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property")
+) | {"disable_collisions", "enable_collisions", "disable_default_collisions"}
+_HEAD_BYTES = 1 << 20
+
+
+def kind_of(path: str) -> InputKind:
+    """"mesh" for whatever is nothing else; its reader says what is wrong with it."""
+    suffix = Path(path).suffix.lower()
+    if suffix in _KINDS:
+        return _KINDS[suffix]
+    root, *below = _first_elements(Path(path))
+    if root == "robot":
+        return "srdf" if below and below[0] in _SRDF_ELEMENTS else "robot"
+    return "robot" if suffix == _XACRO else "mesh"
+
+
+def _first_elements(location: Path) -> list[str]:
+    """The names of the root and of its first element, [""] for what is not XML."""
+    try:
+        size_of(location)
+        with location.open("rb") as file:
+            head = file.read(_HEAD_BYTES)
+    except (SatcheckError, OSError):  # said when the file is read
+        return [""]
+    if not head.lstrip().startswith((b"<", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")):
+        return [""]
+    from satcheck.scene.robot.xml_tree import first_tags
+
+    return first_tags(head, 2) or [""]
