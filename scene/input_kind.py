@@ -28,7 +28,7 @@ _HEAD_BYTES = 1 << 20
 
 
 def kind_of(path: str) -> InputKind:
-    """"mesh" for whatever is nothing else; its reader says what is wrong with it."""
+    """ "mesh" for whatever is nothing else; its reader says what is wrong with it."""
     suffix = Path(path).suffix.lower()
     if suffix in _KINDS:
         return _KINDS[suffix]

@@ -20,6 +20,7 @@ from satcheck.scene.scene_builder import SceneBuilder, Split
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
 
+
 def load_scene(
     paths: Sequence[str | Path],
     *,

@@ -130,9 +130,7 @@ class MeshFiles:
             return load_shapes(path, location, self._limits, self._children)
         from satcheck.scene.loading.nodes import load_nodes
 
-        return load_nodes(
-            path, location, self._limits, self._children, components=components
-        )
+        return load_nodes(path, location, self._limits, self._children, components=components)
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
         """One node of the file by its path, which may end in "#" and the number of a component."""

@@ -38,9 +38,7 @@ def load_drawing(
     return _sheet_file(source, found["units"], {**sheet, "name": None}, issues)
 
 
-def load_shapes(
-    path: str, location: Path, allowed: ReadLimits, children: ReadingChildren
-) -> Nodes:
+def load_shapes(path: str, location: Path, allowed: ReadLimits, children: ReadingChildren) -> Nodes:
     """Its shapes, each a node by its name; one that cannot be used does not stop the others."""
     source, found = _read(path, location, allowed, children, whole=False)
     names = UniqueNames()

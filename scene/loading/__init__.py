@@ -67,9 +67,7 @@ def read_scene(
         raise _refusal(source, error) from error
 
 
-def _read(
-    source: Source, allowed: ReadLimits, children: ReadingChildren, flat: bool
-) -> RawScene:
+def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: bool) -> RawScene:
     if source.format in NATIVE_FORMATS:
         return alone(read_native(source))
     is_gltf = source.format in ("glb", "gltf")

@@ -88,7 +88,9 @@ class MeshPlaces:
                 return place
             places.append(place)
         if places:
-            message = f"package {name!r} lies {self._outside()}: --package {name}={found[0]} lets it"
+            message = (
+                f"package {name!r} lies {self._outside()}: --package {name}={found[0]} lets it"
+            )
             raise MeshFileError("outside-path", message)
         if reasons:
             hint = f"--package {name}=DIR names another package"

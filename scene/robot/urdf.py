@@ -205,8 +205,10 @@ def _only_shape(collision: Element) -> Element | None:
 def _is_point(shape: Element) -> bool:
     """Whether all sizes are 0: nothing that could collide."""
     sizes = _SIZES.get(shape.tag, {})
-    return bool(sizes) and sizes.keys() == shape.attributes.keys() and not any(
-        any(shape.numbers(name, count)) for name, count in sizes.items()
+    return (
+        bool(sizes)
+        and sizes.keys() == shape.attributes.keys()
+        and not any(any(shape.numbers(name, count)) for name, count in sizes.items())
     )
 
 

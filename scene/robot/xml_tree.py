@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -158,10 +159,8 @@ def first_tags(head: bytes, count: int) -> list[str]:
     parser = guarded_parser(namespaces=False)
     tags: list[str] = []
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
-    try:
+    with suppress(MeshFileError):  # the reader says what is wrong
         parse_xml(lambda: parser.Parse(_with_declaration_first(head), False))
-    except MeshFileError:
-        pass  # said by the reader
     return tags[:count]
 
 

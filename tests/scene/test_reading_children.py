@@ -48,9 +48,7 @@ def test_all_files_of_a_run_share_a_child_that_ends_with_it(
     assert child._process.returncode is not None  # reaped: no zombie
 
 
-def test_a_file_that_hangs_costs_itself_alone(
-    tmp_path: Path, started: list[worker._Child]
-) -> None:
+def test_a_file_that_hangs_costs_itself_alone(started: list[worker._Child]) -> None:
     children = ReadingChildren(512)
     assert children.ask(SERVER, b"echo a", seconds=20.0) == b"a"
     with pytest.raises(WorkerTimeout):

@@ -54,7 +54,12 @@ def test_joints_come_after_those_that_carry_them(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("first", "second", "code", "said"),
     [
-        (("continuous", mimic("x", 1)), ("continuous", ""), "index-out-of-range", "mimics joint 'x'"),
+        (
+            ("continuous", mimic("x", 1)),
+            ("continuous", ""),
+            "index-out-of-range",
+            "mimics joint 'x'",
+        ),
         (("continuous", mimic("j")), ("continuous", ""), "reference-cycle", "mimics itself"),
         (
             ("continuous", mimic("k")),
