@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -55,6 +55,8 @@ def run(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -
 
 
 def _read(report: Path) -> Any:
+    from satcheck.verify import Rejected, parse
+
     try:
         if size_of(report) > MOST_BYTES:
             raise SatcheckError("bad-report", "too large")
@@ -66,13 +68,9 @@ def _read(report: Path) -> Any:
     except UnicodeDecodeError:
         raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
     try:
-        return json.loads(text, parse_constant=_refuse)
-    except (ValueError, RecursionError) as error:
-        raise SatcheckError("bad-report", f"{report}: not JSON: {error}") from None
-
-
-def _refuse(constant: str) -> Any:
-    raise ValueError(f"{constant} is no number")
+        return parse(text)
+    except Rejected as why:
+        raise SatcheckError("bad-report", f"{report}: {why}") from None
 
 
 def _values(found: Verification) -> dict[str, Any]:
@@ -85,6 +83,7 @@ def _values(found: Verification) -> dict[str, Any]:
         "pruned": found.pruned,
         "exempt": found.exempt,
         "missing": list(found.missing),
+        "not_covered": [asdict(field) for field in found.uncovered],
     }
 
 
@@ -107,7 +106,23 @@ def _table(found: Verification) -> str:
     lines += [f"rejected: {fault}" for fault in found.faults]
     lines += [f"not certified: {what}" for what in found.beyond]
     lines.append(_summary(found))
+    lines += _not_covered(found)
     return "".join(f"{harmless(line)}\n" for line in lines)
+
+
+def _not_covered(found: Verification) -> Iterator[str]:
+    """What the report says and nobody proved, by its names."""
+    for title, kinds in (
+        ("Taken as stated", ("stated",)),
+        ("Not covered", ("not covered", "certified")),
+    ):
+        names: dict[str, int] = {}
+        for field in found.uncovered:
+            if field.kind in kinds:
+                names[field.called] = max(names.get(field.called, 0), field.findings or 0)
+        if names:
+            named = (f"{name} ({count:,})" if count else name for name, count in names.items())
+            yield f"{title}: {', '.join(named)}."
 
 
 def _line(finding: Checked) -> str:

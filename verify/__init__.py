@@ -9,5 +9,6 @@ numbers), `surfaces` (which triangles meet), `cells` (contact) and `exact` (numb
 
 from satcheck.verify.document import Checked, Verification, verify
 from satcheck.verify.exact import Rejected
+from satcheck.verify.strict_json import parse
 
-__all__ = ["Checked", "Rejected", "Verification", "verify"]
+__all__ = ["Checked", "Rejected", "Verification", "parse", "verify"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from satcheck.scene import Body, MeshFile, MeshFileError
+from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.primitives import Primitive, is_curved, primitive_of
 from satcheck.scene.shape_file import shape_file
@@ -18,6 +19,10 @@ from satcheck.scene.shape_image import image_of
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
+
+# What a report says of a mesh that it could read.
+_OF_A_MESH = ("health", "triangles", "resolution", "convex", "parts", "part_error")
+SAME = 1e-12  # relative, of a length that was computed twice
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +91,8 @@ class Bodies:
         groups, static = frozenset(listed), entry.get("static") is True
         name, file, digest = entry["id"], entry.get("file"), entry.get("sha256")
         if digest is None:
+            if any(entry.get(key) is not None for key in _OF_A_MESH):
+                raise Rejected(f"{name}: not read, and figures of its mesh")
             reason = "the report could not read it"
             return Placed(name, groups, None, static=static, reason=reason, claims=False)
         if not isinstance(file, str) or not isinstance(digest, str):
@@ -93,6 +100,8 @@ class Bodies:
         path, values = entry.get("path"), entry.get("shape")
         if path is not None and not isinstance(path, str):
             raise Rejected("the path of a body within its file is a text")
+        if values is not None and path is not None:
+            raise Rejected("a shape is no node of a file")
         shape = self._read(file, path) if values is None else self._primitive(file, values)
         if isinstance(shape, Missing):
             reason = "its file is not there"
@@ -138,10 +147,28 @@ class Bodies:
     def _placed(
         self, name: str, groups: frozenset[str], shape: Shape, entry: dict[str, Any]
     ) -> Placed:
-        health = entry.get("health")
-        if not isinstance(health, dict) or health.get("solid") is not shape.file.health.solid:
-            raise Rejected("said to be solid, or not, and the file says otherwise")
-        return place_shape(name, groups, shape, _pose(entry.get("transform")))
+        placed = place_shape(name, groups, shape, _pose(entry.get("transform")))
+        _check_figures(entry, shape, placed.resolution)
+        return placed
+
+
+def _check_figures(entry: dict[str, Any], shape: Shape, resolution: float) -> None:
+    """What the report says of the mesh, against the file."""
+    file = shape.file
+    health = entry.get("health") or {}
+    for name in MeshHealth.__slots__:  # type: ignore[attr-defined]
+        value = getattr(file.health, name)
+        if isinstance(value, float) and not math.isfinite(value):
+            value = None  # as a report says it
+        if name not in health or health[name] != value:
+            raise Rejected(f"the file says {name}: {value}, the report {health.get(name)}")
+    if entry.get("triangles") != file.mesh.triangle_count:
+        raise Rejected(f"it has {file.mesh.triangle_count} triangles")
+    said = entry.get("resolution")
+    if said is None or not math.isclose(said, resolution, rel_tol=SAME):
+        raise Rejected(f"its resolution is {resolution!r}")
+    if entry.get("convex") not in (None, shape.convex):
+        raise Rejected(f"convex is {shape.convex}")
 
 
 def _checked_shape(file: MeshFile) -> Shape | str:

@@ -63,6 +63,13 @@ class CurvedPair:
         b = point_of(member(certificate, "b"), self.b)
         return Fraction(dot(step := tuple(q - p for p, q in zip(a, b, strict=True)), step))
 
+    def prove_apart(self, ends: Any, least: Fraction) -> None:
+        """Rejects a gap along these two points that is narrower than that."""
+        a, b = point_of(member(ends, "a"), self.a), point_of(member(ends, "b"), self.b)
+        n = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        if not any(n) or self.gap(n, least) < 0:
+            raise Rejected("the gap is not shown to be as wide")
+
     def _overlap(self, certificate: Any) -> None:
         """A point inside one of them, and of the other, which has an inside: next to it are points
         inside both."""

@@ -11,8 +11,11 @@ from pathlib import Path
 from typing import Any, Literal
 
 from satcheck.verify.bodies import Bodies, Placed
+from satcheck.verify.coverage import Uncovered, uncovered
 from satcheck.verify.exact import Rejected
+from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
+from satcheck.verify.published import Departure, departures
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
 
 SCHEMA = "satcheck.report/1"
@@ -23,6 +26,7 @@ UNDECIDED = (
     ("sweeps_undecided", "motion"),
     ("disputed", "cross-check"),
 )
+EFFECTS = ("overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate")
 CERTAINLY = 1 + 1e-12  # far more than a difference of two numbers can be off by
 Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
 
@@ -30,7 +34,8 @@ Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
 @dataclass(frozen=True, slots=True)
 class Checked:
     """One finding. open: indeterminate, so nothing is claimed. no file: that of a body is not
-    there, so nothing is known. depth, mtv: proven too."""
+    there, so nothing is known. depth, mtv: proven too. left: what it says besides and is not
+    proven, fields as in `coverage.COVERAGE`."""
 
     a: str
     b: str
@@ -39,6 +44,7 @@ class Checked:
     reason: str | None = None
     depth: bool = False
     mtv: bool = False
+    left: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +54,7 @@ class Verification:
     exempts them. pruned: pairs that are not listed, whose boxes are apart. asked: whether the
     report says that certificates were asked for. missing: files that are not there; with some, the
     pairs that are not listed and the summary are not checked, and nothing is accepted as a whole.
+    uncovered: what the report says and nobody checked beyond its type.
     """
 
     findings: tuple[Checked, ...]
@@ -57,6 +64,7 @@ class Verification:
     exempt: int
     asked: bool
     missing: tuple[str, ...] = ()
+    uncovered: tuple[Uncovered, ...] = ()
 
     @property
     def accepted(self) -> bool:
@@ -92,12 +100,12 @@ def verify(
     it is no report. Everything else that is wrong is a result.
     """
     report = _Report(document, Bodies(root, allow_outside=allow_outside))
-    entries = report.findings
+    count = len(report.findings)
     checked = []
-    for number_, entry in enumerate(entries):
-        checked.append(report.check(entry))
+    for number_ in range(count):
+        checked.append(report.check(number_))
         if progress is not None:
-            progress(number_ + 1, len(entries))
+            progress(number_ + 1, count)
     faults = list(report.faults)
     pruned = exempt = 0
     if not report.missing:
@@ -114,6 +122,7 @@ def verify(
         exempt,
         asked=_asks_for_certificates(document),
         missing=report.missing,
+        uncovered=uncovered(document, (field for one in checked for field in one.left)),
     )
 
 
@@ -141,10 +150,19 @@ class _NoFile(Exception):
     """What is claimed may be true: the file of a body is not there."""
 
 
+class _NotCertified(Exception):
+    """What is claimed may be true: no certificate speaks of it."""
+
+
 class _Report:
     def __init__(self, document: Any, reader: Bodies) -> None:
         if not isinstance(document, dict) or document.get("schema") != SCHEMA:
             raise Rejected(f'not a report: "schema" is not "{SCHEMA}"')
+        self.ill_formed: dict[int, Departure] = {}
+        for departure in departures(document):
+            if departure.finding is None:
+                raise Rejected(f"not a report by its schema: {departure}")
+            self.ill_formed.setdefault(departure.finding, departure)
         self.document = document
         self.findings = _list(document, "findings")
         self.asked = _asked(_object(document, "settings"))
@@ -161,15 +179,27 @@ class _Report:
         unplaced = [b for b in placed if b.claims and b.reason and b.missing is None]
         self.faults = [f"{b.id}: {b.reason}" for b in unplaced]
         self.beyond: list[str] = []
+        self.faults += _faults_of_issues(document, self.bodies)
+        if document["settings"]["planar"] is not None:
+            self.beyond.append("bodies are outlines in a plane")
         if document.get("motions"):
             self.beyond.append("bodies move: what happens on the way is not certified")
 
-    def check(self, entry: Any) -> Checked:
+    def check(self, number_: int) -> Checked:
+        """The finding of this number."""
+        entry = self.findings[number_]
         if not isinstance(entry, dict):
             raise Rejected("not a report: a finding is no object")
         a, b, relation = (str(entry.get(key)) for key in ("a", "b", "relation"))
+        if number_ in self.ill_formed:
+            self._list(entry)
+            return Checked(
+                a, b, relation, "rejected", f"not by the schema: {self.ill_formed[number_]}"
+            )
         try:
             proven = self._check(entry)
+        except _NotCertified as why:
+            return Checked(a, b, relation, "not certified", str(why))
         except _NoFile as why:
             return Checked(a, b, relation, "no file", str(why))
         except Rejected as why:
@@ -180,9 +210,11 @@ class _Report:
             return Checked(a, b, relation, "rejected", reason)
         if proven is None:
             return Checked(a, b, relation, "open", str(entry.get("reason")))
-        return Checked(a, b, relation, "accepted", None, proven.depth, proven.mtv)
+        left = _left(entry, proven)
+        return Checked(a, b, relation, "accepted", None, proven.depth, proven.mtv, left)
 
-    def _check(self, entry: dict[str, Any]) -> Proven | None:
+    def _list(self, entry: dict[str, Any]) -> tuple[Placed, Placed]:
+        """The bodies of a finding, from now on one of the pairs that are listed."""
         names = entry.get("a"), entry.get("b")
         if not all(isinstance(name, str) and name in self.bodies for name in names):
             raise Rejected("it names a body that the report does not have")
@@ -190,8 +222,14 @@ class _Report:
         if self.order[a.id] >= self.order[b.id] or frozenset(names) in self.listed:
             raise Rejected("every pair is listed once, in the order of the bodies")
         self.listed.add(frozenset((a.id, b.id)))
+        return a, b
+
+    def _check(self, entry: dict[str, Any]) -> Proven | None:
+        a, b = self._list(entry)
+        if self.rules.is_exempt(a, b):
+            raise Rejected("the scene does not ask about this pair")
         if entry.get("motion") is not None:
-            raise Rejected("what happens while bodies move is not certified")
+            raise _NotCertified("what happens while bodies move is not certified")
         asked = self.asked_of(a, b)
         unknown = any(body.claims and body.bounds is None for body in (a, b))
         self.listed_apart += unknown or _boxes_apart(a, b, asked)
@@ -199,6 +237,8 @@ class _Report:
             claims = (entry.get(key) for key in ("severity", "undecided", "certificate"))
             if tuple(claims) != ("warning", "relation", None):
                 raise Rejected("an indeterminate pair is a warning, and proves nothing")
+            check_id(entry)
+            check_no_figures(entry)
             return None
         for body in (a, b):
             if body.missing is not None:
@@ -209,7 +249,11 @@ class _Report:
         """What the settings ask, but for what the rules ask of this pair. A pair that may overlap
         has no clearance to keep."""
         terms = self.rules.terms(a, b)
-        asked = replace(self.asked, **{key: terms[key] for key in ASKED & terms.keys()})
+        asked = replace(
+            self.asked,
+            **{key: terms[key] for key in ASKED & terms.keys()},
+            names=self.rules.names(a, b),
+        )
         return replace(asked, clearance=None) if asked.limited else asked
 
     def check_unlisted(self, faults: list[str]) -> tuple[int, int]:
@@ -256,11 +300,47 @@ class _Report:
         fail_on = _object(self.document, "settings").get("fail_on")
         if fail_on not in SEVERITIES[2:]:
             raise Rejected("not a report: its settings do not say what fails")
+        self._check_effects(total)
+        truncated = self.document["truncated"]
+        if (0 if truncated is None else truncated["pairs"]) != pruned:
+            raise Rejected(f"the findings leave out {pruned} pairs")
         failed = any(_fails(f, SEVERITIES.index(fail_on)) for f in self.findings)
         left_open = len(self.findings) - undecided["None"] or not total
         verdict = "fail" if failed else "incomplete" if left_open else "pass"
         if summary.get("verdict") != verdict:
             raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
+
+    def _check_effects(self, total: int) -> None:
+        names = Counter(effect["effect"] for effect in self.document["effects"])
+        expected = {*EFFECTS, *(("sweep",) if self.document.get("motions") else ())}
+        if names.keys() != expected or names.total() > len(names):
+            raise Rejected("the list of effects has each of them once")
+        for effect in self.document["effects"]:
+            if effect["pairs"] + sum(effect["not_run"].values()) != total:
+                raise Rejected(f"the pairs of the effect {effect['effect']} are not all pairs")
+
+
+def _left(finding: dict[str, Any], proven: Proven) -> tuple[str, ...]:
+    """What an accepted finding says and is not proven."""
+    bounds = finding["depth_bounds"]
+    is_left = {
+        "undecided": finding["undecided"] == "limit",
+        "distance": finding["distance"] is not None and not proven.distance,
+        "depth": finding["depth"] is not None and not (proven.depth or proven.mtv),
+        "depth_bounds": bounds is not None and bounds[0] > 0 and not proven.depth,
+        "normal": finding["normal"] is not None and not proven.normal,
+        "mtv": finding["mtv"] is not None and not proven.mtv,
+        "volume": bool(finding["volume"]),
+        "volume_error": bool(finding["volume_error"]),
+        "contacts": finding["contacts"] is not None and not proven.contacts,
+    }
+    return tuple(f"findings[].{key}" for key, left in is_left.items() if left)
+
+
+def _faults_of_issues(document: dict[str, Any], bodies: dict[str, Placed]) -> list[str]:
+    named = (issue["body"] for issue in document["issues"] if issue["body"] is not None)
+    strangers = [name for name in named if name not in bodies]
+    return [f"an issue is about {name}, which is no body" for name in strangers[:1]]
 
 
 def _unlisted(bodies: list[Placed], listed: set[frozenset[str]]) -> Iterator[tuple[Placed, Placed]]:

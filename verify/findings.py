@@ -4,28 +4,34 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from satcheck.verify.bodies import Placed
-from satcheck.verify.boundary import boundary_point
+from satcheck.verify.bodies import SAME, Placed
+from satcheck.verify.boundary import boundary_point, contacts_if_apart
 from satcheck.verify.curved import Curved
 from satcheck.verify.curved_pair import CurvedPair
 from satcheck.verify.evidence import axis, gap_along, member, rational, vector
 from satcheck.verify.exact import Point, Rejected, dot, sub
+from satcheck.verify.figures import (
+    EXACT_WIDTH,
+    Rounding,
+    check_figures,
+    check_id,
+    rounding_of,
+    shows_direction,
+)
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import OVERLAPS, Pair, prove, prove_free
 from satcheck.verify.rules import Asked
-from satcheck.verify.severity import check_severity, proven_depth
+from satcheck.verify.severity import Known, check_severity, proven_depth
 from satcheck.verify.world import Exact, World
 
-# Figures are rounded: a band of this relative width around the tolerance is granted.
-EXACT_WIDTH = Fraction(1, 10**9)
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
-SAME = 1e-12  # relative, of a length that was computed twice
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +40,9 @@ class Proven:
 
     depth: bool = False
     mtv: bool = False
+    distance: bool = False
+    normal: bool = False
+    contacts: bool = False
 
 
 def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> Proven:
@@ -43,8 +52,10 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     certificate = finding.get("certificate")
     if certificate is None:
         raise Rejected("it has no certificate")
+    check_id(finding)
     tolerance = _tolerance(finding, a, b, asked)
     clearance = Fraction(asked.clearance or 0.0)
+    check_figures(finding, a, b)
     if a.curved is not None or b.curved is not None:
         return _check_curved(finding, a, b, asked, tolerance)
     assert a.world is not None
@@ -57,11 +68,12 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
         member(certificate, "relation"),
         pair,
         tolerance if separated else Fraction(0),
-        clearance if separated else Fraction(0),
+        _least(finding, asked),
     )
     mtv = _check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair)
-    proven = Proven(depth, mtv)
+    hulls_face = pair.convex and _faces(finding, rounding_of(a, b), lambda n: _gap(pair, n))
+    proven = Proven(depth, mtv, hulls_face, hulls_face or mtv or shows_direction(finding, a, b))
     if relation != exact:
         _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
     if exact not in OVERLAPS:
@@ -69,8 +81,92 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     else:
         way_out = finding.get("depth") or 0.0 if relation in OVERLAPS else tolerance
         unseen = _may_hide(a.world, b.world, float(way_out))
-    check_severity(finding, asked, unseen, proven_depth(finding, depth, mtv), EXACT_WIDTH)
+
+    def keeps(length: Fraction) -> bool | None:
+        return _keeps(
+            finding,
+            length,
+            lambda: squared_gap(member(certificate, "gap"), pair),
+            lambda least: _prove_apart(certificate, pair, least),
+        )
+
+    most = proven_depth(finding, depth, mtv)
+    check_severity(finding, asked, Known(unseen, most, keeps, EXACT_WIDTH))
     return proven
+
+
+def _faces(finding: dict[str, Any], rounding: Rounding, gap: Callable[[Point], Fraction]) -> bool:
+    """Whether the normal shows that two convex bodies are as far apart as is said. Rejects one that
+    does not. gap: along an axis, world units times its length.
+
+    Witness points as far apart, on the bodies, show that they are no farther."""
+    figure = finding["distance"] if finding["depth"] is None else -finding["depth"]
+    if finding["normal"] is None or figure is None:
+        return False
+    n, distance = vector(finding["normal"]), number(figure)
+    # A unit vector, to rounding: what its length is off is within what the figure is off.
+    if gap(n) < distance - 2 * rounding.of(distance):
+        raise Rejected("along the normal the bodies are closer than the distance")
+    return finding["witness"] is not None
+
+
+def _gap(pair: Pair, n: Point) -> Fraction:
+    return gap_along(pair.a, pair.b, n)
+
+
+def _least(finding: dict[str, Any], asked: Asked) -> Fraction:
+    """How wide a gap has to be where the finding says that it keeps its clearance. Figures are
+    rounded: one that equals it keeps it."""
+    if finding["relation"] != "separated" or finding["undecided"] == "limit":
+        return Fraction(0)
+    return Fraction(asked.clearance or 0.0) * (1 - EXACT_WIDTH)
+
+
+def _keeps(
+    finding: dict[str, Any],
+    clearance: Fraction,
+    squared: Callable[[], Fraction],
+    prove_apart: Callable[[Fraction], None],
+) -> bool | None:
+    """Whether the gap keeps the clearance, whatever the touch band calls the pair; None: neither is
+    shown. squared: of the gap between two points. prove_apart: rejects a gap that is narrower."""
+    if finding["exact_relation"] != "separated":
+        return False
+    if finding["relation"] == "separated":  # then that is a part of what was proven
+        return None if finding["undecided"] == "limit" else True
+    if squared() < clearance * clearance:
+        return False
+    try:
+        prove_apart(clearance * (1 - EXACT_WIDTH))
+    except Rejected:
+        return None
+    return True
+
+
+def squared_gap(ends: Any, pair: Pair) -> Fraction:
+    """Of a point of either body, world units."""
+    p, q = (
+        boundary_point(member(ends, key), body, of_hull=pair.convex)
+        for key, body in (("a", pair.a), ("b", pair.b))
+    )
+    step = sub(q, p)  # type: ignore[arg-type]
+    return Fraction(dot(step, step)) / (1 << 2 * pair.a.k)
+
+
+def _prove_apart(certificate: Any, pair: Pair, least: Fraction) -> None:
+    """Rejects separated bodies with a gap narrower than that."""
+    if not pair.convex:
+        contacts_if_apart(pair.a, pair.b, Fraction(0), least)
+        return
+    gap = member(certificate, "gap")
+    p, q = (
+        boundary_point(member(gap, key), body, of_hull=True)
+        for key, body in (("a", pair.a), ("b", pair.b))
+    )
+    n: Point = sub(q, p)  # type: ignore[arg-type, assignment]
+    along = gap_along(pair.a, pair.b, n)
+    if along <= 0 or along * along < least * least * dot(n, n):
+        raise Rejected("the gap is not shown to be as wide")
 
 
 def _check_curved(
@@ -81,9 +177,10 @@ def _check_curved(
     relation, exact = finding.get("relation"), finding.get("exact_relation")
     clearance = Fraction(asked.clearance or 0.0)
     separated = relation == "separated"
-    beyond, least = (tolerance, clearance) if separated else (Fraction(0), Fraction(0))
+    beyond, least = (tolerance if separated else Fraction(0)), _least(finding, asked)
     pair.prove(str(exact), member(certificate, "relation"), beyond, least)
-    proven = Proven(mtv=_check_mtv(finding, certificate, a, b))
+    mtv = _check_mtv(finding, certificate, a, b)
+    proven = Proven(mtv=mtv, normal=mtv or shows_direction(finding, a, b))
     _bounds_of_depth(finding)
     if relation != exact:
         band = tolerance * (1 + EXACT_WIDTH)
@@ -93,8 +190,17 @@ def _check_curved(
                 raise Rejected("the points of the gap are further apart than that")
         elif not (exact in OVERLAPS and relation == "touching" and _in_band(finding, pair, band)):
             raise Rejected(f"{relation!r} does not follow from {exact!r}")
-    depth = proven_depth(finding, proven.depth, proven.mtv)
-    check_severity(finding, asked, False, depth, EXACT_WIDTH)
+
+    def keeps(length: Fraction) -> bool | None:
+        return _keeps(
+            finding,
+            length,
+            lambda: pair.squared_gap(member(certificate, "gap")),
+            lambda least: pair.prove_apart(member(certificate, "gap"), least),
+        )
+
+    most = proven_depth(finding, proven.depth, proven.mtv)
+    check_severity(finding, asked, Known(False, most, keeps, EXACT_WIDTH))
     return proven
 
 
@@ -234,15 +340,8 @@ def _check_band(
     relation, exact = finding.get("relation"), finding.get("exact_relation")
     band = tolerance * (1 + EXACT_WIDTH)
     if exact == "separated" and relation in ("touching", "near"):
-        gap = member(certificate, "gap")
-        ends = [
-            boundary_point(member(gap, key), body, of_hull=pair.convex)
-            for key, body in (("a", pair.a), ("b", pair.b))
-        ]
-        step = sub(ends[1], ends[0])  # type: ignore[arg-type]
-        squared, scale = dot(step, step), Fraction(1 << pair.a.k)
-        near = relation == "near"
-        if not (squared < (clearance * scale) ** 2 if near else squared <= (band * scale) ** 2):
+        squared, near = squared_gap(member(certificate, "gap"), pair), relation == "near"
+        if not (squared < clearance**2 if near else squared <= band**2):
             raise Rejected("the points of the gap are further apart than that")
         return
     if exact in OVERLAPS and relation == "touching":

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from itertools import combinations
 from typing import Any
@@ -28,7 +28,7 @@ KEYS = ("allowed", *NUMBERS, "severity")
 @dataclass(frozen=True, slots=True)
 class Asked:
     """What the report says is asked of a pair. tolerance: None: the input precision. severity: of
-    its errors; None: error."""
+    its errors; None: error. names: key -> the name of the rule that sets it."""
 
     tolerance: float | None
     clearance: float | None
@@ -36,6 +36,11 @@ class Asked:
     max_depth: float | None = None
     max_volume: float | None = None
     severity: str | None = None
+    names: Mapping[str, str] = field(default_factory=dict)
+
+    def name(self, key: str) -> str | None:
+        """Of the rule that sets the key; None: none does."""
+        return self.names.get(key)
 
     @property
     def limited(self) -> bool:
@@ -69,7 +74,7 @@ class Rules:
             id_: (self._about(body), body.groups & groups, static and body.static)
             for id_, body in bodies.items()
         }
-        self._terms: dict[tuple[Kind, Kind], Json] = {}
+        self._terms: dict[tuple[Kind, Kind], tuple[Json, dict[str, str]]] = {}
 
     def _about(self, body: Placed) -> tuple[tuple[int, bool], ...]:
         return tuple(
@@ -85,7 +90,11 @@ class Rules:
 
     def terms(self, a: Placed, b: Placed) -> Json:
         """key -> value, of those that a rule sets for the pair."""
-        return self._of_kinds(self._kinds[a.id], self._kinds[b.id])
+        return self._of_kinds(self._kinds[a.id], self._kinds[b.id])[0]
+
+    def names(self, a: Placed, b: Placed) -> dict[str, str]:
+        """key -> the name of the rule that sets it for the pair."""
+        return self._of_kinds(self._kinds[a.id], self._kinds[b.id])[1]
 
     def is_exempt(self, a: Placed, b: Placed) -> bool:
         return self.is_ignored(a, b) or self.terms(a, b).get("allowed") is True
@@ -96,20 +105,25 @@ class Rules:
         pairs = [(kind, kind, n * (n - 1) // 2) for kind, n in sizes.items()]
         pairs += [(one, other, sizes[one] * sizes[other]) for one, other in combinations(sizes, 2)]
         counted = [(one, other, n) for one, other, n in pairs if not _ignored(one, other)]
-        allowed = sum(n for one, other, n in counted if self._of_kinds(one, other).get("allowed"))
+        allowed = sum(
+            n for one, other, n in counted if self._of_kinds(one, other)[0].get("allowed")
+        )
         return sum(n for *_, n in counted), allowed
 
-    def _of_kinds(self, one: Kind, other: Kind) -> Json:
+    def _of_kinds(self, one: Kind, other: Kind) -> tuple[Json, dict[str, str]]:
         if not one[0] or not other[0]:
-            return {}
+            return {}, {}
         if (one, other) not in self._terms:
             others = set(other[0])
             terms: Json = {}
+            names: dict[str, str] = {}
             for number, first in one[0]:
                 if (number, not first) in others:
                     rule = self._rules[number]
-                    terms |= {key: rule[key] for key in KEYS if rule.get(key) is not None}
-            self._terms[one, other] = terms
+                    said = [key for key in KEYS if rule.get(key) is not None]
+                    terms |= {key: rule[key] for key in said}
+                    names |= dict.fromkeys(said, _name(rule))
+            self._terms[one, other] = terms, names
         return self._terms[one, other]
 
 
@@ -122,6 +136,11 @@ def _selects(selector: str, body: Placed) -> bool:
         glob = selector.removeprefix(GROUP)
         return any(fnmatchcase(group, glob) for group in body.groups)
     return fnmatchcase(body.id, selector)
+
+
+def _name(rule: Json) -> str:
+    """Where it is written, or else which pairs it is about."""
+    return rule.get("where") or f"{rule['a']} and {rule['b']}"
 
 
 def _checked(rule: Any) -> Json:

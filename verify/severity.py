@@ -1,11 +1,13 @@
-"""How grave a finding is, and what it leaves undecided, from what is proven of it.
+"""How grave a finding is, what decided that, and what it leaves open, from what is proven of it.
 
-That an overlap is deeper than its limit, or undecided, is taken as said: neither passes. That it is
-within its limit has to be proven, by a certified depth or way out. Volumes are not certified.
+That an overlap is within its limit, or a gap keeps its clearance, has to be proven. That it is
+not follows from the figures of the finding. Volumes are not certified.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -14,82 +16,138 @@ from satcheck.verify.exact import Rejected, dot
 from satcheck.verify.relations import OVERLAPS
 from satcheck.verify.rules import SEVERITIES, Asked
 
+CLEARANCE = "clearance"
+Json = dict[str, Any]
 
-def check_severity(
-    finding: dict[str, Any],
-    asked: Asked,
-    unseen: bool,
-    depth_at_most: Fraction | None,
-    rounding: Fraction,
-) -> None:
-    """unseen: one body may lie in the other, which has no inside to check, or come to lie there by
-    the way out of an overlap. depth_at_most: as far as
-    that is proven. rounding: the relative width that a limit is granted."""
-    relation = finding.get("relation")
-    severity, undecided = "none", None
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """severity, undecided and rule as a finding has them."""
+
+    severity: str
+    undecided: str | None = None
+    rule: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What is proven of a finding besides its relation.
+
+    unseen: one body may lie in the other, which has no inside to check, or come to lie there by the
+    way out of an overlap. depth_at_most: as far as that is proven. keeps: whether the gap is at
+    least as wide as this length; None: not decided. rounding: the relative width that a limit is
+    granted.
+    """
+
+    unseen: bool
+    depth_at_most: Fraction | None
+    keeps: Callable[[Fraction], bool | None]
+    rounding: Fraction
+
+
+def check_severity(finding: Json, asked: Asked, known: Known) -> None:
+    """Rejects a severity, a rule or an `undecided` that does not follow."""
+    relation = finding["relation"]
     if relation in OVERLAPS:
-        severity = "error"
-        if asked.limited:
-            severity, undecided = _limited(finding, asked, depth_at_most, rounding)
-        unseen &= (severity, undecided) == ("note", None)
-    elif relation == "near" or _keeps_no_clearance(finding, asked):
-        severity = "error"
-    elif relation == "touching":
-        severity = "note"
-    if severity == "error":
-        severity = _said_by_rule(asked)
+        found = _limited(finding, asked, known) if asked.limited else Judgement("error")
+        unseen = known.unseen and (found.severity, found.undecided) == ("note", None)
+    else:
+        found = _apart(finding, asked, known)
+        unseen = known.unseen
+    if found.severity == "error" and asked.severity is not None:
+        severity = "silenced" if asked.severity == "none" else asked.severity
+        found = replace(found, severity=severity, rule=asked.name("severity"))
     if unseen:
         least = "note" if asked.allow_open else "warning"
-        severity = max(severity, least, key=SEVERITIES.index)
-        undecided = None if asked.allow_open else "inside"
+        found = replace(
+            found,
+            severity=max(found.severity, least, key=SEVERITIES.index),
+            undecided=found.undecided if asked.allow_open else "inside",
+        )
     if _is_disputed(finding):
-        severity = max(severity, "warning", key=SEVERITIES.index)
-        undecided = undecided or "cross-check"
-    if (finding.get("severity"), finding.get("undecided")) != (severity, undecided):
-        raise Rejected(f"its severity is {severity!r}, and what is undecided {undecided!r}")
+        found = replace(
+            found,
+            severity=max(found.severity, "warning", key=SEVERITIES.index),
+            undecided=found.undecided or "cross-check",
+        )
+    said = Judgement(finding["severity"], finding["undecided"], finding["rule"])
+    if said != found:
+        raise Rejected(
+            f"its severity is {found.severity!r} by the rule {found.rule!r}, "
+            f"and what is undecided {found.undecided!r}"
+        )
 
 
-def _said_by_rule(asked: Asked) -> str:
-    """Of an error."""
-    return {None: "error", "none": "silenced"}.get(asked.severity) or str(asked.severity)
-
-
-def _is_disputed(finding: dict[str, Any]) -> bool:
+def _is_disputed(finding: Json) -> bool:
     """Whether the report says that another library contradicts the relation."""
-    plan = finding.get("plan")
-    stages = [stage for stage in plan if isinstance(stage, dict)] if isinstance(plan, list) else []
     return any(
-        stage.get("stage") == "cross-check" and stage.get("result") == "disagrees"
-        for stage in stages
+        stage["stage"] == "cross-check" and stage["result"] == "disagrees"
+        for stage in finding["plan"]
     )
 
 
-def _keeps_no_clearance(finding: dict[str, Any], asked: Asked) -> bool:
-    """Bodies that meet keep none. Of those in the touch band whose gap is not certified it is taken
-    as said that they do not."""
-    if not asked.clearance:
-        return False
-    said = finding.get("severity") == _said_by_rule(asked)
-    return finding.get("exact_relation") != "separated" or (
-        finding.get("relation") == "touching" and said
-    )
+def _apart(finding: Json, asked: Asked, known: Known) -> Judgement:
+    relation = finding["relation"]
+    rule = asked.name("clearance") or CLEARANCE
+    if relation == "near":
+        return Judgement("error", None, rule)
+    if asked.clearance:
+        kept = known.keeps(Fraction(asked.clearance))
+        if kept is False:
+            return Judgement("error", None, rule)
+        if kept is None:
+            return Judgement("warning", "limit", rule)
+    return Judgement("note" if relation == "touching" else "none")
 
 
-def _limited(
-    finding: dict[str, Any], asked: Asked, depth_at_most: Fraction | None, rounding: Fraction
-) -> tuple[str, str | None]:
-    if asked.max_volume is None and depth_at_most is not None:
-        assert asked.max_depth is not None
-        if depth_at_most <= Fraction(asked.max_depth) * (1 + rounding):
-            return "note", None
-    if finding.get("undecided") == "limit":
-        return "warning", "limit"
-    if finding.get("severity") == "note" != asked.severity:
+@dataclass(frozen=True, slots=True)
+class _Limit:
+    """The pair may have `most` of something, and has between least and greatest, by its figures.
+    kept: proven to be within; None: within by the figures only."""
+
+    key: str
+    most: Fraction
+    least: Fraction | None
+    greatest: Fraction | None
+    proven: bool
+
+    def is_kept(self, rounding: Fraction) -> bool:
+        return self.greatest is not None and self.greatest <= self.most * (1 + rounding)
+
+
+def _limited(finding: Json, asked: Asked, known: Known) -> Judgement:
+    limits = list(_limits(finding, asked, known))
+    broken = [limit for limit in limits if not limit.is_kept(known.rounding)]
+    for limit in broken:
+        if limit.least is not None and limit.least > limit.most:
+            return Judgement("error", None, asked.name(limit.key))
+    for limit in broken:
+        return Judgement("warning", "limit", asked.name(limit.key))
+    if not all(limit.proven for limit in limits):
         raise Rejected("that it is within its limits is not certified")
-    return "error", None
+    names = (asked.name(limit.key) or "" for limit in limits)
+    return Judgement("note", None, ", ".join(dict.fromkeys(names)))
 
 
-def proven_depth(finding: dict[str, Any], depth: bool, mtv: bool) -> Fraction | None:
+def _limits(finding: Json, asked: Asked, known: Known) -> Iterator[_Limit]:
+    if asked.max_depth is not None:
+        low, high = finding["depth_bounds"] or (None, None)
+        most, proven = Fraction(asked.max_depth), known.depth_at_most
+        within = proven is not None and proven <= most * (1 + known.rounding)
+        yield _Limit("max_depth", most, _fraction(low), _fraction(high), within)
+    if asked.max_volume is not None:
+        volume, error = _fraction(finding["volume"]), _fraction(finding["volume_error"])
+        least = greatest = None
+        if volume is not None and error is not None:
+            least, greatest = volume - error, volume + error
+        yield _Limit("max_volume", Fraction(asked.max_volume), least, greatest, False)
+
+
+def _fraction(value: float | None) -> Fraction | None:
+    return None if value is None else Fraction(value)
+
+
+def proven_depth(finding: Json, depth: bool, mtv: bool) -> Fraction | None:
     """An upper bound, world units, of the depth that is certified; None: none is."""
     bounds = []
     if depth:

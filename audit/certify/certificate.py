@@ -34,6 +34,7 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
         pair.asked.max_depth,
         pair.asked.max_volume,
         pair.asked.severity,
+        pair.asked.rules or {},
     )
     if pair.curved:
         from satcheck.audit.certify.curved import make

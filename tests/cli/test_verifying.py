@@ -12,6 +12,13 @@ import pytest
 from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satcheck
 
 
+NOT_COVERED = (
+    "Taken as stated: settings, ids and names.\n"
+    "Not covered: the version of satcheck, who asked for what, on how many pairs an effect ran, "
+    "times, plans.\n"
+)
+
+
 def report(folder: Path, *arguments: str) -> Path:
     path = folder / "report.json"
     ran = satcheck("--certificate", "-o", str(path), *arguments, env=private_cache(folder))
@@ -24,7 +31,7 @@ def test_an_honest_report_is_accepted(tmp_path: Path) -> None:
     VALIDATOR.validate(json.loads(path.read_text("utf-8")))
     ran = satcheck("verify", str(path))
     assert (ran.code, ran.err) == (0, "")
-    assert ran.out == "1 verdict accepted. Proven besides: 1 depth, 1 way out.\n"
+    assert ran.out == f"1 verdict accepted. Proven besides: 1 depth, 1 way out.\n{NOT_COVERED}"
 
 
 def test_paths_start_at_the_root(tmp_path: Path) -> None:
@@ -35,7 +42,7 @@ def test_paths_start_at_the_root(tmp_path: Path) -> None:
         f"satcheck: 2 files are not there, looked for from {tmp_path} on: box.obj, box_pushed.stl; "
         "--root names the folder where the check ran\n"
     )
-    assert elsewhere.out == "0 verdicts accepted, 1 not checked for want of files.\n"
+    assert elsewhere.out == f"0 verdicts accepted, 1 not checked for want of files.\n{NOT_COVERED}"
     assert satcheck("verify", "--root", str(SAMPLES), str(path), cwd=tmp_path).code == 0
 
 
@@ -88,6 +95,23 @@ def test_a_report_without_certificates_is_no_pass(tmp_path: Path) -> None:
     ran = satcheck("verify", str(path))
     assert ran.code == 2
     assert "made with --certificate?" in ran.err
+
+
+def test_a_key_that_stands_twice_makes_it_no_report(tmp_path: Path) -> None:
+    path = report(tmp_path, *PUSHED)
+    text = path.read_text("utf-8")
+    path.write_text(text.replace('"units": null', '"units": null,"units": null'), "utf-8")
+    ran = satcheck("verify", str(path))
+    assert (ran.code, ran.out) == (2, "")
+    assert "the key 'units' stands twice in one object [bad-report]" in ran.err
+
+
+def test_what_nobody_checked_is_listed(tmp_path: Path) -> None:
+    path = report(tmp_path, "l_bracket.obj", "box.obj")
+    found = satcheck("verify", "--format", "json", str(path)).document
+    listed = {one["field"]: one for one in found["not_covered"]}
+    assert listed["settings"]["kind"] == "stated"
+    assert listed["findings[].plan"]["kind"] == "not covered"
 
 
 def test_certificates_need_a_report_that_holds_them() -> None:

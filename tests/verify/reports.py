@@ -11,7 +11,7 @@ from typing import Any
 
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
-from satcheck.verify import Verification, verify
+from satcheck.verify import Rejected, Verification, verify
 from tests.audit.shapes import Mesh, bracket, moved, open_box, unit_box, write
 
 Json = dict[str, Any]
@@ -165,6 +165,14 @@ def report_of(name: str, *, depth: bool = False) -> Json:
 
 def verified(document: Any) -> Verification:
     return verify(document, Path("/"))
+
+
+def is_accepted(document: Any) -> bool:
+    """Neither refused as no report nor found to be false."""
+    try:
+        return verified(document).accepted
+    except Rejected:
+        return False
 
 
 def forged(name: str, forge: Callable[[Json], None], *, depth: bool = False) -> Verification:

@@ -14,7 +14,7 @@ from satcheck.scene.primitives import Box, Sphere
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
 from tests.cli.process import VALIDATOR
-from tests.verify.reports import Json, verified
+from tests.verify.reports import Json, is_accepted, verified
 
 SHAPE = Box((1.0, 2.0, 3.0))
 SHIFT = (1.0, 0.0, 0.0, 0.75, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
@@ -57,7 +57,7 @@ def test_two_boxes_are_checked_from_their_sizes() -> None:
 def test_a_shape_that_is_not_the_one_that_was_checked_proves_nothing(shape: Any) -> None:
     document = report()
     document["bodies"][0]["shape"] = shape
-    assert not verified(document).accepted
+    assert not is_accepted(document)
 
 
 def test_a_pair_within_one_of_several_ignored_groups_is_exempt() -> None:
@@ -72,7 +72,7 @@ def test_a_pair_within_one_of_several_ignored_groups_is_exempt() -> None:
 def test_groups_that_are_no_list_of_texts_make_it_no_report(groups: Any) -> None:
     document = report()
     document["bodies"][0]["groups"] = groups
-    with pytest.raises(Rejected, match="groups of a body"):
+    with pytest.raises(Rejected, match="groups"):
         verified(document)
 
 

@@ -1,0 +1,72 @@
+"""The table of coverage speaks of every field of the published schema, and of no other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from satcheck.verify.coverage import COVERAGE, uncovered
+from satcheck.verify.published import schema
+from tests.verify.reports import report_of, verified
+
+
+def fields_of(node: Any, path: str = "") -> Iterator[str]:
+    """Paths of the fields of a schema that have no fields of their own, as COVERAGE names them.
+
+    A certificate is one field: it is evidence, and claims nothing itself.
+    """
+    if "$ref" in node:
+        target = schema()
+        for step in node["$ref"].removeprefix("#/").split("/"):
+            target = target[step]
+        node = target
+    choices = node.get("oneOf", [])
+    if path.endswith(".certificate") or not (
+        choices or node.get("properties") or node.get("items")
+    ):
+        yield path
+        return
+    for choice in choices:
+        if choice.get("type") != "null" and "required" not in choice.keys() - {"type"}:
+            yield from fields_of(choice, path)
+    for key, member in node.get("properties", {}).items():
+        yield from fields_of(member, f"{path}.{key}".lstrip("."))
+    if "items" in node:
+        yield from fields_of(node["items"], f"{path}[]")
+
+
+def speaks_of(entry: str, field: str) -> bool:
+    rest = field.removeprefix(entry)
+    return field.startswith(entry) and (not rest or rest[0] in ".[")
+
+
+FIELDS = sorted(set(fields_of(schema())))
+
+
+def test_each_field_is_in_one_class() -> None:
+    assert len(FIELDS) > 100
+    for field in FIELDS:
+        entries = [entry for entry in COVERAGE if speaks_of(entry, field)]
+        assert len(entries) == 1, (field, entries)
+
+
+def test_each_entry_is_about_a_field() -> None:
+    for entry in COVERAGE:
+        assert any(speaks_of(entry, field) for field in FIELDS), entry
+
+
+def test_what_is_listed_has_a_name() -> None:
+    for entry, cover in COVERAGE.items():
+        assert bool(cover.called) is (cover.kind not in ("proven", "follows")), entry
+
+
+def test_what_is_not_proven_is_named() -> None:
+    document = report_of("box-in-arm", depth=True)
+    left = {one.field: one.findings for one in verified(document).uncovered}
+    assert left["findings[].depth_bounds"] == 1
+    assert "findings[].mtv" not in left
+    assert {"settings", "bodies[].id", "findings[].plan"} <= left.keys()
+    assert "rules[]" not in left
+    assert "bodies[].transform" not in left
+    document["bodies"][0]["transform"] = [float(k % 5 == 0) for k in range(16)]
+    assert "bodies[].transform" in {one.field for one in uncovered(document, [])}

@@ -1,0 +1,190 @@
+"""For each field of the published schema false claims, made from honest reports of many kinds.
+
+Each is rejected, or the field is one that the checker names as not covered. No field is left out:
+one that no honest report here says anything in would go untested.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import takewhile
+from typing import Any
+
+import pytest
+
+from satcheck.verify import Rejected
+from satcheck.verify.coverage import COVERAGE
+from tests.verify.honest import HONEST, honest
+from tests.verify.reports import Json, verified
+from tests.verify.test_coverage import FIELDS, speaks_of
+
+Place = tuple[str | int, ...]
+WORDS = {
+    "relation": ("separated", "near", "touching", "penetrating", "contains", "inside"),
+    "exact_relation": ("separated", "touching", "penetrating", "contains", "inside"),
+    "severity": ("error", "warning", "note", "silenced", "none"),
+    "quality": ("exact", "bounded", "estimate"),
+    "undecided": ("relation", "inside", "limit", "motion", "cross-check"),
+    "verdict": ("pass", "fail", "incomplete"),
+    "mtv_moves": ("b",),
+}
+# What of a large scene is forged once more.
+JUDGED = ("severity", "undecided", "rule", "relation", "verdict", "findings")
+# Forged are so many members of each list but that of the bodies.
+MEMBERS = 2
+PLAUSIBLE = (0.25, 1, True, "x", [0.25, 0.5], [0.0, 0.0, 1.0], {"a": [0, 0, 0], "b": [0, 0, 0]})
+
+
+def places(value: Any, path: Place = ()) -> Iterator[Place]:
+    """Of every value of a report, but within certificates, which claim nothing."""
+    if path:
+        yield path
+    if path and path[-1] == "certificate":
+        return
+    if isinstance(value, dict):
+        for key, member in value.items():
+            yield from places(member, (*path, key))
+    elif isinstance(value, list):
+        for number, member in enumerate(value if path == ("bodies",) else value[:MEMBERS]):
+            yield from places(member, (*path, number))
+
+
+def name_of(path: Place) -> str:
+    steps = ("[]" if isinstance(step, int) else f".{step}" for step in path)
+    return "".join(steps).lstrip(".")
+
+
+def at(document: Any, path: Place) -> Any:
+    for step in path:
+        document = document[step]
+    return document
+
+
+def false_values(path: Place, value: Any) -> Iterator[Any]:
+    """Other values that the schema may allow."""
+    if isinstance(value, bool):
+        yield not value
+    elif isinstance(value, int):
+        yield from (value + 1, value - 1)
+    elif isinstance(value, float):
+        yield from (value + 0.125, value * 1.5 + 1.0, -value - 0.25, 1e9)
+    elif isinstance(value, str):
+        yield from (word for word in WORDS.get(str(path[-1]), ()) if word != value)
+    elif isinstance(value, list):
+        yield [*value, *value[-1:]] if value else ["x"]
+        yield value[:-1]
+        if len(value) > 1 and isinstance(value[0], float):
+            yield value[::-1]
+    elif value is None:
+        yield from PLAUSIBLE
+        yield from WORDS.get(str(path[-1]), ())
+    if value is not None:
+        yield None
+
+
+def ill_formed(value: Any) -> Iterator[Any]:
+    """Values of another type, unknown keys and missing ones."""
+    yield from (word for word in ("x", {}, [[]]) if word != value)
+    if isinstance(value, dict):
+        yield value | {"unknown": 1}
+        for key in value:
+            yield {other: member for other, member in value.items() if other != key}
+
+
+def is_no_lie(path: Place, value: Any, forged: Any) -> bool:
+    """What is as true as before: the same value, or less said."""
+    if value == forged and type(value) is type(forged):
+        return True
+    if forged is None and (
+        COVERAGE[entry_of(path)].kind in ("stated", "not covered", "certified")
+        or path[-1] in ("witness", "body")
+    ):
+        return path[-1] != "undecided"
+    if path[-1] == "mtv_verified" and forged is False:
+        return True
+    if path == ("pose",) and forged == {}:
+        return True
+    if isinstance(value, dict) and isinstance(forged, dict) and "microseconds" in value:
+        return {**forged, "microseconds": 0} == {**value, "microseconds": 0}
+    if path[-1] == "convex" and None in (value, forged):  # null: no pair had to know
+        return True
+    if path == ("summary", "by_relation") and isinstance(forged, dict):
+        return {k: n for k, n in forged.items() if n} == {k: n for k, n in value.items() if n}
+    # A lower end that is lower still, of a depth that stays an interval.
+    is_lower_end = path[-2:] == ("depth_bounds", 0)
+    return is_lower_end and isinstance(forged, float) and 0 <= forged <= value
+
+
+def entry_of(path: Place) -> str:
+    """Of the table of coverage; of a list or an object, of one of its members."""
+    name = name_of(path)
+    entries = [e for e in COVERAGE if speaks_of(e, name) or speaks_of(name, e)]
+    return entries[0]
+
+
+def left_uncovered(document: Json, path: Place) -> bool:
+    """Whether the checker says of this very place that it is not covered."""
+    return entry_of(path) in {one.field for one in verified(document).uncovered}
+
+
+@cache
+def said_before(name: str) -> frozenset[str]:
+    """The fields in which a report before this one says something."""
+    before = takewhile(lambda other: other != name, HONEST)
+    documents = [honest(other) for other in before]
+    return frozenset(
+        name_of(path) for d in documents for path in places(d) if at(d, path) is not None
+    )
+
+
+def lies_about(name: str) -> Iterator[tuple[Place, Any]]:
+    """Of one report. Outside of the findings and the summary it is forged only where it is the
+    first that says something, and so is its form."""
+    document = honest(name)
+    for path in places(document):
+        value = at(document, path)
+        is_first = value is None or name_of(path) not in said_before(name)
+        of_result = path[0] == "summary" or (path[0] == "findings" and "plan" not in path)
+        if len(document["bodies"]) > 2:
+            of_result &= path[-1] in JUDGED
+        if name == "moving":  # nothing of it is accepted anyway
+            is_first, of_result = is_first and bool({"motion", "motions"} & {*path}), False
+        lies = list(false_values(path, value)) if is_first or of_result else []
+        if is_first and value is not None:
+            lies += ill_formed(value)
+        for false in lies:
+            if not is_no_lie(path, value, false):
+                yield path, false
+
+
+def forged(name: str, path: Place, false: Any) -> Json:
+    document = honest(name)
+    at(document, path[:-1])[path[-1]] = false
+    return document
+
+
+@pytest.mark.parametrize("name", HONEST)
+def test_an_honest_report_is_accepted(name: str) -> None:
+    found = verified(honest(name))
+    if name != "moving":  # what happens on the way has no certificates
+        assert found.accepted, (found.faults, [one.reason for one in found.findings])
+    assert not found.rejected
+
+
+@pytest.mark.parametrize("name", HONEST)
+def test_a_false_claim_is_rejected_or_named(name: str) -> None:
+    for path, false in lies_about(name):
+        document = forged(name, path, false)
+        try:
+            found = verified(document)
+        except Rejected:
+            continue
+        if found.accepted and not left_uncovered(document, path):
+            pytest.fail(f"{name_of(path)}: {false!r} instead of {at(honest(name), path)!r}")
+
+
+def test_each_field_is_forged_in_some_report() -> None:
+    lied_about = {name_of(path) for name in HONEST for path, _ in lies_about(name)}
+    for field in FIELDS:
+        assert any(speaks_of(field, at) or speaks_of(at, field) for at in lied_about), field

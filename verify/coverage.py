@@ -1,0 +1,153 @@
+"""Of each field of a report: whether it is proven, follows from what is proven, or is not covered.
+
+One table for the checker, its output and the docs. A path names a field of the published schema
+(`[]`: of each member of a list); an entry speaks for all below it. What is not covered is listed by
+`satcheck verify` where a report says something there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any, Literal
+
+# proven: from the mesh files and the certificates. follows: checked against what is proven.
+# stated: what was asked, taken as it stands. certified: proven where the certificate of a finding
+# says so, else not covered. not covered: nobody looks at it beyond its type.
+Kind = Literal["proven", "follows", "stated", "certified", "not covered"]
+
+
+@dataclass(frozen=True, slots=True)
+class Cover:
+    """called: what a reader of the output knows the field by, where it is listed."""
+
+    kind: Kind
+    called: str = ""
+
+
+PROVEN, FOLLOWS = Cover("proven"), Cover("follows")
+
+
+def _stated(called: str) -> Cover:
+    return Cover("stated", called)
+
+
+def _certified(called: str) -> Cover:
+    return Cover("certified", called)
+
+
+def _not(called: str) -> Cover:
+    return Cover("not covered", called)
+
+
+COVERAGE: dict[str, Cover] = {
+    "schema": FOLLOWS,  # a constant
+    "tool.name": FOLLOWS,
+    "tool.version": _not("the version of satcheck"),
+    "units": _stated("units"),
+    "settings": _stated("settings"),
+    "summary": FOLLOWS,
+    "pose": _stated("poses"),
+    "motions": _not("motions"),
+    # The body: its file is read again and placed again.
+    "bodies[].id": _stated("ids and names"),
+    "bodies[].name": _stated("ids and names"),
+    "bodies[].file": PROVEN,
+    "bodies[].sha256": PROVEN,
+    "bodies[].path": PROVEN,
+    "bodies[].shape": _stated("primitive shapes"),
+    "bodies[].transform": _stated("poses"),
+    "bodies[].groups": _stated("groups"),
+    "bodies[].static": _stated("which bodies are static"),
+    "bodies[].triangles": PROVEN,
+    "bodies[].health": PROVEN,
+    "bodies[].resolution": PROVEN,
+    "bodies[].convex": PROVEN,
+    "bodies[].parts": _not("convex parts"),
+    "bodies[].part_error": _not("convex parts"),
+    "exempt": _stated("exempt pairs"),
+    "rules[]": _stated("rules"),
+    "effects[].effect": FOLLOWS,
+    "effects[].asked_by": _not("who asked for what"),
+    "effects[].pairs": _not("on how many pairs an effect ran"),
+    "effects[].not_run": _not("on how many pairs an effect ran"),
+    "effects[].microseconds": _not("times"),
+    "findings[].id": FOLLOWS,
+    "findings[].a": FOLLOWS,
+    "findings[].b": FOLLOWS,
+    "findings[].rule": FOLLOWS,
+    "findings[].severity": FOLLOWS,
+    "findings[].undecided": _certified("that something could not be decided"),
+    "findings[].relation": PROVEN,
+    "findings[].placed_relation": PROVEN,
+    "findings[].exact_relation": PROVEN,
+    "findings[].tolerance": FOLLOWS,
+    "findings[].distance": _certified("distance"),
+    "findings[].depth": _certified("depth"),
+    "findings[].depth_bounds": _certified("lower end of the depth"),
+    "findings[].quality": FOLLOWS,
+    "findings[].normal": _certified("direction"),
+    "findings[].mtv": _certified("way out"),
+    "findings[].mtv_moves": FOLLOWS,
+    "findings[].mtv_verified": FOLLOWS,
+    "findings[].witness": FOLLOWS,
+    "findings[].volume": _certified("common volume"),
+    "findings[].volume_error": _certified("common volume"),
+    "findings[].contacts": _certified("contacts"),
+    "findings[].motion": _not("what happens while bodies move"),
+    "findings[].certificate": PROVEN,
+    "findings[].reason": _not("reasons"),
+    "findings[].plan": _not("plans"),
+    "findings[].baseline_state": FOLLOWS,  # always null
+    "issues[].code": _not("issues"),
+    "issues[].severity": _not("issues"),
+    "issues[].body": FOLLOWS,
+    "issues[].file": _not("issues"),
+    "issues[].message": _not("issues"),
+    "truncated.pairs": FOLLOWS,
+    "truncated.reason": _not("reasons"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Uncovered:
+    """field: as in COVERAGE. findings: of how many, where it is a matter of the finding."""
+
+    field: str
+    kind: Kind
+    called: str
+    findings: int | None = None
+
+
+def uncovered(document: dict[str, Any], left: Iterable[str]) -> tuple[Uncovered, ...]:
+    """What the report says and nobody proved. left: of each finding the certified fields that say
+    something and are not proven."""
+    counts: dict[str, int] = {}
+    for field in left:
+        counts[field] = counts.get(field, 0) + 1
+    found = []
+    for field, cover in COVERAGE.items():
+        if cover.kind == "certified" and field in counts:
+            found.append(Uncovered(field, cover.kind, cover.called, counts[field]))
+        elif cover.kind in ("stated", "not covered") and any(_values(document, field)):
+            found.append(Uncovered(field, cover.kind, cover.called))
+    return tuple(found)
+
+
+def _says_something(value: Any) -> bool:
+    if isinstance(value, dict):
+        return any(map(_says_something, value.values()))
+    return value is not None and value is not False and value != []
+
+
+def _values(value: Any, path: str) -> Iterator[bool]:
+    """Whether the report says something there, place by place."""
+    if not path:
+        yield _says_something(value)
+        return
+    step, _, rest = path.partition(".")
+    key, listed = step.removesuffix("[]"), step.endswith("[]")
+    if not isinstance(value, dict) or key not in value:
+        return
+    for member in value[key] if listed else (value[key],):
+        yield from _values(member, rest)

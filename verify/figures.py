@@ -1,0 +1,228 @@
+"""Whether the figures of a finding agree with each other and with the bodies, up to rounding.
+
+What the figures claim beyond that, a certificate proves or `coverage` names.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from satcheck.verify.bodies import Placed
+from satcheck.verify.curved import Curved
+from satcheck.verify.evidence import rational, vector
+from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
+from satcheck.verify.relations import OVERLAPS
+from satcheck.verify.world import World
+
+Json = dict[str, Any]
+# An interval this narrow, relatively, comes from rounding alone.
+EXACT_WIDTH = Fraction(1, 10**9)
+# Figures of polytopes are at most 6e-12 of the size off, as the tables of hard cases show.
+POLYTOPE_ERROR = Fraction(1, 1 << 37)
+# Those of curved shapes are known as far as their bounds close, which is 1e-9 of the size.
+CURVED_ERROR = EXACT_WIDTH
+UNIT_ERROR = 1e-12  # of the length of a unit vector
+# A direction is checked where rounding turns it by no more than this, in radians.
+DIRECTION_ERROR = Fraction(1, 1000)
+ID_DIGITS = 12
+DEPTH_FIGURES = ("depth", "depth_bounds", "normal", "mtv", "mtv_moves", "mtv_verified")
+ALL_FIGURES = (*DEPTH_FIGURES, "distance", "witness", "quality", "volume", "volume_error")
+
+
+@dataclass(frozen=True, slots=True)
+class Rounding:
+    """What rounding may take, world units, for bodies of this size."""
+
+    share: Fraction
+    largest: Fraction
+
+    def of(self, length: Fraction) -> Fraction:
+        return EXACT_WIDTH * abs(length) + self.share * self.largest
+
+
+def rounding_of(a: Placed, b: Placed) -> Rounding:
+    boxes = [box for body in (a, b) if (box := body.bounds) is not None]
+    largest = max((float(np.abs(corners).max()) for corners in boxes), default=0.0)
+    curved = a.curved is not None or b.curved is not None
+    return Rounding(CURVED_ERROR if curved else POLYTOPE_ERROR, Fraction(largest))
+
+
+def check_id(finding: Json) -> None:
+    first, second = sorted((finding["a"], finding["b"]))
+    key = f"{first}\0{second}".encode(errors="surrogatepass")
+    if finding["id"] != hashlib.sha256(key).hexdigest()[:ID_DIGITS]:
+        raise Rejected("its id is not that of these two bodies")
+
+
+def check_no_figures(finding: Json) -> None:
+    """Of a pair that could not be decided."""
+    claims = [key for key in (*ALL_FIGURES, "exact_relation", "contacts", "rule") if finding[key]]
+    if claims:
+        raise Rejected(f"an indeterminate pair claims nothing, this one claims {claims[0]!r}")
+
+
+def check_figures(finding: Json, a: Placed, b: Placed) -> None:
+    """Of a finding whose exact relation is known."""
+    rounding = rounding_of(a, b)
+    if finding["exact_relation"] in OVERLAPS:
+        _check_overlap(finding, rounding)
+    else:
+        _check_gap(finding, rounding)
+    _check_witness(finding, (a, b), rounding)
+    _check_quality(finding)
+    _check_volume(finding, a, b)
+
+
+def _check_overlap(finding: Json, rounding: Rounding) -> None:
+    there = [key for key in DEPTH_FIGURES if finding[key] is not None]
+    if finding["distance"] is not None:
+        raise Rejected("bodies that overlap have no distance")
+    if not there:
+        return
+    if len(there) < len(DEPTH_FIGURES):
+        missing = next(key for key in DEPTH_FIGURES if finding[key] is None)
+        raise Rejected(f"a depth comes with its bounds, its direction and its MTV: no {missing!r}")
+    depth = rational(finding["depth"])
+    low, high = map(rational, finding["depth_bounds"])
+    if not low <= high == depth:
+        raise Rejected("the depth is the upper end of its bounds")
+    move, normal = vector(finding["mtv"]), _unit(finding["normal"])
+    # The MTV may be longer than the depth, and the depth than the MTV, by what rounding takes.
+    length = _length(move)
+    longer = EXACT_WIDTH * (depth + rounding.largest)
+    if abs(length - depth) > longer:
+        raise Rejected("the MTV is not as long as the depth")
+    across = tuple(m + length * n for m, n in zip(move, normal, strict=True))
+    if _length(across) > EXACT_WIDTH * length:
+        raise Rejected("the MTV does not run against the normal")
+
+
+def _check_gap(finding: Json, rounding: Rounding) -> None:
+    there = [key for key in DEPTH_FIGURES if key != "normal" and finding[key] is not None]
+    if there:
+        raise Rejected(f"bodies without a common interior have no {there[0]!r}")
+    distance = finding["distance"]
+    if distance is None:
+        if finding["normal"] is not None or finding["witness"] is not None:
+            raise Rejected("a direction or witness points without the distance")
+        return
+    if distance < 0 or (
+        finding["exact_relation"] == "touching" and rational(distance) > rounding.of(Fraction(0))
+    ):
+        raise Rejected("the distance does not fit the relation")
+
+
+def _check_witness(finding: Json, bodies: tuple[Placed, Placed], rounding: Rounding) -> None:
+    """Points on the bodies, as far apart, and along the normal, as the distance or the depth."""
+    normal = None if finding["normal"] is None else _unit(finding["normal"])
+    witness = finding["witness"]
+    if witness is None:
+        return
+    ends = vector(witness["a"]), vector(witness["b"])
+    step = sub(ends[1], ends[0])  # type: ignore[arg-type]
+    overlap = finding["exact_relation"] in OVERLAPS
+    length = -rational(finding["depth"] or 0) if overlap else rational(finding["distance"])
+    slack = rounding.of(length)
+    if normal is None:
+        if length > slack or _length(step) > slack + abs(length):
+            raise Rejected("witness points apart, and no direction from one to the other")
+    elif _length(tuple(s - length * n for s, n in zip(step, normal, strict=True))) > 2 * slack:
+        raise Rejected("the witness points do not span the figure along the normal")
+    for end, body in zip(ends, bodies, strict=True):
+        if not is_on(end, body, 2 * slack):
+            raise Rejected(f"a witness point does not lie on {body.id}")
+
+
+def shows_direction(finding: Json, a: Placed, b: Placed) -> bool:
+    """Whether witness points are so far apart that rounding leaves their direction what it is."""
+    if finding["witness"] is None or finding["normal"] is None:
+        return False
+    length = rational(finding["distance"] or finding["depth"] or 0)
+    return abs(length) > rounding_of(a, b).of(length) / DIRECTION_ERROR
+
+
+def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
+    """Whether a point is that close to the surface, world units."""
+    if body.curved is not None:
+        return _on_curved(p, body.curved, slack)
+    return body.world is not None and _on_mesh(p, body.world, slack)
+
+
+def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
+    """A convex shape around its origin: pulled there the point is within, pushed away it is not."""
+    x, y, z = map(Fraction, shape.image.origin)
+    step = p[0] - x, p[1] - y, p[2] - z
+    length = _length(step)
+    if length == 0:
+        return False
+    share = slack / length
+
+    def at(scale: Fraction) -> Point:
+        return x + scale * step[0], y + scale * step[1], z + scale * step[2]
+
+    return shape.side(at(1 - share)) >= 0 >= shape.side(at(1 + share))
+
+
+def _on_mesh(p: Point, world: World, slack: Fraction) -> bool:
+    at, reach = np.array([float(c) for c in p]), float(slack) * 1.001
+    low, high = np.nextafter(at - reach, -np.inf), np.nextafter(at + reach, np.inf)
+    near = np.flatnonzero((world.low <= high).all(axis=1) & (world.high >= low).all(axis=1))
+    for corners in world.vertices[world.triangles[near]].tolist():
+        points: Any = [tuple(Fraction(c) - q for c, q in zip(v, p, strict=True)) for v in corners]
+        x, _ = nearest_to_origin(points)
+        if dot(x, x) <= slack * slack:
+            return True
+    return False
+
+
+def _check_quality(finding: Json) -> None:
+    """Of a relation that is proven."""
+    bounds = finding["depth_bounds"]
+    wide = bounds is not None and rational(bounds[1]) - rational(bounds[0]) > (
+        EXACT_WIDTH * rational(bounds[1])
+    )
+    expected = "bounded" if wide else "exact"
+    if finding["quality"] != expected:
+        raise Rejected(f"the quality that follows is {expected!r}")
+
+
+def _check_volume(finding: Json, a: Placed, b: Placed) -> None:
+    volume, error = finding["volume"], finding["volume_error"]
+    if (volume is None) is not (error is None):
+        raise Rejected("a volume comes with its error")
+    if volume is None:
+        return
+    if finding["exact_relation"] not in OVERLAPS:
+        if volume or error:
+            raise Rejected("bodies without a common interior share no volume")
+        return
+    if a.bounds is None or b.bounds is None:
+        return
+    low, high = np.maximum(a.bounds[0], b.bounds[0]), np.minimum(a.bounds[1], b.bounds[1])
+    room = math.prod((Fraction(h) - Fraction(g) for g, h in zip(low, high, strict=True)), start=1)
+    if rational(volume) - rational(error) > room:
+        raise Rejected("the common volume is more than that of the boxes")
+
+
+def _unit(value: Any) -> Point:
+    normal = vector(value)
+    if abs(float(_length(normal)) - 1) > UNIT_ERROR:
+        raise Rejected("the normal is no unit vector")
+    return normal
+
+
+def _length(v: Sequence[Fraction | int]) -> Fraction:
+    """To a relative 2**-60."""
+    squared = Fraction(sum(c * c for c in v))
+    if squared == 0:
+        return Fraction(0)
+    shift = max(squared.denominator.bit_length() - squared.numerator.bit_length(), 0) // 2 + 64
+    whole = math.isqrt((squared.numerator << 2 * shift) // squared.denominator)
+    return Fraction(whole, 1 << shift)
