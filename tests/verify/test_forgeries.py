@@ -101,6 +101,8 @@ def is_no_lie(path: Place, value: Any, forged: Any) -> bool:
         or path[-1] in ("witness", "body")
     ):
         return path[-1] != "undecided"
+    if path[-1] == "certificate" and isinstance(forged, dict) and forged.keys() < value.keys():
+        return True  # what it proved is then named as not covered, or rejected
     if path[-1] == "mtv_verified" and forged is False:
         return True
     if path == ("pose",) and forged == {}:
@@ -129,13 +131,11 @@ def left_uncovered(document: Json, path: Place) -> bool:
 
 
 @cache
-def said_before(name: str) -> frozenset[str]:
-    """The fields in which a report before this one says something."""
+def said_before(name: str) -> frozenset[tuple[str, bool]]:
+    """The fields of the reports before this one, and whether they are null there."""
     before = takewhile(lambda other: other != name, HONEST)
     documents = [honest(other) for other in before]
-    return frozenset(
-        name_of(path) for d in documents for path in places(d) if at(d, path) is not None
-    )
+    return frozenset((name_of(path), at(d, path) is None) for d in documents for path in places(d))
 
 
 def lies_about(name: str) -> Iterator[tuple[Place, Any]]:
@@ -144,7 +144,7 @@ def lies_about(name: str) -> Iterator[tuple[Place, Any]]:
     document = honest(name)
     for path in places(document):
         value = at(document, path)
-        is_first = value is None or name_of(path) not in said_before(name)
+        is_first = (name_of(path), value is None) not in said_before(name)
         of_result = path[0] == "summary" or (path[0] == "findings" and "plan" not in path)
         if len(document["bodies"]) > 2:
             of_result &= path[-1] in JUDGED
@@ -153,6 +153,8 @@ def lies_about(name: str) -> Iterator[tuple[Place, Any]]:
         lies = list(false_values(path, value)) if is_first or of_result else []
         if is_first and value is not None:
             lies += ill_formed(value)
+        if COVERAGE[entry_of(path)].kind in ("stated", "not covered"):
+            lies = lies[:1] + lies[-1:]  # whatever it says, it is named
         for false in lies:
             if not is_no_lie(path, value, false):
                 yield path, false
