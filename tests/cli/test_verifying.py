@@ -11,7 +11,6 @@ import pytest
 
 from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satcheck
 
-
 NOT_COVERED = (
     "Taken as stated: settings, ids and names.\n"
     "Not covered: the version of satcheck, who asked for what, on how many pairs an effect ran, "
