@@ -14,7 +14,7 @@ from typing import Any
 from satcheck.audit.asked.planner import Asked
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Relation, Severity, Undecided
-from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.audit.tolerances import EXACT_WIDTH, is_within
 from satcheck.core.frozen import frozen, replace
 
 CLEARANCE_RULE = "clearance"
@@ -115,10 +115,10 @@ def _limited(known: Mapping[str, Any], asked: Asked) -> Judgement:
     """Within all limits, beyond one, or undecided."""
     limits = list(_limits(known, asked))
     for limit in limits:
-        if not limit.kept and limit.least is not None and limit.least > limit.most:
+        if limit.kept is False:
             return Judgement("error", limit.rule)
     for limit in limits:
-        if not limit.kept:
+        if limit.kept is None:
             return Judgement("warning", limit.rule, "limit", f"undecided: {limit.question}")
     return Judgement("note", ", ".join(dict.fromkeys(limit.rule for limit in limits)))
 
@@ -135,9 +135,11 @@ class _Limit:
     greatest: float | None
 
     @property
-    def kept(self) -> bool:
-        """Figures are rounded: one that equals its limit is within it."""
-        return self.greatest is not None and self.greatest <= self.most * (1 + EXACT_WIDTH)
+    def kept(self) -> bool | None:
+        """None: not decided."""
+        if self.least is None or self.greatest is None:
+            return None
+        return is_within(self.most, self.least, self.greatest)
 
     @property
     def question(self) -> str:

@@ -32,6 +32,14 @@ EXACT_WIDTH = 1e-9
 VOLUME_ROUNDOFFS = 18
 
 
+def is_within(limit: float, least: float, greatest: float) -> bool | None:
+    """Whether a figure between these bounds is within a limit; None: not decided. Figures are
+    rounded: one that equals its limit to EXACT_WIDTH is within it."""
+    if greatest <= limit * (1 + EXACT_WIDTH):
+        return True
+    return False if least > limit else None
+
+
 def rounding_pad(largest_coordinate: float) -> float:
     """World units: what a short chain of operations on such coordinates can be off by."""
     return CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * largest_coordinate

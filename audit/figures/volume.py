@@ -8,7 +8,7 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.ladder.ladder import Contact
-from satcheck.audit.tolerances import UNIT_ROUNDOFF, VOLUME_ROUNDOFFS
+from satcheck.audit.tolerances import UNIT_ROUNDOFF, VOLUME_ROUNDOFFS, is_within
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
 
@@ -57,6 +57,16 @@ def _require_measurable(body: PlacedBody) -> None:
 
 
 def _measured(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
+    found = _estimated(pair, contact, plan)
+    limit = pair.asked.max_volume
+    if limit is None or found.volume is None or found.error is None:
+        return found
+    if is_within(limit, found.volume - found.error, found.volume + found.error) is not None:
+        return found
+    return _exact(pair, plan) or found
+
+
+def _estimated(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
     inner = {"contains": pair.b, "inside": pair.a, "coincident": pair.a}.get(contact.relation)
     if inner is not None:
         found = _own_volume(inner)
@@ -67,6 +77,19 @@ def _measured(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
     detail = f"by manifold3d in a child process, off by about {common.error:.1g} at most"
     plan.record("volume", "measured", detail)
     return CommonVolume(max(common.volume, 0.0), common.error)
+
+
+def _exact(pair: Pair, plan: Plan) -> CommonVolume | None:
+    """Where an estimate leaves a limit open. None where that is too much work."""
+    from satcheck.core.exact_volume import exact_common_volume
+
+    exact = exact_common_volume(pair.a.mesh, pair.b.mesh)
+    if exact is None:
+        plan.record("volume", "no answer", "too many triangles for rational numbers")
+        return None
+    plan.record("volume", "exact", "in rational numbers, as the estimate leaves the limit open")
+    volume = float(exact)
+    return CommonVolume(volume, 0.0 if exact == volume else math.ulp(volume))
 
 
 def _own_volume(body: PlacedBody) -> CommonVolume:

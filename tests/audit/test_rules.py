@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from itertools import combinations
 
 import pytest
@@ -104,6 +105,23 @@ def test_max_volume(tmp_path, limit):
     report = check(ruled(boxes(tmp_path, 0.75), rule(max_volume=limit)))
     assert only(report).severity == VOLUMES[limit]
     assert only(report).volume == pytest.approx(0.25)
+
+
+# Boxes that share little: the estimate is off by more than a limit is granted.
+CORNERS = {
+    "equal": (Fraction(1, 64) ** 3, ("note", "pass")),
+    "just below": (Fraction(1, 64) ** 3 * (1 - Fraction(1, 10**8)), ("error", "fail")),
+    "just above": (Fraction(1, 64) ** 3 * (1 + Fraction(1, 10**8)), ("note", "pass")),
+}
+
+
+@pytest.mark.parametrize("case", CORNERS)
+def test_a_volume_about_its_limit_is_decided(tmp_path, case):
+    limit, (severity, verdict) = CORNERS[case]
+    scene = scene_of(tmp_path, a=unit_box(), b=unit_box(*[1 - 1 / 64] * 3))
+    report = check(ruled(scene, rule(max_volume=float(limit))))
+    assert judgement(report) == (severity, "scene.toml:7", None, verdict)
+    assert (only(report).volume, only(report).volume_error) == (2**-18, 0.0)
 
 
 def test_a_volume_that_is_refused_leaves_its_limit_undecided(tmp_path):
