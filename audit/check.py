@@ -13,6 +13,7 @@ from satcheck.audit.asked.planner import Asked, Planner
 from satcheck.audit.asked.settings import LISTED_PAIRS, Settings
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.roster import Known, Roster, place
+from satcheck.audit.doubtful_sizes import doubtful_sizes
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.ladder.climb import leaves_work, start_climbs
@@ -81,7 +82,8 @@ def check(
     of_motions = () if movers is None else movers.issues(roster.ids)
     of_pairs = (issue for one in examined for issue in one.issues)
     counts = count(roster, len(close), findings)
-    issues = issues_of(scene, roster, counts, (*of_motions, *of_pairs))
+    of_sizes = doubtful_sizes(roster, findings, settings.planar)
+    issues = issues_of(scene, roster, counts, (*of_sizes, *of_motions, *of_pairs))
     return Report(
         tool=tool(),
         units=scene.units,
@@ -90,7 +92,12 @@ def check(
         bodies=body_reports(roster),
         exempt=exempt_of(scene),
         rules=scene.rules,
-        effects=effects_of(planner, map(_asked_and_found, examined), counts),
+        effects=effects_of(
+            planner,
+            map(_asked_and_found, examined),
+            counts,
+            units_unknown=sum(1 for _ in roster.pairs_of_several_units()),
+        ),
         motions=() if movers is None else movers.values(),
         pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
@@ -224,7 +231,7 @@ def _findings(
     roster: Roster, close: list[tuple[int, int]], examined: list[Examined], planner: Planner
 ) -> list[Finding]:
     found = {pair: one.finding for pair, one in zip(close, examined, strict=True)}
-    for i, j, reason in roster.unreadable_pairs():
+    for i, j, reason in roster.undecidable_pairs():
         found[i, j] = indeterminate(roster.ids[i], roster.ids[j], reason, Plan())
     settings = planner.settings
     total, allowed = roster.book.count()

@@ -44,7 +44,7 @@ def tool() -> Tool:
 
 def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts:
     """close: how many pairs the broad phase left over. Raises RuntimeError if a pair is lost."""
-    unreadable = sum(1 for _ in roster.unreadable_pairs())
+    unreadable = sum(1 for _ in roster.undecidable_pairs())
     indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
     total, allowed = roster.book.count()
     bodies = len(roster.ids)
@@ -132,6 +132,8 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         sha256=file.sha256,
         path=body.body.path,
         transform=None if transform is None else tuple(map(float, transform)),
+        units=body.body.units,
+        unit_scale=body.body.unit_scale,
         groups=body.body.groups,
         static=body.body.static,
         triangles=file.mesh.triangle_count,

@@ -49,6 +49,7 @@ class Choices:
     depth_width: float
     depth_budget: float
     split: Split | None
+    units: str | None
     fail_on: str
     allow_open: bool
     cross_check: bool
@@ -73,6 +74,7 @@ def run(choices: Choices) -> int:
         choices.packages,
         choices.split,
         choices.allow_outside,
+        units=choices.units,
         hashed=choices.form == "json",
         meanwhile=lambda: _import_what_follows(choices.form),
     )
@@ -132,12 +134,13 @@ def load(
     packages: Mapping[str, Path] | None = None,
     split: Split | None = None,
     allow_outside: bool = False,
+    units: str | None = None,
     hashed: bool = True,
     meanwhile: Callable[[], object] | None = None,
 ) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr. UsageError for one body alone, and
     for a split of what says itself what its bodies are; ClickException where nothing is left.
-    hashed: whether the document states the SHA-256 of files. meanwhile: see load_scene."""
+    units, meanwhile: see load_scene. hashed: whether the document states the SHA-256 of files."""
     from satcheck.core import keep_freed_memory
     from satcheck.scene import load_scene
     from satcheck.scene.loader import is_mesh
@@ -150,6 +153,7 @@ def load(
         split=split,
         packages=packages,
         allow_outside=allow_outside,
+        units=units,
         hashed=hashed,
         meanwhile=meanwhile,
     )

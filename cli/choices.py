@@ -13,3 +13,4 @@ LEAST_SEVERITY = "error"
 DEPTH_WIDTH = 0.01
 DEPTH_BUDGET = 2.0
 MOST_BUDGET = 86400
+UNITS = ("um", "mm", "cm", "m", "in", "ft")

@@ -46,6 +46,7 @@ _DEFAULTS: dict[str, Any] = {
     "depth_width": DEPTH_WIDTH,
     "depth_budget": DEPTH_BUDGET,
     "split": None,
+    "units": None,
     "fail_on": LEAST_SEVERITY,
     "allow_open": False,
     "cross_check": False,

@@ -39,6 +39,7 @@ class Choices:
     max_motion: Length | None
     iterations: int
     split: Split | None
+    units: str | None
     allow_outside: bool
     allow_open: bool
     jobs: int
@@ -84,7 +85,13 @@ def run(choices: Choices) -> int:
 
 
 def _loaded(choices: Choices) -> Scene:
-    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside)
+    scene = load(
+        choices.paths,
+        choices.packages,
+        choices.split,
+        choices.allow_outside,
+        units=choices.units,
+    )
     if not choices.posing.given:
         return scene
     from satcheck.cli.posing import poses_of
@@ -179,7 +186,11 @@ def _checked(path: Path, settings: Settings, choices: Choices) -> Report:
     from satcheck.scene import load_scene
 
     try:
-        scene = load_scene([str(path), *choices.rule_files], allow_outside=choices.allow_outside)
+        scene = load_scene(
+            [str(path), *choices.rule_files],
+            units=choices.units,
+            allow_outside=choices.allow_outside,
+        )
     except SatcheckError:
         path.unlink(missing_ok=True)
         raise

@@ -34,6 +34,7 @@ class Choices:
     seed: int
     depth: bool
     explain: bool
+    units: str | None
     allow_outside: bool
 
 
@@ -53,7 +54,7 @@ def _probe(choices: Choices) -> Stability:
     from satcheck.audit import Settings
     from satcheck.cli.progress import Bar
 
-    scene = load(choices.paths, allow_outside=choices.allow_outside)
+    scene = load(choices.paths, allow_outside=choices.allow_outside, units=choices.units)
     if scene.unreadable:
         raise click.ClickException("an input could not be used: there is no pair to ask about")
     from satcheck.audit.stability import probe

@@ -33,6 +33,7 @@ class Choices:
     planar: Plane | None
     packages: Mapping[str, Path]
     split: Split | None
+    units: str | None
     allow_outside: bool
     posing: Posing
 
@@ -44,7 +45,13 @@ def run(choices: Choices) -> int:
 
     refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     document = Document()
-    scene = load(choices.paths, choices.packages, choices.split, choices.allow_outside)
+    scene = load(
+        choices.paths,
+        choices.packages,
+        choices.split,
+        choices.allow_outside,
+        units=choices.units,
+    )
     if choices.form == "srdf" and len(scene.robots) != 1:
         raise click.UsageError("SRDF is about one robot: give one URDF")
     found = _suggest(scene, choices)

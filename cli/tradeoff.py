@@ -33,6 +33,7 @@ class Choices:
     pairs: int
     plot: Path | None
     split: Split | None
+    units: str | None
     allow_outside: bool
 
 
@@ -69,7 +70,12 @@ def _refuse_plot(choices: Choices) -> None:
 def _measured(choices: Choices) -> Tradeoff:
     from satcheck.cli.progress import Bar
 
-    scene = load(choices.paths, split=choices.split, allow_outside=choices.allow_outside)
+    scene = load(
+        choices.paths,
+        split=choices.split,
+        allow_outside=choices.allow_outside,
+        units=choices.units,
+    )
     if scene.unreadable:
         raise click.ClickException("an input could not be used: nothing is compared without it")
     from satcheck.audit.tradeoff import tradeoff

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
+from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from satcheck.scene.primitives import Primitive
     from satcheck.scene.robot import Posture, SceneRobot
 
+UNITS_UNKNOWN = "units-unknown"
 Transform = tuple[float, ...]
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
@@ -59,7 +61,8 @@ class Body:
     singular; None: as in the file. groups: bodies of one group may be exempt from each other.
     shape: what `file` is the mesh of; None: a file on disk. path: of the node within the file;
     None: all of the file. static: one of the surroundings, see `Scene.check_static`. pinned: stays
-    where it is when a scene is pulled apart.
+    where it is when a scene is pulled apart. units: that the world coordinates are in; None: nobody
+    states any. unit_scale: what the transform converts coordinates of the file by; None: nothing.
     """
 
     id: str
@@ -71,6 +74,8 @@ class Body:
     shape: Primitive | None = None
     path: str | None = None
     pinned: bool = False
+    units: str | None = None
+    unit_scale: float | None = None
 
     def world_mesh(self) -> Mesh:
         """The mesh in world coordinates, each rounded once; ValueError when one overflows."""
@@ -103,8 +108,7 @@ class Scene:
     """Everything that was asked to be checked, in the order given.
 
     order: the ids of bodies and unreadable ones together, in the order given.
-    units: as declared by the scene files, or where only mesh files are given by them; None where
-    they disagree or one says nothing.
+    units: of all lengths, as the inputs declare them or converted; None where one is unknown.
     ignore_within_groups: groups whose bodies are not checked against each other.
     rules: what is asked of pairs beyond the settings of a check, in the order in which they count.
     check_static: whether two bodies that do not move are a pair to check.
@@ -133,6 +137,12 @@ class Scene:
             from satcheck.scene.motion import refuse_second_motions
 
             refuse_second_motions(self.motions)
+
+    def require_one_unit(self) -> None:
+        """Raises SatcheckError (`units-unknown`) where bodies have no common unit of length."""
+        if len({body.units for body in self.bodies}) > 1:
+            said = next(found for found in self.issues if found.code == UNITS_UNKNOWN)
+            raise SatcheckError(UNITS_UNKNOWN, said.message)
 
     def in_order(self) -> list[Body | Unreadable]:
         """All that was asked for; what `order` does not name comes last."""

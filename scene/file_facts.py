@@ -1,38 +1,12 @@
-"""What the files of bodies say about more than one of them: units, and warnings to be said once."""
+"""What the files of bodies say about more than one of them: warnings to be said once."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body
-from satcheck.scene.issue import Issue, issue
-from satcheck.scene.units import is_unit, unit_of
-
-
-def common_units(declared: Mapping[str, str | None], *, labelled: bool) -> str | None:
-    """The units of the inputs, by their paths, where they agree; a label of ours where known.
-
-    labelled: scenes or robots among them say what the numbers of all others are, too.
-    """
-    units = [unit for unit in declared.values() if unit or not labelled]
-    names = {unit_of(unit) or unit for unit in units}
-    found = units[0] if len(names) == 1 else None
-    return found if labelled or (found and is_unit(found)) else None
-
-
-def units_differ(declared: Mapping[str, str | None]) -> Issue | None:
-    """A warning where two inputs declare different units: nothing is converted."""
-    named = [(path, unit) for path, declares in declared.items() if (unit := unit_of(declares))]
-    for path, unit in named[1:]:
-        first, its = named[0]
-        if unit != its:
-            message = (
-                f"{path} is in {unit}, {first} in {its}: nothing is converted, "
-                "so their bodies are of the wrong size to each other"
-            )
-            return issue("units-differ", message, file=path)
-    return None
+from satcheck.scene.issue import Issue
 
 
 def issues_of_files(bodies: Sequence[Body]) -> list[Issue]:

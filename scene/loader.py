@@ -16,6 +16,7 @@ from satcheck.scene.mesh_files import (
 )
 from satcheck.scene.plain_ids import plain_ids
 from satcheck.scene.scene_builder import SceneBuilder, Split
+from satcheck.scene.units import MICROMETRES, unit_of
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import SceneFile
@@ -30,11 +31,14 @@ def load_scene(
     packages: Mapping[str, str | Path] | None = None,
     allow_outside: bool = False,
     hashed: bool = True,
+    units: str | None = None,
     meanwhile: Callable[[], object] | None = None,
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
-    Coordinates are taken without unit or up-axis conversion. split: which bodies a mesh file is.
+    Inputs that state different units of length are converted into one (`common_units`); bodies of
+    which none is known have `units` None, and pairs of them with others are not decided. units: of
+    the inputs that state none. Up-axes are not converted. split: which bodies a mesh file is.
     "none": one, the whole file, flattened (nodes, instances and build items applied). "nodes": one
     for each node of a GLB or glTF file with a mesh, and for each way from the build of a 3MF file
     to an object with a mesh; other formats have no nodes. "components": these taken apart into
@@ -61,7 +65,7 @@ def load_scene(
     files = MeshFiles(
         seconds_per_file, megabytes_per_file, allow_outside=allow_outside, hashed=hashed
     )
-    builder = SceneBuilder(files)
+    builder = SceneBuilder(files, None if units is None else _unit(units))
     given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
     scenes = _read_scenes(given, allow_outside)
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
@@ -83,6 +87,14 @@ def load_scene(
         else:
             builder.add_nodes(next(ids), path, Path(path), split, alone)
     return builder.scene()
+
+
+def _unit(name: str) -> str:
+    found = unit_of(name)
+    if found is None:
+        known = ", ".join(MICROMETRES)
+        raise SatcheckError("bad-argument", f"units: one of {known}, not {name!r}")
+    return found
 
 
 def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFile]:

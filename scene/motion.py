@@ -15,7 +15,7 @@ from collections import Counter
 from itertools import pairwise
 
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
+from satcheck.core.frozen import frozen, replace
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -106,6 +106,26 @@ class Motion:
         if not self.bodies:
             raise _refused("a motion must name a body")
         refuse_second_motions((self,))
+
+
+def scaled_motion(motion: Motion, scale: float) -> Motion:
+    """With its lengths in a unit of which one of its own is `scale`."""
+    path = motion.path
+    if scale == 1.0:
+        return motion
+    if isinstance(path, Translation):
+        path = Translation(_times(scale, path.vector))
+    elif isinstance(path, Rotation):
+        path = replace(path, point=_times(scale, path.point))
+    else:
+        waypoints = (replace(w, position=_times(scale, w.position)) for w in path.waypoints)
+        path = PosePath(tuple(waypoints))
+    return replace(motion, path=path)
+
+
+def _times(scale: float, vector: Vector) -> Vector:
+    x, y, z = vector
+    return scale * x, scale * y, scale * z
 
 
 def refuse_second_motions(motions: tuple[Motion, ...]) -> None:

@@ -13,6 +13,7 @@ from satcheck.scene.format.entries import SCENE_1, SIMPLE
 from satcheck.scene.format.reading import read_scene_file
 from satcheck.scene.format.text import is_toml, parsed, read_text
 from satcheck.scene.format.writing import moved
+from satcheck.scene.units import unit_in
 
 Translation = tuple[float, float, float]
 
@@ -42,6 +43,8 @@ def scene_file_of(output: Path, scene: Scene, translations: Mapping[str, Transla
         entry: dict[str, Any] = {"id": body.id, "mesh": _path_from(output, Path(body.file.path))}
         if body.path is not None:
             entry["part"] = body.path
+        if body.file.units is None and body.unit_scale is not None and body.units is not None:
+            entry["units"] = unit_in(body.units, body.unit_scale)
         if body.id in translations:
             entry["position"] = list(translations[body.id])
         entries.append(entry)

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from typing import Literal, get_args
 
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
+from satcheck.core.frozen import frozen, replace
 
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
@@ -127,6 +127,17 @@ class Rule:
             raise _refused(f"a rule asks something: give it one of {', '.join(KEYS)}")
         if self.allowed and any(getattr(self, key) is not None for key in KEYS if key != "allowed"):
             raise _refused("an allowed pair is not looked at: leave the other keys out")
+
+    def scaled(self, scale: float) -> Rule:
+        """With its lengths, and its volume, in a unit of which one of its own is `scale`."""
+        if scale == 1.0:
+            return self
+        values = {key: getattr(self, key) for key in (*LENGTHS, "max_volume")}
+        factors = {"max_volume": scale**3}
+        known = {key: value for key, value in values.items() if value is not None}
+        return replace(
+            self, **{key: value * factors.get(key, scale) for key, value in known.items()}
+        )
 
     @property
     def name(self) -> str:

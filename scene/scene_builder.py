@@ -9,17 +9,20 @@ from typing import TYPE_CHECKING, Literal
 
 from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
+from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.file_facts import common_units, issues_of_files, units_differ
+from satcheck.scene.file_facts import issues_of_files
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
+from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
     from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
     from satcheck.scene.format.joined import JoinedScenes
     from satcheck.scene.primitives import Primitive
     from satcheck.scene.robot import SceneRobot, Srdf
+    from satcheck.scene.rules import Rule
 
 Split = Literal["nodes", "components", "none"]
 
@@ -27,14 +30,19 @@ ROBOT_UNITS = "m"  # of every URDF
 
 
 class SceneBuilder:
-    """Takes inputs one by one; `scene` is what they are together. files: reads their meshes."""
+    """Takes inputs one by one; `scene` is what they are together. files: reads their meshes.
 
-    def __init__(self, files: MeshFiles) -> None:
+    units: of the inputs that declare none.
+    """
+
+    def __init__(self, files: MeshFiles, units: str | None = None) -> None:
         self._files = files
+        self._given_units = units
         self._ids = UniqueNames()
         self._order: list[str] = []
         self._names: list[str] = []
-        self._units: dict[str, str | None] = {}  # of the inputs, by their paths
+        self._inputs: list[Input] = []
+        self._rule_units: dict[str, str | None] = {}  # of files of rules, as they declare them
         self._only_meshes = True
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
@@ -49,8 +57,7 @@ class SceneBuilder:
         name = location.stem or path
         self._names.append(name)
         file = self._files.whole(path, location)
-        if isinstance(file, MeshFile):
-            self._units[path] = file.units
+        self._begin("mesh", path, file.units if isinstance(file, MeshFile) else None)
         self._add(id_, name, path, file, None)
 
     def add_nodes(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
@@ -59,15 +66,16 @@ class SceneBuilder:
         self._names.append(name)
         found = self._files.nodes(path, location, components=split == "components")
         if isinstance(found, MeshFileError):
+            self._begin("mesh", path, None)
             self._add(id_, name, path, found, None)
             return
         self._issues.extend(found.issues)
         self._taken_apart |= len(found.nodes) > 1
+        units = (node.file.units for node in found.nodes if isinstance(node.file, MeshFile))
+        self._begin("mesh", path, next(units, None))
         for node in found.nodes:
             wanted = _node_id(node.path, id_, alone)
             title = wanted if node.path else name
-            if isinstance(node.file, MeshFile):
-                self._units[path] = node.file.units
             self._add(wanted, title, path, node.file, node.transform, node=node.path)
 
     def add_scene(self, scene: SceneFile) -> None:
@@ -80,11 +88,11 @@ class SceneBuilder:
             if place in self._rule_files:
                 return
             self._rule_files.add(place)
-        if scene.bodies:
+            self._rule_units[path] = scene.units
+        else:
             self._names.append(scene.name)
             self._only_meshes = False
-        if scene.units or scene.bodies:
-            self._units[path] = scene.units
+            self._begin("scene", path, scene.units)
         self._scenes = self._scenes or JoinedScenes()
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
@@ -101,8 +109,9 @@ class SceneBuilder:
             path = entry.mesh.path
             if entry.part is None:
                 file = self._files.whole(path, entry.mesh.location)
+                transform = scaled_mesh(transform, self._scale(file, entry.units))
             else:
-                file, transform = self._part(entry.mesh, entry.part, transform)
+                file, transform = self._part(entry.mesh, entry.part, transform, entry.units)
         return self._add(
             entry.id,
             entry.id,
@@ -114,10 +123,11 @@ class SceneBuilder:
             entry.shape,
             entry.part,
             entry.pinned,
+            entry.units,
         )
 
     def _part(
-        self, mesh: MeshPath, part: str, transform: Transform | None
+        self, mesh: MeshPath, part: str, transform: Transform | None, units: str | None
     ) -> tuple[MeshFile | MeshFileError, Transform | None]:
         """The part, and where it is when the file is placed by the transform."""
         from satcheck.scene.loading.placing import multiply
@@ -125,20 +135,8 @@ class SceneBuilder:
         found = self._files.part(mesh.path, mesh.location, part)
         if isinstance(found, MeshFileError):
             return found, None
-        return found.file, multiply(transform, found.transform)
-
-    def _add_body(
-        self,
-        wanted: str,
-        name: str,
-        path: str,
-        location: Path,
-        transform: tuple[float, ...] | None,
-        groups: tuple[str, ...],
-        static: bool,
-    ) -> str:
-        file = self._files.whole(path, location)
-        return self._add(wanted, name, path, file, transform, groups, static)
+        scale = self._scale(found.file, units)
+        return found.file, multiply(transform, scaled_world(found.transform, scale))
 
     def add_robot(
         self,
@@ -159,13 +157,15 @@ class SceneBuilder:
         robot, issues = read_urdf(path, location)
         self._names.append(robot.name)
         self._only_meshes = False
-        self._units[path] = ROBOT_UNITS
+        self._begin("robot", path, ROBOT_UNITS)
         self._issues += [*issues, *bare_links(robot)]
         bodies = []
         for part in parts_of(robot, MeshPlaces(path, packages, allow_outside=allow_outside)):
             if isinstance(part.source, Path):
                 place = part.source.as_posix()
-                id_ = self._add_body(part.id, part.id, place, part.source, part.offset, (), False)
+                file = self._files.whole(place, part.source)
+                part = replace(part, offset=self._in_metres(file, part.offset))
+                id_ = self._add(part.id, part.id, place, file, part.offset)
             elif isinstance(part.source, MeshFileError):
                 id_ = self._add(part.id, part.id, path, part.source, part.offset)
             else:
@@ -174,10 +174,25 @@ class SceneBuilder:
             bodies.append(RobotBody(id_, part.link, part.offset))
         self._robots.append(SceneRobot(robot, tuple(bodies)))
 
+    def _in_metres(self, file: MeshFile | MeshFileError, offset: Transform) -> Transform:
+        return scaled_mesh(offset, self._scale(file, None)) or offset
+
     def add_srdf(self, path: str, location: Path) -> None:
         from satcheck.scene.robot import read_srdf
 
         self._srdfs.append(read_srdf(path, location))
+
+    def _begin(self, kind: Kind, path: str, declares: str | None) -> None:
+        """The bodies that follow are those of this input."""
+        self._inputs.append(Input(kind, path, declares, self._given_units))
+
+    def _scale(self, file: MeshFile | MeshFileError, units: str | None) -> float:
+        """How many units of the input one of the mesh file is. units: in the place of what the file
+        states."""
+        own = self._inputs[-1].unit
+        if isinstance(file, MeshFileError) or own is None:
+            return 1.0
+        return ratio(stated_unit(units or file.units) or own, own)
 
     def _add(
         self,
@@ -191,12 +206,16 @@ class SceneBuilder:
         shape: Primitive | None = None,
         node: str | None = None,
         pinned: bool = False,
+        units: str | None = None,
     ) -> str:
+        """units: of the mesh, in the place of what its file states."""
         id_ = self._ids.unique(wanted)
         self._order.append(id_)
+        self._inputs[-1].ids.append(id_)
         if isinstance(file, MeshFile):
+            own = stated_unit(units or file.units)
             self._bodies.append(
-                Body(id_, name, file, transform, groups, static, shape, node, pinned)
+                Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
             )
         else:
             reason = issue(file.code, str(file), body=id_, file=path)
@@ -225,25 +244,30 @@ class SceneBuilder:
         return posed(scene, {})
 
     def _bodies_and_files(self) -> Scene:
-        scenes, differ = self._scenes, units_differ(self._units)
+        scenes = self._scenes
+        found = in_one_unit(self._bodies, self._inputs, self._rule_units)
         return Scene(
             name=" ".join(self._names),
-            units=common_units(self._units, labelled=not self._only_meshes),
-            bodies=tuple(self._bodies),
+            units=found.label,
+            bodies=found.bodies,
             unreadable=tuple(self._unreadable),
             order=tuple(self._order),
             ignore_within_groups=frozenset(scenes.ignored if scenes else ()),
-            rules=scenes.rules([*self._bodies, *self._unreadable]) if scenes else (),
+            rules=self._rules(found.scales),
             check_static=scenes is None or scenes.check_static,
-            motions=tuple(scenes.motions if scenes else ()),
+            motions=scenes.motions(found.scales) if scenes else (),
             composed=self._taken_apart or not self._only_meshes,
             issues=(
                 *self._issues,
                 *_of_lost(self._unreadable),
                 *issues_of_files(self._bodies),
-                *([differ] if differ else ()),
+                *found.issues,
             ),
         )
+
+    def _rules(self, scales: Mapping[str, float]) -> tuple[Rule, ...]:
+        everybody: list[Body | Unreadable] = [*self._bodies, *self._unreadable]
+        return self._scenes.rules(everybody, scales) if self._scenes else ()
 
 
 def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:

@@ -1,4 +1,4 @@
-"""Units of length. A scene declares one to label its lengths; nothing in a file is converted."""
+"""Units of length: their names, and how many of one are another."""
 
 from __future__ import annotations
 
@@ -24,6 +24,9 @@ _SYNONYMS = {
     "feet": "ft",
     "inches": "in",
 }
+# As the reader of COLLADA says what the file states: "0.0254 * meters".
+_OF_METRES = " * meters"
+_SAME = 1e-9  # relative: a factor in a few digits is that of the unit
 # Few calls need it: compiled at its first use.
 _LENGTH = r"\s*(\+?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*"
 
@@ -63,11 +66,38 @@ def parse_length(text: str) -> Length:
 def unit_of(declared: str | None) -> str | None:
     """The unit that a scene declares, as it is typed; None if unknown or not declared."""
     name = (declared or "").strip().lower()
+    if name.endswith(_OF_METRES):
+        return _of_metres(name.removesuffix(_OF_METRES))
     name = _SYNONYMS.get(name, _SYNONYMS.get(name.removesuffix("s"), name))
     return name if name in MICROMETRES else None
 
 
+def _of_metres(text: str) -> str | None:
+    try:
+        micrometres = float(text) * MICROMETRES["m"]
+    except ValueError:
+        return None
+    known = (name for name, one in MICROMETRES.items() if abs(micrometres - one) <= _SAME * one)
+    return next(known, None)
+
+
+def ratio(unit: str, other: str) -> float:
+    """How many of the other one is: exact, or rounded once."""
+    return MICROMETRES[unit] / MICROMETRES[other]
+
+
+def unit_in(unit: str, scale: float) -> str:
+    """The unit of which one is `scale` of the given one, as `ratio` says."""
+    return next(name for name in MICROMETRES if ratio(name, unit) == scale)
+
+
+def stated_unit(declared: str | None) -> str | None:
+    """The unit that a declaration is, or begins with: "mm", "Metres", "mm (assumed)"."""
+    first = (declared or "").partition("(")[0].split()[:1]
+    return unit_of(declared) or unit_of(first[0] if first else None)
+
+
 def is_unit(declared: str) -> bool:
-    """Whether a declaration begins with a unit: "mm", "Metres", "mm (assumed)"."""
+    """Whether a declaration begins with a unit."""
     first = declared.partition("(")[0].split()[:1]
     return bool(first) and unit_of(first[0]) is not None

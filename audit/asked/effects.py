@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from satcheck.audit.asked.planner import Asked, Planner
 from satcheck.audit.report.report import (
@@ -31,6 +31,7 @@ NOT_ASKED = "not asked"
 PRUNED = "boxes apart"
 ALLOWED = "allowed"
 UNREADABLE = "unreadable"
+UNITS_UNKNOWN = "units unknown"
 NO_OVERLAP = "no overlap"
 OVERLAP = "overlap"
 FAR = "further apart than asked about"
@@ -72,10 +73,14 @@ class _Alike:
 
 
 def effects_of(
-    planner: Planner, close: Iterable[tuple[Asked, Finding]], counts: PairCounts
+    planner: Planner,
+    close: Iterable[tuple[Asked, Finding]],
+    counts: PairCounts,
+    units_unknown: int = 0,
 ) -> tuple[EffectReport, ...]:
     """close: the pairs that the broad phase left over. The pairs of each effect, and those on which
-    it did not run, are together all pairs. A sweep is left out where nothing moves."""
+    it did not run, are together all pairs. A sweep is left out where nothing moves. units_unknown:
+    how many pairs have no common unit."""
     effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
     groups = _grouped(close)
     time: dict[Effect, float] = dict.fromkeys(EFFECTS, 0.0)
@@ -96,13 +101,18 @@ def effects_of(
                 why = NO_ANSWER if effect in unanswered else _why_not(effect, group)
                 spared[effect][why] += len(group.findings)
     looked_at = sum(len(group.findings) for group in groups)
-    unreadable = counts.total - counts.allowed - counts.pruned - looked_at
+    unreadable = counts.total - counts.allowed - counts.pruned - looked_at - units_unknown
+    beforehand = {
+        PRUNED: counts.pruned,
+        UNREADABLE: unreadable,
+        UNITS_UNKNOWN: units_unknown,
+    }
     return tuple(
         EffectReport(
             effect,
             planner.who_asks(effect),
             ran[effect],
-            _reasons(planner, effect, spared[effect], counts, unreadable),
+            _reasons(planner, effect, spared[effect], beforehand, counts.allowed),
             time[effect],
         )
         for effect in effects
@@ -130,13 +140,17 @@ def _grouped(close: Iterable[tuple[Asked, Finding]]) -> list[_Alike]:
 
 
 def _reasons(
-    planner: Planner, effect: Effect, spared: Counter[str], counts: PairCounts, unreadable: int
+    planner: Planner,
+    effect: Effect,
+    spared: Counter[str],
+    beforehand: Mapping[str, int],
+    allowed: int,
 ) -> dict[str, int]:
     asked = bool(planner.who_asks(effect))
     reasons = Counter(spared)
-    reasons[PRUNED if asked else NOT_ASKED] += counts.pruned
-    reasons[UNREADABLE if asked else NOT_ASKED] += unreadable
-    reasons[ALLOWED] += counts.allowed
+    for reason, count in beforehand.items():
+        reasons[reason if asked else NOT_ASKED] += count
+    reasons[ALLOWED] += allowed
     return {reason: count for reason, count in sorted(reasons.items()) if count}
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 from satcheck.audit.asked.rule_book import RuleBook, Subject
@@ -39,22 +40,45 @@ class Lost:
 @frozen
 class Roster:
     """Bodies by index, in the order given: each is either placed or lost. ids follow it, and so
-    does the book of rules."""
+    does the book of rules. units: of the placed ones, None where nobody states any; bodies of
+    different ones have no common frame."""
 
     placed: dict[int, PlacedBody]
     lost: dict[int, Lost]
     ids: tuple[str, ...]
     book: RuleBook
     issues: tuple[Issue, ...]
+    units: dict[int, str | None]
 
-    def unreadable_pairs(self) -> Iterator[tuple[int, int, str]]:
-        """Asked pairs of which one body is lost, with the reason."""
+    def undecidable_pairs(self) -> Iterator[tuple[int, int, str]]:
+        """Asked pairs of which one body is lost, or in unknown units, with the reason."""
+        yield from self._of_lost_bodies()
+        yield from self.pairs_of_several_units()
+
+    def is_comparable(self, i: int, j: int) -> bool:
+        """Of two placed bodies: whether their lengths are in one unit, as far as is known."""
+        return self.units.get(i) == self.units.get(j)
+
+    def _of_lost_bodies(self) -> Iterator[tuple[int, int, str]]:
         for k, body in self.lost.items():
             for other in range(len(self.ids)):
                 if other in self.lost and other >= k:
                     continue
                 if self.book.is_asked(k, other):
                     yield min(k, other), max(k, other), body.reason
+
+    def pairs_of_several_units(self) -> Iterator[tuple[int, int, str]]:
+        """Those of the undecidable ones that nothing else is wrong with."""
+        if len(set(self.units.values())) < 2:
+            return
+        for i, j in combinations(self.placed, 2):
+            if not self.is_comparable(i, j) and self.book.is_asked(i, j):
+                yield i, j, f"{self._in_units(i)}, and {self._in_units(j)}"
+
+    def _in_units(self, k: int) -> str:
+        unit = self.units.get(k)
+        known = f"{self.ids[k]} is in {unit}"
+        return known if unit else f"no unit of length is stated for {self.ids[k]}"
 
 
 class Known:
@@ -122,6 +146,7 @@ def place(scene: Scene, settings: Settings, known: Known | None = None) -> Roste
         ids=tuple(body.id for body in members),
         book=known.book,
         issues=(*map(_unused, known.book.unused()), *issues),
+        units={k: body.body.units for k, body in placed.items()},
     )
 
 

@@ -38,6 +38,8 @@ def close_pairs(roster: Roster, planner: Planner, movers: Movers | None = None) 
         _among(book.exempt_named(), place),
     )
     found = close if len(index) == len(roster.ids) else [(index[i], index[j]) for i, j in close]
+    if len(set(roster.units.values())) > 1:
+        found = [pair for pair in found if roster.is_comparable(*pair)]
     if not book.rules:
         return found
     asked = [pair for pair in found if book.is_asked(*pair)]

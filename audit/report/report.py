@@ -54,6 +54,9 @@ ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
 TIME = "microseconds"
 # The code of an issue about a pair that failed by a fault of satcheck itself.
 INTERNAL_ERROR = "internal-error"
+# Codes of warnings about sizes that make an answer doubtful.
+TOLERANCE_LARGE = "tolerance-large"
+SIZES_DIFFER = "sizes-differ"
 # Relations with a common interior, the ones that have a depth.
 OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
 
@@ -127,8 +130,11 @@ class BodyReport:
     had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
     input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
     None: as in the file. `groups`, `static`: as the scene says. `shape`: the primitive that the
-    file states, as a scene file does; None: a mesh file.
+    file states, as a scene file does; None: a mesh file. `units`: of its lengths here; None: nobody
+    states any. `unit_scale`: what `transform` converts lengths of the file by; None: nothing.
     """
+
+    SAID_IF_KNOWN = ("units", "unit_scale")
 
     id: str
     name: str
@@ -137,6 +143,8 @@ class BodyReport:
     path: str | None
     shape: Mapping[str, Any] | None = None
     transform: tuple[float, ...] | None
+    units: str | None = None
+    unit_scale: float | None = None
     groups: tuple[str, ...]
     static: bool
     triangles: int | None

@@ -59,6 +59,7 @@ def resolve(
         raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
     if iterations < 0:
         raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
+    scene.require_one_unit()
     staying = _staying(scene, pins)
     with ExitStack() as stack:
         meter = stack.enter_context(volume_meter(settings)) if _limits_volume(scene) else None

@@ -32,8 +32,9 @@ def tradeoff(
     has its share of what those before it have left. pairs: at most so many. Bodies stand as the
     scene places them; of its rules only exemptions are followed.
     progress(done, total) counts runs.
-    Raises SatcheckError (`no-pair`) where no boxes meet.
+    Raises SatcheckError (`no-pair`, `units-unknown`) where no boxes meet.
     """
+    scene.require_one_unit()
     clock = Budget(budget)
     met = _pairs(scene)
     if not met:

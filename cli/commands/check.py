@@ -27,6 +27,7 @@ from satcheck.cli.commands.options import (
     paths_argument,
     planar_option,
     split_option,
+    units_option,
 )
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 from satcheck.cli.lengths import length
@@ -187,6 +188,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Leave out times: same input, same bytes.",
 )
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 even when something was found.")
+@units_option
 @outside_option
 @package_option
 @pose_options

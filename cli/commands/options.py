@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from satcheck.cli.choices import PLANES
+from satcheck.cli.choices import PLANES, UNITS
 from satcheck.cli.plain import FORMATS
 
 if TYPE_CHECKING:
@@ -111,6 +111,12 @@ planar_option = click.option(
     "--planar",
     type=click.Choice(PLANES),
     help="Take bodies as their outlines in this plane: flat layouts, SVG and DXF drawings too.",
+)
+units_option = click.option(
+    "--units",
+    type=click.Choice(UNITS),
+    help="The unit of length of the inputs that state none: OBJ, STL, PLY, OFF, a scene without "
+    "`units`.",
 )
 open_option = click.option(
     "--allow-open",

@@ -17,6 +17,7 @@ from satcheck.cli.commands.options import (
     paths_argument,
     split_option,
     table_or_json_option,
+    units_option,
 )
 from satcheck.cli.commands.robots import package_option
 from satcheck.cli.lengths import length
@@ -72,6 +73,7 @@ from satcheck.cli.lengths import length
 @click.option(
     "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
 )
+@units_option
 @outside_option
 @debug_option
 def command(debug: bool, pose: tuple[str, ...], state: tuple[str, ...], **options: Any) -> int:

@@ -14,6 +14,7 @@ from satcheck.cli.commands.options import (
     output_option,
     outside_option,
     paths_argument,
+    units_option,
 )
 from satcheck.cli.output import form_of
 
@@ -40,6 +41,7 @@ from satcheck.cli.output import form_of
 @form_option
 @output_option
 @click.option("--explain", is_flag=True, help="Show every variant, not only what went wrong.")
+@units_option
 @outside_option
 @debug_option
 def command(debug: bool, **options: Any) -> int:

@@ -15,6 +15,7 @@ from satcheck.cli.commands.options import (
     paths_argument,
     planar_option,
     split_option,
+    units_option,
 )
 from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
 
@@ -39,6 +40,7 @@ FORMATS = ("toml", "json", "srdf")
 @output_option
 @planar_option
 @split_option
+@units_option
 @outside_option
 @package_option
 @pose_options

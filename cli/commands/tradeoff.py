@@ -16,6 +16,7 @@ from satcheck.cli.commands.options import (
     outside_option,
     paths_argument,
     split_option,
+    units_option,
 )
 from satcheck.cli.output import form_of
 
@@ -55,6 +56,7 @@ from satcheck.cli.output import form_of
 @form_option
 @output_option
 @split_option
+@units_option
 @outside_option
 @debug_option
 def command(debug: bool, **options: Any) -> int:

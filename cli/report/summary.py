@@ -5,13 +5,22 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report.report import CROSS_CHECK, INTERNAL_ERROR, OVERLAPS, RELATIONS
+from satcheck.audit.report.report import (
+    CROSS_CHECK,
+    INTERNAL_ERROR,
+    OVERLAPS,
+    RELATIONS,
+    SIZES_DIFFER,
+    TOLERANCE_LARGE,
+)
 from satcheck.cli.report.words import by_surfaces, counted, depth, is_hit, with_unit
+from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.audit.report.report import Report
 
+_DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
 
 
@@ -23,7 +32,7 @@ def summary_line(report: Report) -> str:
         exempts = f"the scene exempts all {counted(pairs.exempt, 'pair')}"
         why = "all are allowed by the scene" if pairs.total else exempts
         line = f"{bodies}, {counted(pairs.total, 'pair')}. No pair was checked: {why}."
-        return " ".join([line, *_errors(report)])
+        return " ".join([line, *_errors(report), *_doubts(report)])
     found = _found(report)
     if pairs.allowed:
         found.append(f"{pairs.allowed:,} allowed by the scene")
@@ -36,6 +45,7 @@ def summary_line(report: Report) -> str:
             *_left_open(report),
             *_cross_check(report),
             *_errors(report),
+            *_doubts(report),
         ]
     )
 
@@ -145,6 +155,12 @@ def _cross_check(report: Report) -> list[str]:
     if unasked := report.summary.pairs.total - report.summary.pairs.allowed - asked:
         parts.append(f"{counted(unasked, 'pair')} not asked about")
     return [f"Cross-check: {', '.join(parts)}."]
+
+
+def _doubts(report: Report) -> list[str]:
+    """Warnings under which the counts say little, once more."""
+    said = [issue.message for issue in report.issues if issue.code in _DOUBTS]
+    return [f"Warning: {text}{'' if text.endswith('?') else '.'}" for text in said]
 
 
 def _errors(report: Report) -> list[str]:

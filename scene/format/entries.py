@@ -35,6 +35,7 @@ class BodyEntry:
     """One body as the scene file describes it.
 
     mesh: NO_MESH where there is a shape instead. part: what to take of the mesh file; None: all.
+    units: of the mesh, in the place of what its file states.
     """
 
     id: str
@@ -45,6 +46,7 @@ class BodyEntry:
     groups: tuple[str, ...] = ()
     static: bool = False
     pinned: bool = False
+    units: str | None = None
 
 
 @frozen

@@ -33,7 +33,7 @@ class JoinedScenes:
         self._scenes: list[tuple[SceneFile, Mapping[str, str]]] = []
         self.ignored: set[str] = set()
         self.check_static = False
-        self.motions: list[Motion] = []
+        self._motions: list[tuple[str, Motion]] = []  # with the path of their file
 
     def groups_of(self, scene: SceneFile) -> dict[str, str]:
         """Its groups -> their names here: one that another scene has too is another group."""
@@ -46,18 +46,30 @@ class JoinedScenes:
         self._scenes.append((scene, ids))
         self.ignored.update(groups[group] for group in scene.ignore_within_groups)
         self.check_static |= scene.check_static
-        self.motions += [
-            replace(motion, bodies=tuple(ids[id_] for id_ in motion.bodies))
+        self._motions += [
+            (scene.path, replace(motion, bodies=tuple(ids[id_] for id_ in motion.bodies)))
             for motion in scene.motions
         ]
 
-    def rules(self, everybody: Sequence[Body | Unreadable]) -> tuple[Rule, ...]:
-        """everybody: all bodies of the check. Raises SceneFileError where a rule has to be written
-        out for too many pairs."""
+    def motions(self, scales: Mapping[str, float]) -> tuple[Motion, ...]:
+        """scales: what lengths of a scene are multiplied by, by its path; left out: 1."""
+        if not self._motions:
+            return ()
+        from satcheck.scene.motion import scaled_motion
+
+        return tuple(scaled_motion(motion, scales.get(path, 1.0)) for path, motion in self._motions)
+
+    def rules(
+        self, everybody: Sequence[Body | Unreadable], scales: Mapping[str, float]
+    ) -> tuple[Rule, ...]:
+        """everybody: all bodies of the check. scales: as for motions. Raises SceneFileError where a
+        rule has to be written out for too many pairs."""
         placed = {id_ for _, ids in self._scenes for id_ in ids.values()}
         bare = [body for body in everybody if body.id not in placed]
         rules: list[Rule] = []
         for scene, ids in self._scenes:
+            scale = scales.get(scene.path, 1.0)
+            scene = replace(scene, rules=tuple(rule.scaled(scale) for rule in scene.rules))
             if len(everybody) == len(scene.bodies) or not scene.bodies:
                 rules += scene.rules
             else:

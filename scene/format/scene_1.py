@@ -18,7 +18,7 @@ from satcheck.scene.format.remarks import unknown_groups, unknown_units
 from satcheck.scene.format.rule_keys import read_rule
 from satcheck.scene.format.table import Table
 from satcheck.scene.format.text import Parsed
-from satcheck.scene.format.values import boolean, list_of, shown, text
+from satcheck.scene.format.values import boolean, known_unit, list_of, shown, text
 from satcheck.scene.motion import Motion
 from satcheck.scene.primitives import PRIMITIVES, Primitive, primitive_of
 from satcheck.scene.rules import Rule
@@ -29,7 +29,7 @@ _KEYS = frozenset(
         *("ignore_within_groups", "bodies", "rules", "motion"),
     )
 )
-_BODY_KEYS = PLACEMENT_KEYS | {"id", "mesh", "part", "shape", "groups", "static", "pinned"}
+_BODY_KEYS = PLACEMENT_KEYS | {"id", "mesh", "part", "shape", "groups", "static", "pinned", "units"}
 
 _texts = list_of("texts", text)
 
@@ -96,6 +96,8 @@ class _Reader:
             table.wrong('one of "mesh" and "shape" is needed, and not both')
         if "part" in table and "shape" in table:
             table.wrong("a shape has no parts: leave this out", "part")
+        if "units" in table and "shape" in table:
+            table.wrong("a shape is in the units of the scene: leave this out", "units")
         return BodyEntry(
             id=table.required("id", text, ""),
             mesh=table.read("mesh", self._places.find, NO_MESH),
@@ -105,6 +107,7 @@ class _Reader:
             groups=tuple(table.read("groups", _texts, [])),
             static=table.read("static", boolean, False),
             pinned=table.read("pinned", boolean, False),
+            units=table.read("units", known_unit, None),
         )
 
     def _rules(self, top: Table, units: str | None) -> tuple[Rule, ...]:

@@ -8,6 +8,7 @@ from functools import lru_cache
 from typing import Any, TypeVar
 
 from satcheck.scene.format.problems import Wrong
+from satcheck.scene.units import MICROMETRES, unit_of
 
 T = TypeVar("T")
 Reader = Callable[[Any], T]
@@ -21,6 +22,13 @@ def text(value: Any) -> str:
     if not isinstance(value, str) or not value:
         raise Wrong(f"a non-empty text expected, not {shown(value)}")
     return value
+
+
+def known_unit(value: Any) -> str:
+    unit = unit_of(text(value))
+    if unit is None:
+        raise Wrong(f"one of {', '.join(MICROMETRES)} expected, not {shown(value)}")
+    return unit
 
 
 def boolean(value: Any) -> bool:

@@ -103,9 +103,9 @@ def _fine_mesh(shape: Primitive) -> Mesh:
 
 def _deviation(body: Body) -> float:
     """How far the body may be off its outline's polygon, world units."""
-    if body.shape is None:
-        return body.file.deviation
     stretch = 1.0 if body.transform is None else largest_stretch(body.transform)
+    if body.shape is None:
+        return body.file.deviation * stretch
     return sag_of(body.shape, _SEGMENTS) * stretch
 
 

@@ -6,12 +6,14 @@ from satcheck.audit.asked import settings
 from satcheck.audit.asked.settings import Settings
 from satcheck.cli import choices
 from satcheck.core import conventions
+from satcheck.scene import units
 
 
 def test_the_same_values_can_be_chosen() -> None:
     assert choices.PLANES == conventions.PLANES
     assert choices.ACCURACIES == settings.ACCURACIES
     assert choices.FAIL_ON == settings.FAIL_ON
+    assert tuple(units.MICROMETRES) == choices.UNITS
     assert choices.MOST_BUDGET == settings.MOST_BUDGET
 
 

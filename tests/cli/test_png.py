@@ -51,6 +51,7 @@ def test_without_the_extra_nothing_runs_and_the_way_to_get_it_is_told(
         pairs=1,
         plot=tmp_path / "plot.png",
         split=None,
+        units=None,
         allow_outside=False,
     )
     with pytest.raises(click.UsageError, match=r"pip install 'satcheck\[png\]'"):

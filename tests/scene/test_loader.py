@@ -69,7 +69,7 @@ def test_ids_of_two_scenes_keep_their_allowed_pairs(tmp_path):
     assert scene.units == "mm"
     document["units"] = "m"
     (tmp_path / "two.json").write_text(json.dumps(document))
-    assert load_scene([tmp_path / "one.json", tmp_path / "two.json"]).units is None
+    assert load_scene([tmp_path / "one.json", tmp_path / "two.json"]).units == "mm"
 
 
 def test_a_warning_names_the_body_where_it_is_the_only_one(tmp_path):

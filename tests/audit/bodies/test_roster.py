@@ -59,5 +59,5 @@ def test_an_unreadable_body_is_in_its_groups():
     bodies = tuple(Body(f"b{k}", "", FILE, groups=(group,)) for k, group in enumerate("ab"))
     scene = Scene("", None, bodies, (lost,), frozenset("a"), order=("b0", "lost", "b1"))
     roster = place(scene, Settings())
-    assert [(i, j) for i, j, _ in roster.unreadable_pairs()] == [(1, 2)]
+    assert [(i, j) for i, j, _ in roster.undecidable_pairs()] == [(1, 2)]
     assert roster.book.count() == (2, 0)

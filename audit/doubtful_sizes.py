@@ -1,0 +1,66 @@
+"""Warnings about sizes under which an answer says little: as when a unit of length is mistaken."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.bodies.roster import Roster
+from satcheck.audit.report.report import SIZES_DIFFER, TOLERANCE_LARGE, Finding, Issue
+from satcheck.core import largest_stretch
+from satcheck.core.conventions import Plane, axes_of
+
+# Two bodies of about one size, one in millimetres and one in metres, are about 1000-fold apart.
+UNLIKE = 500.0
+_SHOWN = 5  # bodies in one message
+
+
+def doubtful_sizes(
+    roster: Roster, findings: Sequence[Finding], plane: Plane | None
+) -> Iterator[Issue]:
+    """Bodies smaller than the tolerance of one of their pairs, and bodies of very unlike sizes."""
+    sizes = {roster.ids[k]: _size(body, plane) for k, body in roster.placed.items()}
+    yield from _tolerances(sizes, findings)
+    for unit in dict.fromkeys(roster.units.values()):
+        alike = {roster.ids[k]: sizes[roster.ids[k]] for k, u in roster.units.items() if u == unit}
+        yield from _unlike(alike)
+
+
+def _size(body: PlacedBody, plane: Plane | None) -> float:
+    """The longest side of its own box, world units: the same in every pose."""
+    low, high = body.body.file.mesh.bounds
+    axes = (0, 1, 2) if plane is None else axes_of(plane)
+    transform = body.body.transform
+    stretch = 1.0 if transform is None else largest_stretch(transform)
+    return stretch * max(high[axis] - low[axis] for axis in axes)
+
+
+def _tolerances(sizes: dict[str, float], findings: Sequence[Finding]) -> Iterator[Issue]:
+    largest: dict[str, float] = {}
+    for finding in findings:
+        for id_ in (finding.a, finding.b):
+            largest[id_] = max(largest.get(id_, 0.0), finding.tolerance or 0.0)
+    small = [id_ for id_, size in sizes.items() if size < largest.get(id_, 0.0)]
+    if not small:
+        return
+    tolerance = max(largest[id_] for id_ in small)
+    verb = "is" if len(small) == 1 else "are"
+    more = f" and {len(small) - _SHOWN} more" if len(small) > _SHOWN else ""
+    message = (
+        f"{', '.join(small[:_SHOWN])}{more} {verb} smaller than the tolerance {tolerance:.3g}, "
+        "within which an overlap counts as touching"
+    )
+    yield Issue(TOLERANCE_LARGE, "warning", small[0] if len(small) == 1 else None, None, message)
+
+
+def _unlike(sizes: dict[str, float]) -> Iterator[Issue]:
+    if len(sizes) < 2:
+        return
+    smallest, largest = (pick(sizes, key=sizes.__getitem__) for pick in (min, max))
+    low, high = sizes[smallest], sizes[largest]
+    if low * UNLIKE > high:
+        return
+    message = (
+        f"{smallest} is {low:.3g} in size and {largest} {high:.3g}: is one of them in another unit?"
+    )
+    yield Issue(SIZES_DIFFER, "warning", None, None, message)

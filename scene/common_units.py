@@ -1,0 +1,177 @@
+"""Inputs in several units of length -> bodies in one, as far as their units are known.
+
+What an input states is taken at its word: a GLB or glTF file is in metres, a 3MF or DAE file in the
+unit that it names, a robot in metres, a scene in its `units`. OBJ, STL, PLY and OFF files state
+nothing. Within a scene or a robot they are in its unit; beside others, nobody knows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Literal
+
+from satcheck.core.frozen import frozen, replace
+from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body, Transform
+from satcheck.scene.issue import Issue, issue
+from satcheck.scene.units import MICROMETRES, is_unit, ratio, stated_unit, unit_in
+
+Kind = Literal["mesh", "scene", "robot"]
+_SHOWN = 5  # files in one message
+
+
+class Input:
+    """One input with bodies. declares: what it says of its units, in its own words; unit: which it
+    is, by that or by the one who gives it; None: unknown. ids: of its bodies."""
+
+    __slots__ = ("declares", "ids", "kind", "path", "unit")
+
+    def __init__(self, kind: Kind, path: str, declares: str | None, otherwise: str | None) -> None:
+        """otherwise: the unit of what declares none."""
+        self.kind = kind
+        self.path = path
+        self.declares = declares
+        self.unit = stated_unit(declares) or otherwise
+        self.ids: list[str] = []
+
+
+@frozen
+class InOneUnit:
+    """bodies: in the common unit, those whose unit is known. unit: the common one; None: no input
+    states any. label: what the lengths of all bodies are in; None: unknown, or not all in one.
+    scales: of each scene, by its path, common units of one of its own. issues: about all this."""
+
+    bodies: tuple[Body, ...]
+    unit: str | None
+    label: str | None
+    scales: Mapping[str, float]
+    issues: tuple[Issue, ...]
+
+
+def in_one_unit(
+    bodies: Sequence[Body], inputs: Sequence[Input], rules: Mapping[str, str | None]
+) -> InOneUnit:
+    """bodies: `units` of each is that of its mesh, None where that states none. Their transforms
+    lead into the unit of their input. rules: files of rules, and what they declare.
+
+    A scene that states no unit is in that of its meshes, where they all state the same one. Where
+    nothing in an input states any, it is in that of the first file of rules that does.
+    The common unit is that of robots, or else of scenes, or else of mesh files; of several the
+    smallest, into which the others are converted by whole numbers, as a rule.
+    """
+    by_id = {body.id: body for body in bodies}
+    known_rules = {path: unit for path, text in rules.items() if (unit := stated_unit(text))}
+    for one in inputs:
+        _infer(one, [by_id[id_] for id_ in one.ids if id_ in by_id], known_rules)
+    unit = _common(inputs) or next(iter(known_rules.values()), None)
+    found = {
+        id_: _converted(by_id[id_], one.unit, unit)
+        for one in inputs
+        for id_ in one.ids
+        if id_ in by_id
+    }
+    scaled = [found.get(body.id, body) for body in bodies]
+    units = {one.path: one.unit for one in inputs if one.kind == "scene"} | known_rules
+    scales = {path: ratio(own, unit) for path, own in units.items() if own and unit}
+    declared = [*(one.declares for one in inputs), *rules.values()]
+    stated_by = {id_: one.path for one in inputs for id_ in one.ids}
+    issues = (*_conversions(scaled, stated_by), *_unknown(scaled, inputs))
+    return InOneUnit(tuple(scaled), unit, _label(scaled, declared, unit), scales, issues)
+
+
+def _infer(one: Input, bodies: Sequence[Body], rules: Mapping[str, str]) -> None:
+    if one.unit is not None:
+        return
+    stated = {body.units for body in bodies if body.shape is None}
+    if len(stated - {None}) == 0:
+        one.unit = next(iter(rules.values()), None)
+    elif len(stated) == 1:
+        (one.unit,) = stated
+
+
+def _common(inputs: Iterable[Input]) -> str | None:
+    units: dict[Kind, set[str]] = {}
+    for one in inputs:
+        if one.unit is not None:
+            units.setdefault(one.kind, set()).add(one.unit)
+    kind = next((kind for kind in ("robot", "scene", "mesh") if kind in units), None)
+    return min(units[kind], key=MICROMETRES.__getitem__) if kind else None
+
+
+def _converted(body: Body, own: str | None, common: str | None) -> Body:
+    """own: of its input. Without that its lengths stay as they are."""
+    if own is None or common is None:
+        return body
+    scale = ratio(body.units or own, common)
+    return replace(
+        body,
+        transform=scaled_world(body.transform, ratio(own, common)),
+        units=common,
+        unit_scale=None if scale == 1.0 else scale,
+    )
+
+
+def scaled_world(transform: Transform | None, scale: float) -> Transform | None:
+    """Placed, and then scaled about the origin."""
+    if scale == 1.0:
+        return transform
+    rows = transform or IDENTITY
+    return (*(scale * entry for entry in rows[:12]), *rows[12:])
+
+
+def scaled_mesh(transform: Transform | None, scale: float) -> Transform | None:
+    """Scaled about its own origin, and then placed."""
+    if scale == 1.0:
+        return transform
+    rows = transform or IDENTITY
+    return tuple(entry * scale if k < 12 and k % 4 < 3 else entry for k, entry in enumerate(rows))
+
+
+def _label(bodies: Iterable[Body], declared: Iterable[str | None], unit: str | None) -> str | None:
+    """In the words of the inputs, where they all say it in the same ones."""
+    if any(body.units != unit for body in bodies):
+        return None
+    words = list(dict.fromkeys(text for text in declared if text))
+    if unit is None:
+        return words[0] if len(words) == 1 else None
+    alike = words and all(stated_unit(text) == unit for text in words)
+    return words[0] if alike and is_unit(words[0]) else unit
+
+
+def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[Issue]:
+    """A note for each unit that was converted, with the files that state it. stated_by: of each
+    body its input, which states the unit of a mesh file that does not."""
+    files: dict[tuple[float, str], dict[str, None]] = {}
+    for body in bodies:
+        if body.unit_scale is not None and body.units is not None:
+            path = body.file.path if body.file.units else stated_by[body.id]
+            files.setdefault((body.unit_scale, body.units), {})[path] = None
+    notes = []
+    for (scale, unit), paths in files.items():
+        own = unit_in(unit, scale)
+        message = f"{_listed(list(paths))}: converted from {own} to {unit}, times {scale!r}"
+        notes.append(issue("units-converted", message, file=next(iter(paths))))
+    return notes
+
+
+def _unknown(bodies: Iterable[Body], inputs: Iterable[Input]) -> list[Issue]:
+    """A warning where the units of two bodies cannot be compared."""
+    files: dict[str | None, dict[str, None]] = {}
+    for body in bodies:
+        files.setdefault(body.units, {})[body.file.path] = None
+    if len(files) < 2:
+        return []
+    unstated = files.pop(None, {})
+    known = " and ".join(f"{_listed(list(paths))} in {unit}" for unit, paths in files.items())
+    scene = next((one.path for one in inputs if one.kind == "scene" and one.unit is None), None)
+    where = "`units` in the scene" if scene else "--units"
+    if unstated:
+        message = f"{_listed(list(unstated))}: no unit of length is stated, and {known}"
+    else:
+        message = f"{scene}: no unit of length is stated, and it places {known}"
+    message += f": pairs of them are not decided. State the unit: {where}"
+    return [issue(UNITS_UNKNOWN, message, file=next(iter(unstated), scene))]
+
+
+def _listed(paths: Sequence[str]) -> str:
+    more = f" and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
+    return ", ".join(paths[:_SHOWN]) + more
