@@ -53,7 +53,6 @@ def probe(
     Raises SatcheckError (`not-a-pair`) unless the scene holds two mesh files, in place.
     """
     settings = settings or Settings()
-    scene.require_one_unit()
     question = _question(scene)
     as_asked = Variant("scale", "as asked", body("a", question.a), body("b", question.b))
     asked = ask(as_asked, settings)
@@ -75,9 +74,8 @@ def probe(
 def _question(scene: Scene) -> Question:
     placed = [body for body in scene.bodies if body.transform is not None]
     if len(scene.bodies) != 2 or scene.unreadable or placed:
-        raise SatcheckError(
-            "not-a-pair", "stability is asked about two mesh files, in one unit of length"
-        )
+        raise SatcheckError("not-a-pair", "stability is asked about two mesh files of one unit")
+    scene.require_one_unit()
     a, b = (body.file for body in scene.bodies)
     return Question(a, b)
 

@@ -136,7 +136,8 @@ def test_issues_stand_with_their_pose_and_the_others_once() -> None:
 def with_cart(path: str) -> Scene:
     """A box that is driven along x, 5 to -5, past or through the column of the arm."""
     cart = '{id = "cart", shape = {type = "box", size = [0.2, 0.2, 0.2]}, position = [5, 0, 0.5]}'
-    text = f'schema = "satcheck.scene/1"\nbodies = [{cart}]\n[[motion]]\nbodies = "cart"\n{path}\n'
+    head = f'schema = "satcheck.scene/1"\nunits = "m"\nbodies = [{cart}]\n'
+    text = f'{head}[[motion]]\nbodies = "cart"\n{path}\n'
     Path("cart.toml").write_text(text, encoding="utf-8")
     return load_scene(["cart.toml", SAMPLES / "arm.urdf"])
 

@@ -113,7 +113,7 @@ def test_never_is_not_said_of_what_overlaps_as_placed(tmp_path, monkeypatch):
     (tmp_path / "r.urdf").write_text(robot_of(*links, *joints))
     monkeypatch.chdir(tmp_path)
     post = '{id = "post", shape = {type = "box", size = [1, 1, 1]}, position = [2.85, 0, 0]}'
-    text = f'schema = "satcheck.scene/1"\nbodies = [{post}]\n'
+    text = f'schema = "satcheck.scene/1"\nunits = "m"\nbodies = [{post}]\n'
     (tmp_path / "post.toml").write_text(text)
     scene = load_scene(["post.toml", "r.urdf"])
     scene = replace(scene, rules=(*scene.rules, allow("post", "arm", max_depth=0.125)))

@@ -54,7 +54,8 @@ def test_several_files_are_a_body_each(layout: Path, tmp_path: Path) -> None:
         '<rect x="106" y="6" width="2" height="2"/></svg>'
     )
     layout.write_text(LAYOUT.replace('<path id="crossing"', '<path display="none" id="crossing"'))
-    assert relations(layout, other, "--planar", "xy") == {("layout", "other"): "contains"}
+    plane = ("--planar", "xy", "--units", "mm")  # the second file states no unit
+    assert relations(layout, other, *plane) == {("layout", "other"): "contains"}
 
 
 def test_a_drawing_needs_a_plane(layout: Path) -> None:

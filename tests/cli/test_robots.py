@@ -118,6 +118,7 @@ def test_beyond_limits_is_a_warning_beside_the_verdict() -> None:
 def test_a_robot_among_other_bodies(tmp_path: Path) -> None:
     scene = {
         "schema": "satcheck-scene-1",
+        "units": "m",
         "bodies": [{"id": "wall", "mesh": str(SAMPLES / "box.obj")}],
     }
     (tmp_path / "wall.json").write_text(json.dumps(scene))
@@ -127,6 +128,12 @@ def test_a_robot_among_other_bodies(tmp_path: Path) -> None:
         f["a"] for f in ran.document["findings"] if f["b"] == "wall" and f["severity"] == "error"
     }
     assert "upper" in hit
+    del scene["units"]  # then nobody knows how large it is beside a robot in metres
+    (tmp_path / "wall.json").write_text(json.dumps(scene))
+    ran = satcheck(*ARM, str(tmp_path / "wall.json"), *JSON, "--no-depth")
+    assert ran.code == 3
+    relations = {f["relation"] for f in ran.document["findings"] if f["b"] == "wall"}
+    assert relations == {"indeterminate"}
 
 
 def test_packages_by_option(tmp_path: Path) -> None:

@@ -43,7 +43,8 @@ def test_the_links_of_a_robot_stay(tmp_path) -> None:
         '<link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>'
     )
     (tmp_path / "robot.urdf").write_text(f'<robot name="r">{link}</robot>')
-    found = resolve(load_scene([tmp_path / "robot.urdf", *write(tmp_path, box=unit_box())]))
+    files = [tmp_path / "robot.urdf", *write(tmp_path, box=unit_box())]
+    found = resolve(load_scene(files, units="m"))
     assert found.pinned == ("base",)
     assert list(moves(found)) == ["box"]
     assert found.verdict == "resolved"
