@@ -10,21 +10,24 @@ from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.figures.gap import Gap, measure_gap
-from satcheck.audit.figures.touch_band import estimate_is_within, move_within
+from satcheck.audit.figures.gap import Gap, compare_convex, measure_gap
+from satcheck.audit.figures.touch_band import Band, band_of, estimate_is_within, touch_band
 from satcheck.audit.figures.unseen import unseen_inside, unseen_way_out
 from satcheck.audit.ladder.ladder import Contact, boxes_apart, settle
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
-from satcheck.audit.severity import disputed, judged, keeps
+from satcheck.audit.severity import disputed, judged
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core import sha256
 
 if TYPE_CHECKING:
+    from satcheck.audit.curved.signed import Signed
     from satcheck.audit.figures.depth import Depth
-    from satcheck.core import Climb
+    from satcheck.audit.figures.touch_band import Side
+    from satcheck.core import Climb, PairResult
 
 ID_DIGITS = 12
+OPEN_BAND = "undecided: whether that is within the tolerance"
 
 
 def finding_id(a: str, b: str) -> str:
@@ -38,13 +41,18 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     contact = settle(pair, plan, climb)
     if contact.relation == "indeterminate":
         return indeterminate(pair.a.id, pair.b.id, contact.reason or "undecided", plan)
-    gap, unseen = (0.0, 0.0), None
+    gap: tuple[float, float, bool | None] = (0.0, 0.0, None)
+    unseen = None
     if contact.relation in OVERLAPS:
-        known = _overlapping(pair, contact, plan)
+        overlap = _overlapping(pair, contact, plan)
+        if overlap is None:
+            reason = f"undecided: rounding hides whether the overlap is within {pair.tolerance:.9g}"
+            return indeterminate(pair.a.id, pair.b.id, reason, plan)
+        known = overlap
         unseen = _unseen_way_out(known, pair, plan)
     else:
         measured, unseen = measure_gap(pair, contact, plan), unseen_inside(pair, contact)
-        gap = measured.lower, measured.upper
+        gap = measured.lower, measured.upper, measured.kept
         known = _apart(pair, contact, measured, unseen, plan)
     contradiction = _add_extras(known, pair, contact, plan)
     found = judged(known, pair, gap, unseen is not None)
@@ -142,25 +150,29 @@ def _unproven(pair: Pair) -> str:
     return f"not proven at --accuracy {pair.settings.accuracy}"
 
 
-def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any]:
-    shallow, move = False, None
+def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any] | None:
+    """None: rounding hides whether the overlap is within the tolerance."""
     if contact.convex is not None:
         # No triangles are needed to see an overlap within the touch band.
-        shallow = -(contact.convex.lower or 0.0) <= _band_with_rounding(pair)
+        band = Band(_side(pair, contact.convex))
     elif pair.may("exact"):
-        move = move_within(pair, contact, plan)
+        band = touch_band(pair, contact, plan)
     else:
-        shallow = estimate_is_within(pair, plan)
-    guess = shallow and not contact.proven
-    depth = None if guess else _depth(pair, contact, move, plan)
-    within = shallow or move is not None or _is_within(pair, depth)
-    relation: Relation = "touching" if within else contact.relation
+        band = Band("within" if estimate_is_within(pair, plan) else "open")
+    guess = band.side == "within" and not contact.proven
+    depth = None if guess else _depth(pair, contact, band.move, plan)
+    if depth is not None and band.side in ("open", "hidden"):
+        band = _band_of_depth(pair, depth) or band
+    if band.side == "hidden":
+        return None
+    is_open = pair.curved and contact.convex is not None and band.side == "open"
+    relation: Relation = "touching" if band.side == "within" else contact.relation
     return {
         "relation": relation,
         "exact_relation": contact.relation if contact.proven else None,
         "quality": _depth_quality(contact, depth),
         "tolerance": pair.tolerance,
-        "reason": _weakness(pair, contact),
+        "reason": _weakness(pair, contact) or (OPEN_BAND if is_open else None),
         **({} if depth is None else _depth_figures(depth)),
     }
 
@@ -173,14 +185,24 @@ def _depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Dep
     return measure_depth(pair, contact, move, plan)
 
 
-def _band_with_rounding(pair: Pair) -> float:
-    """The tolerance, and what rounding may add to a proven bound of a length equal to it."""
-    return pair.tolerance * (1 + EXACT_WIDTH)
+def _side(pair: Pair, found: PairResult | Signed) -> Side:
+    """Whether two convex bodies overlap by no more than the tolerance."""
+    if pair.tolerance == 0:
+        return "deeper"
+    least, most = -(found.upper or 0.0), -(found.lower or 0.0)
+    if most <= pair.tolerance:
+        return "within"
+    side = -1 if least > pair.tolerance else compare_convex(pair, -pair.tolerance)
+    if side is None:
+        return "open"
+    return "within" if side >= 0 else "deeper"
 
 
-def _is_within(pair: Pair, depth: Depth | None) -> bool:
-    """Whether the way out that was found, by parts for instance, is no longer than the band."""
-    return depth is not None and depth.escape.verified and depth.upper <= pair.tolerance
+def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
+    """By the way out that was found, by parts for instance; None: it says nothing."""
+    if not depth.escape.verified or depth.lower > pair.tolerance:
+        return None
+    return band_of(pair, depth.escape.mtv)
 
 
 def _depth_figures(depth: Depth) -> dict[str, Any]:
@@ -207,13 +229,14 @@ def _apart(
     pair: Pair, contact: Contact, gap: Gap, unseen: str | None, plan: Plan
 ) -> dict[str, Any]:
     relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
-    if gap.most <= _band_with_rounding(pair):
+    if gap.within:
         relation = "touching"
     elif relation == "separated":
-        kept = keeps(pair.asked.clearance or 0.0, gap.lower, gap.upper)
-        guess = kept is None and gap.distance is None
-        if kept is False or guess:
+        guess = gap.kept is None and gap.distance is None
+        if gap.kept is False or guess:
             relation = "near"
+        elif gap.within is None:
+            reason = reason or OPEN_BAND
         if guess:
             proven, reason = False, _open_gap(pair)
     if unseen is not None:

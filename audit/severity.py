@@ -46,11 +46,16 @@ def keeps(clearance: float, least: float, most: float) -> bool | None:
     return True if least >= clearance * (1 - EXACT_WIDTH) else None
 
 
-def of_clearance(asked: Asked, least: float, most: float) -> Judgement | None:
-    """Of a gap between these bounds; None: it keeps the clearance, or none is asked for."""
+def of_clearance(
+    asked: Asked, least: float, most: float, kept: bool | None = None
+) -> Judgement | None:
+    """Of a gap between these bounds; None: it keeps the clearance, or none is asked for. kept:
+    whether it does, where that is known better than by the bounds."""
     if not asked.clearance:
         return None
-    kept, rule = keeps(asked.clearance, least, most), asked.rule("clearance") or CLEARANCE_RULE
+    rule = asked.rule("clearance") or CLEARANCE_RULE
+    if kept is None:
+        kept = keeps(asked.clearance, least, most)
     if kept is None:
         known = f"at least {least:.9g}" if most == inf else f"between {least:.9g} and {most:.9g}"
         reason = f"undecided: clearance is {asked.clearance:.9g} ({rule}), and the gap is {known}"
@@ -59,11 +64,12 @@ def of_clearance(asked: Asked, least: float, most: float) -> Judgement | None:
 
 
 def judged(
-    known: Mapping[str, Any], pair: Pair, gap: tuple[float, float], unseen: bool
+    known: Mapping[str, Any], pair: Pair, gap: tuple[float, float, bool | None], unseen: bool
 ) -> Judgement:
     """Of a finding, by what is known of it: its fields by name.
 
-    gap: proven bounds of the distance of bodies without a common interior beyond the touch band.
+    gap: proven bounds of the distance of bodies without a common interior, and whether it keeps the
+    clearance.
     unseen: one body may lie in the other, which has no inside to check, or come to lie there by the
     way out that an overlap is let pass for.
     """
@@ -81,7 +87,9 @@ def by_rule(found: Judgement, asked: Asked) -> Judgement:
     return replace(found, severity=severity, rule=asked.rule("severity"))
 
 
-def _found(known: Mapping[str, Any], asked: Asked, gap: tuple[float, float]) -> Judgement:
+def _found(
+    known: Mapping[str, Any], asked: Asked, gap: tuple[float, float, bool | None]
+) -> Judgement:
     relation: Relation = known["relation"]
     if relation in OVERLAPS:
         return _limited(known, asked) if asked.limited else _OVERLAP

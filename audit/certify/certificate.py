@@ -224,11 +224,11 @@ class _Maker:
                 if found_ is not None:
                     return {"band": {"axis": _text(shortened(found_.axis))}}
             from satcheck.audit.asked.plan import Plan
-            from satcheck.audit.figures.touch_band import move_within
+            from satcheck.audit.figures.touch_band import touch_band
             from satcheck.audit.ladder.ladder import Contact
 
             contact = Contact(finding.exact_relation, True, crossing=self._hint())
-            move = move_within(self.pair, contact, Plan())
+            move = touch_band(self.pair, contact, Plan()).move
             if move is not None:
                 return {"band": {"move": list(move), "free": self._free(move)}}
         return {}

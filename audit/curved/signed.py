@@ -72,6 +72,17 @@ def convex_pair(a: PlacedBody, b: PlacedBody, move: Vector = ORIGIN) -> Signed |
     return signed(found, slack_a + slack_b)
 
 
+def compare(a: PlacedBody, b: PlacedBody, length: float) -> int | None:
+    """The sign of (signed distance - length), exactly; None where a shape is not a ball around a
+    point or a segment, was rounded when it was placed, or a mesh is not convex."""
+    if not all(body.curved is not None or body.convex for body in (a, b)):
+        return None
+    (shape_a, pose_a, slack_a), (shape_b, pose_b, slack_b) = _placed(a, ORIGIN), _placed(b, ORIGIN)
+    if slack_a or slack_b:
+        return None
+    return core.compare_signed_distance(shape_a, shape_b, length, pose_a, pose_b)
+
+
 def _placed(body: PlacedBody, move: Vector) -> tuple[core.Shape, tuple[float, ...], float]:
     curved = body.curved
     if curved is None:

@@ -5,30 +5,38 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector, Witness
+from satcheck.audit.severity import keeps
 from satcheck.audit.tolerances import rounding_pad
-from satcheck.core.frozen import frozen
+from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
-    from satcheck import core
+    from collections.abc import Callable
+
     from satcheck.audit.curved.signed import Signed
+
+    # The sign of (distance - length), exactly; None where it is not known.
+    Compare = Callable[[float], int | None]
 
 
 @frozen
 class Gap:
-    """The distance, world units, to rounding: lower <= true distance <= upper (inf: unknown).
+    """The distance, world units: lower <= true distance <= upper (inf: unknown), rounding included.
 
-    most: a proven upper bound, rounding granted: what the touch band asks for. distance: the
-    figure, between the two; None where none was measured. normal: unit, from A to B; None where
-    the points coincide. witness: the closest points.
+    within: it is at most the tolerance; kept: it is at least the clearance. Where the bounds leave
+    that open it is decided exactly; None: it cannot be. distance: the figure; None where none was
+    measured. normal: unit, from A to B; None where the points coincide. witness: the closest
+    points.
     """
 
     lower: float
     upper: float
-    most: float
+    within: bool | None
+    kept: bool | None
     distance: float | None = None
     normal: Vector | None = None
     witness: Witness | None = None
@@ -39,16 +47,20 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     if contact.convex is not None:
         if pair.asked.wants("distance"):
             plan.record("distance", "measured", "with the hulls")
-        return _convex_gap(contact.convex, bounded=pair.curved)
+        return _convex_gap(pair, contact.convex)
     if contact.relation == "touching":
         witness = contact.point and Witness(contact.point, contact.point)
-        return Gap(0.0, 0.0, 0.0, 0.0, None, witness)
+        return Gap(0.0, 0.0, True, not pair.asked.clearance, 0.0, None, witness)
     if pair.curved and contact.relation == "separated" and pair.may("hull"):
         beyond = math.nextafter(pair.asked_gap, math.inf)  # no triangle was found within that
-        return Gap(max(contact.gap_lower, beyond), math.inf, math.inf)
+        return _at_least(pair, max(contact.gap_lower, beyond))
     settled = contact.gap_lower > pair.asked_gap or pair.asked_gap == 0
     if settled or not pair.may("exact"):
-        return Gap(contact.gap_lower, math.inf, math.inf)
+        return _at_least(pair, contact.gap_lower)
+    return _surface_gap(pair, contact, plan)
+
+
+def _surface_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
     asked = pair.asked.wants("distance")
     stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
@@ -57,32 +69,82 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     found, cost = contact.climb.gap, contact.climb.band_nanoseconds
     if math.isinf(found.distance):
         plan.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
-        return Gap(limit, math.inf, math.inf)
+        return _at_least(pair, math.nextafter(limit, math.inf))
+    rounding = rounding_pad(pair.largest_coordinate)
+    lower = max(found.distance - rounding, 0.0)
+
+    def compare(length: float) -> int:
+        return core.compare_gap(pair.a.surface(), pair.b.surface(), length)
+
     if contact.climb.gap_is_void:
         # From the outside no face within the material can be nearest.
         plan.add(stage, "lower bound", "to a wall without thickness: no part of the body", cost)
-        return Gap(found.distance, math.inf, math.inf)
+        gap = _at_least(pair, lower)
+        is_near = gap.within is None and compare(pair.tolerance) <= 0  # another wall
+        return replace(gap, within=True) if is_near else gap
     plan.add(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}", cost)
+    upper = found.distance + rounding
     return Gap(
-        found.distance,
-        found.distance,
-        found.distance + rounding_pad(pair.largest_coordinate),
+        lower,
+        upper,
+        _is_within(lower, upper, pair.tolerance, compare),
+        _is_kept(lower, upper, pair.asked.clearance, compare),
         found.distance,
         _direction(found.witness_a, found.witness_b),
         Witness(found.witness_a, found.witness_b),
     )
 
 
-def _convex_gap(result: core.PairResult | Signed, *, bounded: bool) -> Gap:
-    """bounded: of a curved shape the distance is an estimate; of polytopes it is the distance, to
-    rounding."""
+def _convex_gap(pair: Pair, result: core.PairResult | Signed) -> Gap:
     distance = max(result.distance or 0.0, 0.0)
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
-    most = max(result.upper or 0.0, distance)
-    lower, upper = (max(result.lower or 0.0, 0.0), most) if bounded else (distance, distance)
-    return Gap(lower, upper, most, distance, result.normal, witness)
+    lower, upper = max(result.lower or 0.0, 0.0), max(result.upper or 0.0, distance)
+
+    def compare(length: float) -> int | None:
+        return compare_convex(pair, length)
+
+    return Gap(
+        lower,
+        upper,
+        _is_within(lower, upper, pair.tolerance, compare),
+        _is_kept(lower, upper, pair.asked.clearance, compare),
+        distance,
+        result.normal,
+        witness,
+    )
+
+
+def _at_least(pair: Pair, lower: float) -> Gap:
+    """Of bodies without a common point, of which no more is known."""
+    beyond = lower > pair.tolerance or pair.tolerance == 0
+    kept = True if lower >= (pair.asked.clearance or 0.0) else None
+    return Gap(lower, math.inf, False if beyond else None, kept)
+
+
+def compare_convex(pair: Pair, length: float) -> int | None:
+    """The sign of (signed distance - length) of two convex bodies, exactly; None where the rounding
+    of a curved shape leaves it open."""
+    if not pair.curved:
+        return core.compare_signed_distance(pair.a.hull_shape(), pair.b.hull_shape(), length)
+    from satcheck.audit.curved.signed import compare
+
+    return compare(pair.a, pair.b, length)
+
+
+def _is_within(lower: float, upper: float, tolerance: float, compare: Compare) -> bool | None:
+    if upper <= tolerance or lower > tolerance:
+        return upper <= tolerance
+    side = compare(tolerance)
+    return None if side is None else side <= 0
+
+
+def _is_kept(lower: float, upper: float, clearance: float | None, compare: Compare) -> bool | None:
+    if not clearance or lower >= clearance:
+        return True
+    side = -1 if upper < clearance else compare(clearance)
+    return keeps(clearance, lower, upper) if side is None else side >= 0
 
 
 def _direction(start: Vector, end: Vector) -> Vector | None:

@@ -12,15 +12,24 @@ from __future__ import annotations
 
 import math
 from time import perf_counter_ns
+from typing import Literal
 
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import crossing_depth
+from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
+from satcheck.audit.tolerances import EXACT_WIDTH, UNIT_ROUNDOFF
+from satcheck.audit.vectors import scaled
+from satcheck.core.frozen import frozen
 
+# A way out that exceeds the tolerance by no more than this factor is tried again as long as that.
+LITTLE_LONGER = 1 + EXACT_WIDTH
+# A length computed of a direction and the tolerance exceeds that by no more than this factor.
+TO_ROUNDING = 1 + 16 * UNIT_ROUNDOFF
 # A band narrower than this share of the way out of the hulls.
 NARROW_BAND = 1 / 64
 
@@ -37,31 +46,47 @@ def estimate_is_within(pair: Pair, plan: Plan) -> bool:
     return within
 
 
-def move_within(pair: Pair, contact: Contact, plan: Plan) -> Vector | None:
-    """A translation of A, at most the tolerance long, after which it is free; None: none found.
+Side = Literal["open", "within", "deeper", "hidden"]
 
-    For an overlap that the triangles decided.
-    """
+
+@frozen
+class Band:
+    """Whether an overlap is within the tolerance. side: as of core.WayWithin. move: a translation
+    of A, at most the tolerance long, after which it is free; None: none was found."""
+
+    side: Side
+    move: Vector | None = None
+
+
+def touch_band(pair: Pair, contact: Contact, plan: Plan) -> Band:
+    """For an overlap that the triangles decided."""
     if pair.tolerance == 0:
-        return None
+        return Band("deeper")
     if pair.curved:
-        return _move_off_mesh(pair, plan)
+        move = _move_off_mesh(pair, plan)
+        return Band("open" if move is None else "within", move)
     lower, cost = _least_depth(pair, contact)
     if lower > pair.tolerance:
         plan.add("touch-band", "deeper", f"{_band(pair)}: at least {lower:.3g} deep", cost)
-        return None
+        return Band("deeper")
     found, spent = _way_within(pair, contact)
-    if found.move is None and found.deepest > pair.tolerance:
+    if found.side == "deeper":
         detail = f"{_band(pair)}: at least {found.deepest:.3g} deep"
         plan.add("touch-band", "deeper", detail, cost + spent)
-        return None
-    move = found.move or _searched(pair, lower, plan)
-    if move is None:
-        result, detail = "not found", "no move within it frees A"
+        return Band("deeper")
+    band = Band(found.side, found.move)
+    if band.side != "within":
+        band = _searched(pair, lower, plan) or band
+    if band.move is not None:
+        result, detail = "within", f"{math.hypot(*band.move):.3g} frees A"
+    elif band.side == "within":
+        result, detail = "within", "the hulls of the whole meshes overlap by no more"
+    elif band.side == "hidden":
+        result, detail = "undecided", "a move as long as it, to rounding, frees A"
     else:
-        result, detail = "within", f"{math.hypot(*move):.3g} frees A"
+        result, detail = "not found", "no move within it frees A"
     plan.add("touch-band", result, f"{_band(pair)}: {detail}", cost + spent)
-    return move
+    return band
 
 
 def _move_off_mesh(pair: Pair, plan: Plan) -> Vector | None:
@@ -101,13 +126,41 @@ def _band(pair: Pair) -> str:
     return f"tolerance {pair.tolerance:.3g}, {source}"
 
 
-def _searched(pair: Pair, lower: float, plan: Plan) -> Vector | None:
-    """By the search for the depth, with or without a depth asked for; not for a narrow band, in
-    which the way off the triangles was sought."""
+def _searched(pair: Pair, lower: float, plan: Plan) -> Band | None:
+    """By the search for the depth, with or without a depth asked for; None: it found nothing, or
+    was not tried: in a narrow band the way off the triangles was sought."""
     hulls = way_out_of_hulls(pair)
     if pair.tolerance < NARROW_BAND * hulls.upper:
         return None
     from satcheck.audit.figures.concave_depth import search
 
     found = search(pair, lower, hulls.upper, plan).way_out
-    return found if found is not None and math.hypot(*found) <= pair.tolerance else None
+    return None if found is None else band_of(pair, found)
+
+
+def band_of(pair: Pair, way_out: Vector) -> Band | None:
+    """What a translation that frees A proves; None: nothing, it is longer than the tolerance."""
+    length = math.hypot(*way_out)
+    if not 0 < length <= pair.tolerance * LITTLE_LONGER:
+        return None
+    # One as long as the tolerance comes back a little longer.
+    side: Side = "open"
+    for move in (way_out, scaled(way_out, pair.tolerance / length)):
+        is_short = _is_short(pair, move)
+        to_rounding = math.hypot(*move) <= pair.tolerance * TO_ROUNDING
+        if (is_short or to_rounding) and relation_after(pair, move) in FREE:
+            if is_short:
+                return Band("within", move)
+            side = "hidden"
+    return Band(side)
+
+
+def _is_short(pair: Pair, move: Vector) -> bool:
+    """Whether the translation, with what rounding adds to it, is within the tolerance: for either
+    body, so that their order makes no difference."""
+    back, length = scaled(move, -1.0), pair.tolerance
+    if pair.curved:
+        return math.hypot(*move) <= length
+    return core.moves_within(pair.a.mesh, move, length) and core.moves_within(
+        pair.b.mesh, back, length
+    )

@@ -77,7 +77,7 @@ def _is_asked_more(asked: Asked, found: core.Climb) -> bool:
 def _band_is_open(pair: Pair, found: core.Climb) -> bool:
     """Whether a search may follow."""
     way = found.way_within
-    return way is not None and way.move is None and way.deepest <= pair.tolerance
+    return way is not None and way.side in ("open", "hidden")
 
 
 def _overlaps(found: core.Climb) -> bool:

@@ -116,13 +116,22 @@ nb::list stages(const Climb& climb, nb::handle make) {
 }
 
 void bind_found(nb::module_& m) {
-  nb::class_<WayWithin>(m, "WayWithin", R"(A way out of an overlap that is no longer than the touch band.
+  nb::class_<WayWithin>(m, "WayWithin", R"(Whether an overlap is within the touch band.
 
-move: a translation of A, seen to free it; None: none was found. deepest: a proven lower bound of the depth, by the
-triangles that were in the way.)")
+side: "within" or "deeper", proven; "hidden" where rounding alone leaves it open; "open". move: a translation of A within
+it, seen to free it; None: none was found. deepest: a proven lower bound of the depth, by the triangles in the way.)")
       .def_prop_ro("move",
                    [](const WayWithin& w) {
                      return w.move ? std::optional(Corner{w.move->x, w.move->y, w.move->z}) : std::nullopt;
+                   })
+      .def_prop_ro("side",
+                   [](const WayWithin& w) {
+                     switch (w.side) {
+                       case BandSide::within: return "within";
+                       case BandSide::deeper: return "deeper";
+                       case BandSide::hidden: return "hidden";
+                       default: return "open";
+                     }
                    })
       .def_ro("deepest", &WayWithin::deepest);
   nb::class_<Climb>(m, "Climb", R"(What each rung of the ladder found about a pair; None where the climb did not get so far.

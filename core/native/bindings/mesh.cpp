@@ -25,6 +25,8 @@
 #include "mesh_pair/boundary_contact.hpp"
 #include "mesh_pair/deviation.hpp"
 #include "mesh/nearest_point.hpp"
+#include "exact/translation.hpp"
+#include "mesh_pair/gap_comparison.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "scene/placed_bounds.hpp"
@@ -334,6 +336,21 @@ void bind_mesh_distance(nb::module_& m) {
   m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) { return mesh_distance(a, b, limit); }, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
         R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
 another is at a distance from its surface all the same: ask mesh_relation first.)");
+  m.def("compare_gap",
+        [](const Surface& a, const Surface& b, double length) {
+          if (!(length >= 0)) throw std::invalid_argument("the length must not be negative");
+          return compare_gap(a, b, length);
+        },
+        "a"_a, "b"_a, "length"_a, ReleaseGil(),
+        R"(-1, 0 or 1: the distance of two surfaces without a common point is smaller than, equal to, or larger than the
+length. Decided exactly. Walls without thickness do not count.)");
+  m.def("moves_within",
+        [](const Mesh& mesh, const Tuple3& move, double length) {
+          return moves_within(mesh.vertices, finite_point(move), length);
+        },
+        "mesh"_a, "move"_a, "length"_a, ReleaseGil(),
+        R"(Whether a translation, added to the vertices with one rounding of each coordinate, takes none of them farther than
+`length`. Decided exactly where nothing is rounded.)");
   m.def("deviation",
         [](const Mesh& surface_of, const Surface& solid, double tolerance) {
           const Deviation d = deviation(surface_of, solid, tolerance);

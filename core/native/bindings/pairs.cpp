@@ -10,6 +10,7 @@
 
 #include "base/numeric_range.hpp"
 #include "convex/batch.hpp"
+#include "convex/signed_comparison.hpp"
 #include "scene/words.hpp"
 
 namespace nb = nanobind;
@@ -205,6 +206,19 @@ translation out of range.
 SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), portals (Snethen 2008), GJK (Gilbert, Johnson, Keerthi
 1988), EPA on signed face distances (after van den Bergen 2001), exact signs (Shewchuk 1997) where float64
 cannot tell.)");
+  m.def(
+      "compare_signed_distance",
+      [](const Shape& a, const Shape& b, double length, const std::optional<std::vector<double>>& pose_a,
+         const std::optional<std::vector<double>>& pose_b) {
+        if (!std::isfinite(length)) throw std::invalid_argument("the length is not finite");
+        const Pose pa = pose_from(pose_a), pb = pose_from(pose_b);
+        nb::gil_scoped_release release;
+        return compare_signed_distance(a, pa, b, pb, length);
+      },
+      nb::arg("a"), nb::arg("b"), nb::arg("length"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(),
+      R"(-1, 0 or 1: the signed distance of two placed convex shapes is smaller than, equal to, or larger than the length
+(negative: a depth). Decided exactly, for the vertices, centres and axes where the poses round them to; None where a
+cylinder, cone or ellipsoid takes part. Poses as for check_pair.)");
   m.def("check_pairs", &check_many, nb::arg("shapes"), nb::arg("index_a").noconvert(),
         nb::arg("index_b").noconvert(), nb::arg("poses_a").noconvert(),
         nb::arg("poses_b").noconvert(), nb::kw_only(), nb::arg("query") = "depth", nb::arg("method") = "auto",

@@ -153,16 +153,28 @@ ExactFigure ExactPolytope::figure(const Facet& nearest) const {
   return figure;
 }
 
+// Expands the polytope up to the facet that the whole difference lies behind: the depth is its distance.
+const Facet& expand_fully(ExactPolytope& polytope, const ExactDifference& difference) {
+  for (;;) {
+    const Facet& nearest = polytope.nearest();
+    const ExactSupport w = difference.support(nearest.normal);
+    if (!polytope.reaches_beyond(w, nearest)) return nearest;
+    polytope.expand(w);
+  }
+}
+
 }  // namespace
 
 ExactFigure exact_depth(const ExactDifference& difference) {
   ExactPolytope polytope(difference);
-  for (;;) {
-    const Facet& nearest = polytope.nearest();
-    const ExactSupport w = difference.support(nearest.normal);
-    if (!polytope.reaches_beyond(w, nearest)) return polytope.figure(nearest);
-    polytope.expand(w);
-  }
+  return polytope.figure(expand_fully(polytope, difference));
+}
+
+int compare_depth(const ExactDifference& difference, const Dyadic& length) {
+  if (length.sign() <= 0) return 1;
+  ExactPolytope polytope(difference);
+  const Facet& nearest = expand_fully(polytope, difference);
+  return (nearest.height * nearest.height - length * length * dot(nearest.normal, nearest.normal)).sign();
 }
 
 }  // namespace satcheck

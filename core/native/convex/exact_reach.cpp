@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "base/tolerances.hpp"
-#include "exact/dyadic.hpp"
 #include "exact/triangle_distance.hpp"
 
 namespace satcheck {
@@ -98,11 +97,10 @@ struct Features {
 
 class NearestFeatures {
  public:
-  NearestFeatures(const Polytope& a, const Polytope& b, Reach reach)
-      : reach_squared_((Dyadic(reach.a) + Dyadic(reach.b)) * (Dyadic(reach.a) + Dyadic(reach.b))) {
-    // Five roundings in a squared distance of boxes, two in the square of the reach.
-    const double rounded = reach.a + reach.b;
-    within_ = rounded * rounded * (1 + 16 * kUnitRoundoff);
+  NearestFeatures(const Polytope& a, const Polytope& b, const Dyadic& length) : length_squared_(length * length) {
+    // Five roundings in a squared distance of boxes, four in the length, doubled by its square, and one of that.
+    const double rounded = rounded_ratio(length, Dyadic(1));
+    within_ = rounded * rounded * (1 + 32 * kUnitRoundoff);
     a_ = features_near(a, bounds_of(b.vertices));
     b_ = features_near(b, bounds_of(a.vertices));
   }
@@ -135,7 +133,7 @@ class NearestFeatures {
   }
 
   void compare(std::optional<Squared> found) {
-    if (found) least_ = std::min(least_, (found->numerator - reach_squared_ * found->denominator).sign());
+    if (found) least_ = std::min(least_, (found->numerator - length_squared_ * found->denominator).sign());
   }
 
   template <class One, class Other>
@@ -148,7 +146,7 @@ class NearestFeatures {
     }
   }
 
-  Dyadic reach_squared_;
+  Dyadic length_squared_;
   double within_;
   Features a_, b_;
   int least_ = 1;
@@ -156,6 +154,8 @@ class NearestFeatures {
 
 }  // namespace
 
-int compare_distance(const Polytope& a, const Polytope& b, Reach reach) { return NearestFeatures(a, b, reach).sign(); }
+int compare_distance(const Polytope& a, const Polytope& b, const Dyadic& length) {
+  return length.sign() < 0 ? 1 : NearestFeatures(a, b, length).sign();
+}
 
 }  // namespace satcheck

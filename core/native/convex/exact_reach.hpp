@@ -2,15 +2,11 @@
 #pragma once
 
 #include "convex/polytope.hpp"
+#include "exact/dyadic.hpp"
 
 namespace satcheck {
 
-// The sum of two lengths, taken without rounding: the radii around two cores.
-struct Reach {
-  double a, b;
-};
-
-// Sign of distance - reach, for hulls of any dimension without a common point.
-int compare_distance(const Polytope& a, const Polytope& b, Reach reach);
+// Sign of distance - length, for hulls of any dimension without a common point.
+int compare_distance(const Polytope& a, const Polytope& b, const Dyadic& length);
 
 }  // namespace satcheck

@@ -14,6 +14,7 @@
 #include "convex/pair_order.hpp"
 #include "convex/portal.hpp"
 #include "convex/proof_noise.hpp"
+#include "convex/world_hull.hpp"
 
 namespace satcheck {
 
@@ -181,17 +182,6 @@ void polish(const MinkowskiDifference& m, CoreAnswer& core) {
                         : touching_points(m, best.axis, best.value);
 }
 
-// The hull of the world vertices, each rounded by the pose. A hull that stays where it was made is
-// its own answer; any other is computed anew, because rounding bends its faces.
-Polytope world_hull(const Shape& shape, const Pose& pose) {
-  if (shape.kind == ShapeKind::sphere) return convex_hull({pose.translation});
-  if (shape.kind == ShapeKind::capsule) return convex_hull({pose * Vec3{0, 0, -shape.size.z}, pose * Vec3{0, 0, shape.size.z}});
-  Polytope hull = shape.polytope;
-  for (Vec3& p : hull.vertices) p = pose * (p + shape.origin);
-  const bool in_place = pose.rotation == Mat3{} && pose.translation == Vec3{};
-  return in_place && shape.has_faces ? hull : convex_hull(hull.vertices);
-}
-
 // The rounding that a proof in float64 has to beat. Cores of vertices are judged where their poses
 // round them to, curved ones where their poses put them.
 double proof_noise(const MinkowskiDifference& m, const Pose& pose_a, const Pose& pose_b) {
@@ -248,7 +238,7 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
                   PairResult& result) {
   const Polytope core_a = world_hull(a, pose_a), core_b = world_hull(b, pose_b);
   const bool cores_meet = decide_exactly(core_a, core_b, 2 * noise) != Outcome::separated;
-  const int side = cores_meet ? -1 : compare_distance(core_a, core_b, {a.margin, b.margin});
+  const int side = cores_meet ? -1 : compare_distance(core_a, core_b, Dyadic(a.margin) + Dyadic(b.margin));
   result.outcome = side > 0 ? Outcome::separated : side < 0 ? Outcome::penetrating : Outcome::touching;
   result.method = Method::exact;
   result.reason = Reason::none;

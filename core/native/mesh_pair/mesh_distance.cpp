@@ -7,6 +7,7 @@
 
 #include "base/tolerances.hpp"
 #include "exact/triangle_distance.hpp"
+#include "mesh/surface_order.hpp"
 
 namespace satcheck {
 namespace {
@@ -122,7 +123,13 @@ class DistanceSearch {
 
 MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, const TrianglePairTest& counts) {
   if (!(limit >= 0)) throw std::invalid_argument("the distance limit must not be negative");
-  return DistanceSearch(a, b, limit, counts).run();
+  if (comes_before(a, b)) return DistanceSearch(a, b, limit, counts).run();
+  TrianglePairTest mirrored;
+  if (counts) mirrored = [&](std::uint32_t t, std::uint32_t u) { return counts(u, t); };
+  MeshDistance found = DistanceSearch(b, a, limit, mirrored).run();
+  std::swap(found.witness_a, found.witness_b);
+  std::swap(found.triangle_a, found.triangle_b);
+  return found;
 }
 
 }  // namespace satcheck

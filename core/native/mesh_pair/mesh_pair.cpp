@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "exact/triangle_pair.hpp"
+#include "mesh/surface_order.hpp"
 #include "mesh_pair/contact.hpp"
 #include "mesh_pair/sheet_contact.hpp"
 #include "mesh_pair/traversal.hpp"
@@ -101,9 +102,7 @@ MeshRelation with_counts(MeshRelation result, const SurfaceContacts& found) {
   return result;
 }
 
-}  // namespace
-
-MeshRelation mesh_relation(const Surface& a, const Surface& b) {
+MeshRelation relation_in_order(const Surface& a, const Surface& b) {
   if (same_geometry(a, b)) {
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
@@ -112,10 +111,31 @@ MeshRelation mesh_relation(const Surface& a, const Surface& b) {
   return with_counts(a.solid || b.solid ? relation_of_solids(a, b, found) : relation_of_sheets(a, b, found), found);
 }
 
-std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
+std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Surface& b) {
   const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
   const auto result = simple_relation_of(a, b, found);
   return result ? std::optional(with_counts(*result, found)) : std::nullopt;
+}
+
+// The answer to the question with A and B exchanged.
+MeshRelation mirrored(MeshRelation found) {
+  std::swap(found.triangle_a, found.triangle_b);
+  if (found.relation == Relation::contains || found.relation == Relation::inside) {
+    found.relation = found.relation == Relation::contains ? Relation::inside : Relation::contains;
+  }
+  return found;
+}
+
+}  // namespace
+
+MeshRelation mesh_relation(const Surface& a, const Surface& b) {
+  return comes_before(a, b) ? relation_in_order(a, b) : mirrored(relation_in_order(b, a));
+}
+
+std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
+  if (comes_before(a, b)) return simple_relation_in_order(a, b);
+  const auto found = simple_relation_in_order(b, a);
+  return found ? std::optional(mirrored(*found)) : std::nullopt;
 }
 
 }  // namespace satcheck

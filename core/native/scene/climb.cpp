@@ -229,16 +229,18 @@ class Climber {
     }
   }
 
+  // What is beyond the touch band by more than rounding needs no figure.
   bool measure_gap() {
     if (q_.asked_gap == 0) return false;
     if (!a_) make_whole_surfaces();
-    found_.gap = mesh_distance(*a_, *b_, q_.wants_distance ? INFINITY : q_.tolerance);
+    const double rounding = chain_rounding(largest_coordinate());
+    found_.gap = mesh_distance(*a_, *b_, q_.wants_distance ? INFINITY : q_.tolerance + rounding);
     if (!std::isfinite(found_.gap->distance)) return true;
     Voids of_a(*a_), of_b(*b_);
     const auto bounds_material = [&](std::uint32_t t, std::uint32_t u) { return !of_a.include(t) && !of_b.include(u); };
     if (bounds_material(found_.gap->triangle_a, found_.gap->triangle_b)) return true;
     // A wall of the body can be as near, and which of them is met first depends on the trees.
-    const double as_near = found_.gap->distance + chain_rounding(largest_coordinate());
+    const double as_near = found_.gap->distance + rounding;
     const MeshDistance gap = mesh_distance(*a_, *b_, as_near, bounds_material);
     found_.gap_is_void = !std::isfinite(gap.distance);
     if (!found_.gap_is_void) found_.gap = gap;

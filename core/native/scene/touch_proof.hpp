@@ -11,6 +11,9 @@ namespace satcheck {
 // wherever along them they cross only if the bodies end on all of both triangles.
 double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b);
 
+// Whether they prove a depth of more than `length`, exactly.
+bool crosses_deeper(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b, double length);
+
 // Of nested bodies: the inner one stays inside at least until the surfaces meet.
 double nested_depth(PlacedGeometry& a, PlacedGeometry& b);
 

@@ -5,6 +5,9 @@
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
 #include "convex/narrow_phase.hpp"
+#include "convex/signed_comparison.hpp"
+#include "exact/translation.hpp"
+#include "mesh/surface_order.hpp"
 #include "mesh/topology.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "mesh_pair/moved_surface.hpp"
@@ -14,6 +17,9 @@ namespace satcheck {
 namespace {
 
 constexpr int kWalls = 3;
+
+// A length computed of a direction and the tolerance exceeds that by no more than this factor.
+constexpr double kToRounding = 1 + 16 * kUnitRoundoff;
 
 // A moved again and again, without a tree being built.
 class Trials {
@@ -37,6 +43,8 @@ bool is_free(const MeshRelation& found) {
   return found.proven && (found.relation == Relation::separated || found.relation == Relation::touching);
 }
 
+// What frees A frees B when it moves the other way, up to rounding: a way out does both, so that no order of the
+// bodies finds more than the other.
 class Search {
  public:
   Search(PlacedGeometry& a, PlacedGeometry& b, double tolerance)
@@ -46,33 +54,89 @@ class Search {
     const PairResult found = check_pair(*a_.hull_shape(), {}, *b_.hull_shape(), {}, Query::depth);
     if (!found.has_distance || (found.outcome != Outcome::penetrating && found.outcome != Outcome::touching)) return {};
     const double upper = found.outcome == Outcome::penetrating ? -found.lower : 0.0;
+    hulls_are_within_ = upper <= tolerance_ || (-found.upper <= tolerance_ && compare_hulls() >= 0);
     double largest = 0;
     for (const Aabb& box : {a_.bounds(), b_.bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
-    for (const double length : {upper, upper + chain_rounding(largest)}) {
-      const Vec3 move = found.normal * -length;
-      if (0 < length && length <= tolerance_ && is_free(trials_.after(move))) return move;
+    for (const double length : {upper, upper + chain_rounding(largest), tolerance_}) {
+      if (!(0 < length && length <= tolerance_)) continue;
+      if (const auto move = way_out(found.normal * -length)) return move;
     }
     return {};
   }
 
   // Depth first: a step off the crossing triangles, then off those that are then crossed.
   std::optional<Vec3> off(ContactPair crossing, Vec3 at = {}, int walls = kWalls) {
+    if (is_deeper_at(crossing)) return {};
     for (const Vec3 away : ways_off(crossing)) {
       const Vec3 there = at + away * (tolerance_ / kWalls);
       const MeshRelation found = trials_.after(there);
-      if (is_free(found)) return there;
+      if (is_free(found)) {
+        if (const auto move = way_out(there)) return move;
+      }
       if (found.triangle_a == kNoTriangle || found.triangle_b == kNoTriangle) continue;
-      deepest_ = std::max(deepest_, crossing_depth(*of_a_, *of_b_, found.triangle_a, found.triangle_b));
-      if (deepest_ > tolerance_) return {};
+      const ContactPair next{found.triangle_a, found.triangle_b};
+      if (is_deeper_at(next)) return {};
       if (walls == 1) continue;
-      if (const auto further = off({found.triangle_a, found.triangle_b}, there, walls - 1)) return further;
+      if (const auto further = off(next, there, walls - 1)) return further;
+      if (deeper_) return {};
     }
     return {};
   }
 
-  double deepest() const { return deepest_; }
+  // As far as the band reaches, in one step.
+  std::optional<Vec3> straight_off(ContactPair crossing) {
+    for (const Vec3 away : ways_off(crossing)) {
+      if (const auto move = way_out(away * tolerance_)) return move;
+    }
+    return {};
+  }
+
+  bool is_deeper() const { return deeper_; }
+  WayWithin found(std::optional<Vec3> move) const {
+    const BandSide side = move || hulls_are_within_ ? BandSide::within
+                          : deeper_                 ? BandSide::deeper
+                          : hidden_                 ? BandSide::hidden
+                                                    : BandSide::open;
+    return {move, deepest_, side};
+  }
 
  private:
+  // By these triangles, as the bodies stand.
+  bool is_deeper_at(ContactPair crossing) {
+    deepest_ = std::max(deepest_, crossing_depth(*of_a_, *of_b_, crossing.a, crossing.b));
+    deeper_ = deeper_ || deepest_ > tolerance_ || crosses_deeper(*of_a_, *of_b_, crossing.a, crossing.b, tolerance_);
+    return deeper_;
+  }
+
+  int compare_hulls() const {
+    return compare_signed_distance(*a_.hull_shape(), {}, *b_.hull_shape(), {}, -tolerance_).value_or(-1);
+  }
+
+  // The move, or one beside it that rounds no coordinate, if it is within the tolerance and frees A.
+  std::optional<Vec3> way_out(Vec3 move) {
+    for (const Vec3 candidate : {move, on_grid(move)}) {
+      const bool is_short = moves_within(of_a_->mesh.vertices, candidate, tolerance_) &&
+                            moves_within(of_b_->mesh.vertices, -candidate, tolerance_);
+      if (!is_short && (hidden_ || !(std::hypot(candidate.x, candidate.y, candidate.z) <= tolerance_ * kToRounding))) {
+        continue;
+      }
+      if (!is_free(trials_.after(candidate)) || !is_free(Trials(*of_b_, *of_a_).after(-candidate))) continue;
+      if (is_short) return candidate;
+      hidden_ = true;
+    }
+    return {};
+  }
+
+  // Each coordinate a multiple of the step between the largest coordinates.
+  Vec3 on_grid(Vec3 move) const {
+    const auto round = [](double step, const Aabb& a, const Aabb& b, int axis) {
+      const double most = std::max({std::fabs(a.min[axis]), std::fabs(a.max[axis]), std::fabs(b.min[axis]), std::fabs(b.max[axis])});
+      return (most + step) - most;
+    };
+    const Aabb &a = a_.bounds(), &b = b_.bounds();
+    return {round(move.x, a, b, 0), round(move.y, a, b, 1), round(move.z, a, b, 2)};
+  }
+
   // Unit directions for A: along B's outward normal, against its own; both ways if not solid.
   std::vector<Vec3> ways_off(ContactPair crossing) const {
     std::vector<Vec3> ways;
@@ -93,15 +157,25 @@ class Search {
   std::shared_ptr<Surface> of_a_, of_b_;
   Trials trials_;
   double tolerance_, deepest_ = 0;
+  bool deeper_ = false, hidden_ = false, hulls_are_within_ = false;
 };
+
+WayWithin way_in_order(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing) {
+  Search search(a, b, tolerance);
+  std::optional<Vec3> move = search.out_of_hulls();
+  if (!move && crossing) move = search.off(*crossing);
+  if (!move && crossing && !search.is_deeper()) move = search.straight_off(*crossing);
+  return search.found(move);
+}
 
 }  // namespace
 
 WayWithin find_way_within(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing) {
-  Search search(a, b, tolerance);
-  std::optional<Vec3> move = search.out_of_hulls();
-  if (!move && crossing) move = search.off(*crossing);
-  return {move, search.deepest()};
+  if (comes_before(*a.surface(), *b.surface())) return way_in_order(a, b, tolerance, crossing);
+  if (crossing) std::swap(crossing->a, crossing->b);
+  WayWithin found = way_in_order(b, a, tolerance, crossing);
+  if (found.move) found.move = Vec3{} - *found.move;  // no negative zeros
+  return found;
 }
 
 }  // namespace satcheck

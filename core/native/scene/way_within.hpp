@@ -12,14 +12,20 @@
 
 namespace satcheck {
 
-// move: of A, world. deepest: a proven lower bound of the depth, by the triangles that were found in the way.
+// within, deeper: proven. hidden: a translation as long as the tolerance frees A, and rounding hides whether one within
+// it does. open: nothing was found.
+enum class BandSide : std::uint8_t { open, within, deeper, hidden };
+
+// move: of A, world; within it by the hulls alone there may be none. deepest: a proven lower bound of the depth, by the
+// triangles that were found in the way.
 struct WayWithin {
   std::optional<Vec3> move;
   double deepest = 0;
+  BandSide side = BandSide::open;
 };
 
 // For bodies that overlap. crossing: triangles that meet; nothing where none are known: A is then not nudged. Ends
-// early where `deepest` exceeds the tolerance.
+// early where a depth beyond the tolerance is proven.
 WayWithin find_way_within(PlacedGeometry& a, PlacedGeometry& b, double tolerance, std::optional<ContactPair> crossing);
 
 }  // namespace satcheck

@@ -13,14 +13,15 @@ const Polytope cube = convex_hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {
 
 Polytope point(double x, double y, double z) { return convex_hull({{x, y, z}}); }
 
-// Both orders, at the distance and one ulp to either side; reach is split unevenly over the two.
+// Both orders, at the distance and one ulp to either side; the length is split unevenly over the two.
 void expect(const Polytope& a, const Polytope& b, double distance) {
   for (const double share : {0.0, 0.25}) {
     const double rest = distance - share;
+    const auto length = [&](double other) { return Dyadic(share) + Dyadic(other); };
     for (const auto& [one, other] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
-      CHECK(compare_distance(*one, *other, {share, rest}) == 0);
-      CHECK(compare_distance(*one, *other, {share, std::nextafter(rest, 0.0)}) == 1);
-      CHECK(compare_distance(*one, *other, {share, std::nextafter(rest, INFINITY)}) == -1);
+      CHECK(compare_distance(*one, *other, length(rest)) == 0);
+      CHECK(compare_distance(*one, *other, length(std::nextafter(rest, 0.0))) == 1);
+      CHECK(compare_distance(*one, *other, length(std::nextafter(rest, INFINITY))) == -1);
     }
   }
 }
@@ -39,18 +40,18 @@ void edges() {
   expect(convex_hull({{-1, 0, 0}, {1, 0, 0}}), convex_hull({{-3, 3, 4}, {9, 3, 4}}), 5);    // parallel
   expect(convex_hull({{-1, 0, 0}, {1, 0, 0}}), convex_hull({{3, 0, 0}, {9, 0, 0}}), 2);     // in one line
   // An edge of the cube, x + z = 2, and a slanted one in the plane x + z = 5: the distance is no float64, so
-  // only the side of the reach is asked.
+  // only the side is asked.
   const Polytope slanted = convex_hull({{4, -1, 1}, {1, 2, 4}});
   const double distance = std::sqrt(4.5);
-  CHECK(compare_distance(cube, slanted, {distance * (1 + 1e-15), 0}) == -1);
-  CHECK(compare_distance(cube, slanted, {distance * (1 - 1e-15), 0}) == 1);
+  CHECK(compare_distance(cube, slanted, distance * (1 + 1e-15)) == -1);
+  CHECK(compare_distance(cube, slanted, distance * (1 - 1e-15)) == 1);
 }
 
 void far_and_small() {
   const double tiny = 0x1p-140;
   expect(point(0x1p60, 0, 0), point(0x1p60 + 0x1p10, 0, 0), 0x1p10);
-  CHECK(compare_distance(point(0, 0, 0), point(3 * tiny, 4 * tiny, 0), {5 * tiny, 0}) == 0);
-  CHECK(compare_distance(point(0, 0, 0), point(1, 0, 0), {1, tiny}) == -1);
+  CHECK(compare_distance(point(0, 0, 0), point(3 * tiny, 4 * tiny, 0), 5 * tiny) == 0);
+  CHECK(compare_distance(point(0, 0, 0), point(1, 0, 0), Dyadic(1) + Dyadic(tiny)) == -1);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ void up_to_three_walls_are_left() {
 void what_is_deeper_stays() {
   PlacedGeometry a = placed(cube()), b = placed(corner(3, 1e-3));
   const WayWithin found = way_out(a, b, kBand);
-  CHECK(!found.move && found.deepest > kBand && found.deepest <= 1e-3);
+  CHECK(!found.move && found.side == BandSide::deeper && found.deepest > kBand && found.deepest <= 1e-3);
 }
 
 void without_a_crossing_only_the_hulls_are_left() {

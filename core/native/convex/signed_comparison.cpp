@@ -1,0 +1,29 @@
+// A ball around each core adds its radius: the signed distance of the cores is compared with the length and both radii.
+#include "convex/signed_comparison.hpp"
+
+#include "convex/exact_depth.hpp"
+#include "convex/exact_pair.hpp"
+#include "convex/exact_reach.hpp"
+#include "convex/minkowski.hpp"
+#include "convex/proof_noise.hpp"
+#include "convex/world_hull.hpp"
+
+namespace satcheck {
+
+std::optional<int> compare_signed_distance(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b,
+                                           double length) {
+  const MinkowskiDifference m(a, pose_a, b, pose_b);
+  if (m.curved) return std::nullopt;
+  const Polytope core_a = world_hull(a, pose_a), core_b = world_hull(b, pose_b);
+  const Dyadic of_cores = Dyadic(length) + Dyadic(a.margin) + Dyadic(b.margin);
+  switch (decide_exactly(core_a, core_b, 2 * proof_noise(m.scale, a, pose_a, b, pose_b))) {
+    case Outcome::separated:
+      return compare_distance(core_a, core_b, of_cores);
+    case Outcome::penetrating:
+      return -compare_depth(ExactDifference(core_a.vertices, core_b.vertices), -of_cores);
+    default:
+      return (-of_cores).sign();
+  }
+}
+
+}  // namespace satcheck

@@ -1,0 +1,67 @@
+// Float64 distances leave the few pairs of triangles that are about as far apart as the length; exact signs decide
+// those.
+#include "mesh_pair/gap_comparison.hpp"
+
+#include <algorithm>
+
+#include "base/tolerances.hpp"
+#include "convex/exact_reach.hpp"
+#include "exact/double_double.hpp"
+#include "mesh_pair/boundary_contact.hpp"
+
+namespace satcheck {
+namespace {
+
+Aabb box_of(const Corners& t) {
+  Aabb box;
+  for (const Vec3& p : t) box.include(p);
+  return box;
+}
+
+// Sign of (gap of the boxes along their widest axis - length): the triangles are at least so far apart.
+int compare_along_axes(const Aabb& a, const Aabb& b, double length) {
+  int widest = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const DoubleDouble gap : {exact_sum(a.min[axis], -b.max[axis]), exact_sum(b.min[axis], -a.max[axis])}) {
+      const double beyond = gap.high != length ? gap.high - length : gap.low;
+      widest = std::max(widest, beyond > 0 ? 1 : beyond < 0 ? -1 : 0);
+    }
+  }
+  return widest;
+}
+
+class GapComparison {
+ public:
+  GapComparison(const Surface& a, const Surface& b, double length) : a_(a), b_(b), length_(length) {}
+
+  int sign() {
+    const Aabb &box_a = a_.bvh.nodes[0].box, &box_b = b_.bvh.nodes[0].box;
+    const double largest = std::max({max_abs(box_a.min), max_abs(box_a.max), max_abs(box_b.min), max_abs(box_b.max)});
+    // Nothing is taken as the nearest pair, so that every pair within the limit is seen; but for one that settles it.
+    mesh_distance(a_, b_, length_ + 2 * chain_rounding(largest), [this](std::uint32_t t, std::uint32_t u) {
+      include(t, u);
+      return least_ < 0;
+    });
+    return least_;
+  }
+
+ private:
+  void include(std::uint32_t t, std::uint32_t u) {
+    const Corners of_a = corners(a_.mesh, t), of_b = corners(b_.mesh, u);
+    if (least_ < 0 || compare_along_axes(box_of(of_a), box_of(of_b), length_) >= least_) return;
+    const int sign = compare_distance(hull_of(of_a), hull_of(of_b), length_);
+    if (sign < least_ && !has_void(a_, t) && !has_void(b_, u)) least_ = sign;
+  }
+
+  static Polytope hull_of(const Corners& t) { return convex_hull({t.begin(), t.end()}); }
+
+  const Surface &a_, &b_;
+  double length_;
+  int least_ = 1;
+};
+
+}  // namespace
+
+int compare_gap(const Surface& a, const Surface& b, double length) { return GapComparison(a, b, length).sign(); }
+
+}  // namespace satcheck
