@@ -65,7 +65,7 @@ def leaves_work(pair: Pair, found: core.Climb | None) -> bool:
     """Whether more than words is left to do after the climb."""
     if found is None or pair.settings.accuracy == "parts" or pair.paths is not None:
         return True
-    return _is_asked_more(pair.asked, found) or _band_is_open(pair, found)
+    return _is_asked_more(pair.asked, found) or _band_is_open(found)
 
 
 def _is_asked_more(asked: Asked, found: core.Climb) -> bool:
@@ -74,7 +74,7 @@ def _is_asked_more(asked: Asked, found: core.Climb) -> bool:
     return "depth" in asked.by and _overlaps(found)
 
 
-def _band_is_open(pair: Pair, found: core.Climb) -> bool:
+def _band_is_open(found: core.Climb) -> bool:
     """Whether a search may follow."""
     way = found.way_within
     return way is not None and way.side in ("open", "hidden")

@@ -1,4 +1,4 @@
-"""The two ends of the touch band: pairs whose gap or depth is known exactly, and tolerances at it."""
+"""Both ends of the touch band: pairs whose gap or depth is known exactly, tolerances at it."""
 
 from __future__ import annotations
 
@@ -68,9 +68,9 @@ def cases(kind: str, seed: int, count: int) -> Iterator[tuple[Mesh, Mesh, float,
 
 @pytest.mark.parametrize("kind", PAIRS)
 @pytest.mark.parametrize("depth", [True, False], ids=["depth", "no depth"])
-def test_the_band_ends_at_the_tolerance(tmp_path, kind, depth, seed=0, count=4):
+def test_the_band_ends_at_the_tolerance(tmp_path, kind, depth):
     """Never a wrong word. Where every way out of a concave body rounds, that may be no word."""
-    for a, b, distance, is_turned in cases(kind, seed, count):
+    for a, b, distance, is_turned in cases(kind, seed=0, count=4):
         scene, length = scene_of(tmp_path, a=a, b=b), abs(distance)
         beyond = "separated" if distance > 0 else "penetrating"
         may_hide = is_turned and distance < 0 and kind.startswith(("arm", "end"))
