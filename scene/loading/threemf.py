@@ -18,7 +18,7 @@ from satcheck.scene.loading import limits
 from satcheck.scene.loading.placing import instances
 from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene
 from satcheck.scene.loading.threemf_model import ENCODINGS, Model, Object, part_name, read_model
-from satcheck.scene.loading.xml_guard import guarded_parser, parse_stream, split_name
+from satcheck.scene.loading.xml_guard import UnboundPrefix, guarded_parser, parse_stream, split_name
 from satcheck.scene.plain_ids import UniqueNames
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
@@ -105,8 +105,13 @@ class _Package:
     def _model(self, part: str) -> Model:
         model = self._models.get(part)
         if model is None:
-            with self._open(part) as stream:
-                model = self._models[part] = read_model(part, stream)
+            try:
+                with self._open(part) as stream:
+                    model = read_model(part, stream)
+            except UnboundPrefix:
+                with self._open(part) as stream:
+                    model = read_model(part, stream, undeclared_prefixes=True)
+            self._models[part] = model
         return model
 
     def _object(self, part: str, id_: str) -> Object:

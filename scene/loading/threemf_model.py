@@ -12,11 +12,26 @@ from typing import IO
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh
-from satcheck.scene.loading.xml_guard import guarded_parser, parse_stream, split_name
+from satcheck.scene.loading.xml_guard import (
+    UNDECLARED,
+    UndeclaredPrefixes,
+    guarded_parser,
+    parse_stream,
+    split_name,
+)
 
+# All elements of the core specification: what else has its namespace is misspelt.
+_KNOWN = frozenset(
+    {
+        *("model", "metadata", "metadatagroup", "resources", "basematerials", "base"),
+        *("object", "mesh", "vertices", "vertex", "triangles", "triangle"),
+        *("components", "component", "build", "item"),
+    }
+)
+_CORE_2015 = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 _CORE = frozenset(
     {
-        "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+        _CORE_2015,
         "http://schemas.microsoft.com/3dmanufacturing/2013/01",
     }
 )
@@ -81,10 +96,13 @@ class Model:
     items: list[Reference] = field(default_factory=list)
 
 
-def read_model(part: str, stream: IO[bytes]) -> Model:
-    """part: its name in the package. Raises MeshFileError; what is wrong with the mesh of one
-    object is kept with it."""
-    return _ModelReader(part).read(stream)
+def read_model(part: str, stream: IO[bytes], *, undeclared_prefixes: bool = False) -> Model:
+    """part: its name in the package. undeclared_prefixes: whether XML prefixes need no declaration,
+    as some programs write those of their own data; within an object they do.
+
+    Raises MeshFileError; what is wrong with the mesh of one object is kept with it.
+    """
+    return _ModelReader(part, undeclared_prefixes).read(stream)
 
 
 def part_name(target: str) -> str:
@@ -94,12 +112,19 @@ def part_name(target: str) -> str:
 class _ModelReader:
     """Nothing but coordinates, indices and references is kept."""
 
-    def __init__(self, part: str) -> None:
+    def __init__(self, part: str, undeclared_prefixes: bool) -> None:
         self._part = part
         self._model = Model()
         self._object: Object | None = None
-        self._parser = guarded_parser(ENCODINGS)
+        self._in_build = False
+        self._parser = guarded_parser(ENCODINGS, namespaces=not undeclared_prefixes)
         self._prefixes: dict[str | None, str] = {}
+        self._undeclared: UndeclaredPrefixes | None = None
+        if undeclared_prefixes:
+            self._undeclared = UndeclaredPrefixes(self._parser, self._on_element)
+        else:
+            self._parser.StartElementHandler = self._on_element
+            self._parser.StartNamespaceDeclHandler = self._on_namespace
         self._handlers = {
             "model": self._on_model,
             "object": self._on_object,
@@ -110,8 +135,6 @@ class _ModelReader:
         }
 
     def read(self, stream: IO[bytes]) -> Model:
-        self._parser.StartElementHandler = self._on_element
-        self._parser.StartNamespaceDeclHandler = self._on_namespace
         parse_stream(self._parser, stream)
         for id_, object_ in self._model.objects.items():
             if object_.is_empty:
@@ -134,11 +157,9 @@ class _ModelReader:
 
     def _on_element(self, name: str, attributes: dict[str, str]) -> None:
         namespace, local = split_name(name)
-        if local in _OTHER_GEOMETRY and self._object is not None:
-            refusal = self._fail("unsupported-feature", f"<{local}> is not read")
-            self._object.refusal = self._object.refusal or refusal
-        handler = self._handlers.get(local)
-        if handler is None or namespace not in _CORE:
+        handler = self._handlers.get(local) if namespace in _CORE else None
+        if handler is None:
+            self._on_other(namespace, local)
             return
         try:
             self._handle(handler, local, attributes)
@@ -146,6 +167,27 @@ class _ModelReader:
             if self._object is None or local not in _MESH:
                 raise
             self._object.refusal = self._object.refusal or error
+
+    def _on_other(self, namespace: str, local: str) -> None:
+        """What holds no coordinates and places nothing, as far as we know."""
+        if local in _OTHER_GEOMETRY and self._object is not None:
+            self._refuse_object(f"<{local}> is not read")
+        if namespace == _CORE_2015 and local not in _KNOWN:
+            self._refuse_object(f"<{local}> is unknown: it could be geometry")
+        if namespace.startswith(UNDECLARED) and self._undeclared is not None:
+            prefix = namespace.removeprefix(UNDECLARED)
+            if not {"object", "build"}.isdisjoint(self._undeclared.around):
+                self._refuse_object(
+                    f"<{prefix}:{local}> could be geometry: its prefix is not declared"
+                )
+        self._in_build = self._in_build or (local == "build" and namespace in _CORE)
+
+    def _refuse_object(self, message: str) -> None:
+        """Refuses the object that is read; all of the model where it is none."""
+        refusal = self._fail("unsupported-feature", message)
+        if self._object is None or self._in_build:
+            raise refusal
+        self._object.refusal = self._object.refusal or refusal
 
     def _handle(
         self, handler: Callable[[dict[str, str]], None], local: str, attributes: dict[str, str]
@@ -160,7 +202,8 @@ class _ModelReader:
     def _on_model(self, attributes: dict[str, str]) -> None:
         self._model.unit = attributes.get("unit", _DEFAULT_UNIT)
         for prefix in attributes.get("requiredextensions", "").split():
-            uri = self._prefixes.get(prefix, prefix)
+            known = self._undeclared.namespace(prefix) if self._undeclared else None
+            uri = known or self._prefixes.get(prefix, prefix)
             if not any(part in uri for part in _HARMLESS):
                 raise self._fail("unsupported-feature", f"the model requires extension {uri!r}")
 

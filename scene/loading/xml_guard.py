@@ -9,6 +9,7 @@ from xml.parsers import expat
 from satcheck.scene.errors import MeshFileError
 
 _NAMESPACE_SEPARATOR = " "
+UNDECLARED = "undeclared:"
 _DECLARATION = "<?xml version="  # whoever stumbles within this many characters reads no XML at all
 
 
@@ -44,12 +45,19 @@ def guarded_parser(
     return parser
 
 
+class UnboundPrefix(MeshFileError):
+    """A prefix is used and not declared."""
+
+
 def parse_xml(parse: Callable[[], object]) -> None:
     """Runs a parse and turns expat's complaint into a MeshFileError."""
     try:
         parse()
     except expat.ExpatError as error:
         reason = expat.ErrorString(error.code)
+        if reason == expat.errors.XML_ERROR_UNBOUND_PREFIX:
+            message = f"line {error.lineno}: not well-formed XML: {reason}"
+            raise UnboundPrefix("bad-record", message) from None
         if "encoding" in reason or (error.lineno == 1 and error.offset < len(_DECLARATION)):
             message = f"invalid XML encoding, or not XML: {reason}"
             raise MeshFileError("bad-encoding", message) from None
@@ -68,3 +76,49 @@ def split_name(name: str) -> tuple[str, str]:
     """(namespace, local name); the namespace is "" where there is none."""
     namespace, _, local = name.rpartition(_NAMESPACE_SEPARATOR)
     return namespace, local
+
+
+class UndeclaredPrefixes:
+    """The namespaces of a parser that leaves names as they are written, for XML that uses prefixes
+    which it does not declare: these stand for themselves, as `UNDECLARED` and the prefix.
+
+    start: called for each element with names as those of a parser that knows namespaces. around:
+    the names, as written, of the elements around that element.
+    """
+
+    def __init__(
+        self, parser: expat.XMLParserType, start: Callable[[str, dict[str, str]], None]
+    ) -> None:
+        self._start = start
+        self.around: list[str] = []
+        self._scopes: list[dict[str, str]] = [{"xml": "xml"}]
+        parser.StartElementHandler = self._on_start
+        parser.EndElementHandler = self._on_end
+
+    def _on_start(self, name: str, attributes: dict[str, str]) -> None:
+        declared = {
+            key.partition(":")[2]: attributes.pop(key)
+            for key in list(attributes)
+            if key == "xmlns" or key.startswith("xmlns:")
+        }
+        self._scopes.append({**self._scopes[-1], **declared} if declared else self._scopes[-1])
+        self._start(
+            self._resolved(name, self.namespace("") or ""),
+            {self._resolved(key, ""): value for key, value in attributes.items()},
+        )
+        self.around.append(name)
+
+    def _on_end(self, _: str) -> None:
+        self.around.pop()
+        self._scopes.pop()
+
+    def namespace(self, prefix: str) -> str | None:
+        """That of a prefix here; of "" for names without one."""
+        return self._scopes[-1].get(prefix)
+
+    def _resolved(self, name: str, default: str) -> str:
+        prefix, colon, local = name.partition(":")
+        if not colon:
+            return f"{default}{_NAMESPACE_SEPARATOR}{name}" if default else name
+        namespace = self._scopes[-1].get(prefix, f"{UNDECLARED}{prefix}")
+        return f"{namespace}{_NAMESPACE_SEPARATOR}{local}"
