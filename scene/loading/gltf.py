@@ -41,6 +41,7 @@ from satcheck.scene.plain_ids import UniqueNames
 # Extensions a file may require without changing where its triangles are.
 _HARMLESS_PREFIXES = (
     "KHR_materials_",
+    "KHR_technique",
     "KHR_texture_",
     "KHR_lights_",
     "KHR_xmp_",

@@ -20,21 +20,16 @@ from satcheck.scene.loading.xml_guard import (
     split_name,
 )
 
-# All elements of the core specification: what else has its namespace is misspelt.
-_KNOWN = frozenset(
-    {
-        *("model", "metadata", "metadatagroup", "resources", "basematerials", "base"),
-        *("object", "mesh", "vertices", "vertex", "triangles", "triangle"),
-        *("components", "component", "build", "item"),
-    }
-)
-_CORE_2015 = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 _CORE = frozenset(
     {
-        _CORE_2015,
+        "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
         "http://schemas.microsoft.com/3dmanufacturing/2013/01",
     }
 )
+_OBJECT = frozenset(f"{namespace} object" for namespace in _CORE)
+_BUILD = frozenset(f"{namespace} build" for namespace in _CORE)
+# What else has the namespace of the core specification in an object, or in the build, is misspelt.
+_KNOWN = frozenset({"mesh", "vertices", "triangles", "components", "metadatagroup", "metadata"})
 _PRODUCTION_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
 # Extensions a model may require and that leave its triangles as they are.
 _HARMLESS = ("/production/", "/material/", "/slice/", "/trianglesets/")
@@ -116,14 +111,15 @@ class _ModelReader:
         self._part = part
         self._model = Model()
         self._object: Object | None = None
-        self._in_build = False
+        self._in_object = self._in_build = False
         self._parser = guarded_parser(ENCODINGS, namespaces=not undeclared_prefixes)
         self._prefixes: dict[str | None, str] = {}
         self._undeclared: UndeclaredPrefixes | None = None
         if undeclared_prefixes:
-            self._undeclared = UndeclaredPrefixes(self._parser, self._on_element)
+            self._undeclared = UndeclaredPrefixes(self._parser, self._on_element, self._on_end)
         else:
             self._parser.StartElementHandler = self._on_element
+            self._parser.EndElementHandler = self._on_end
             self._parser.StartNamespaceDeclHandler = self._on_namespace
         self._handlers = {
             "model": self._on_model,
@@ -168,22 +164,28 @@ class _ModelReader:
                 raise
             self._object.refusal = self._object.refusal or error
 
+    def _on_end(self, name: str) -> None:
+        if name in _OBJECT:
+            self._in_object = False
+        elif name in _BUILD:
+            self._in_build = False
+
     def _on_other(self, namespace: str, local: str) -> None:
         """What holds no coordinates and places nothing, as far as we know."""
-        if local in _OTHER_GEOMETRY and self._object is not None:
-            self._refuse_object(f"<{local}> is not read")
-        if namespace == _CORE_2015 and local not in _KNOWN:
-            self._refuse_object(f"<{local}> is unknown: it could be geometry")
-        if namespace.startswith(UNDECLARED) and self._undeclared is not None:
+        if local == "build" and namespace in _CORE:
+            self._in_build = True
+        elif not (self._in_object or self._in_build):
+            return
+        elif local in _OTHER_GEOMETRY:
+            self._refuse(f"<{local}> is not read")
+        elif namespace in _CORE and local not in _KNOWN:
+            self._refuse(f"<{local}> is unknown: it could be geometry")
+        elif namespace.startswith(UNDECLARED):
             prefix = namespace.removeprefix(UNDECLARED)
-            if not {"object", "build"}.isdisjoint(self._undeclared.around):
-                self._refuse_object(
-                    f"<{prefix}:{local}> could be geometry: its prefix is not declared"
-                )
-        self._in_build = self._in_build or (local == "build" and namespace in _CORE)
+            self._refuse(f"<{prefix}:{local}> could be geometry: its prefix is not declared")
 
-    def _refuse_object(self, message: str) -> None:
-        """Refuses the object that is read; all of the model where it is none."""
+    def _refuse(self, message: str) -> None:
+        """Refuses the object that is read, or all of the build."""
         refusal = self._fail("unsupported-feature", message)
         if self._object is None or self._in_build:
             raise refusal
@@ -213,6 +215,7 @@ class _ModelReader:
             raise self._fail("bad-record", f"object id {id_!r} occurs twice")
         name = tidy_name(attributes.get("name"), tidy_name(f"object{id_}", "object"))
         self._object = self._model.objects[id_] = Object(name)
+        self._in_object = True
 
     def _current(self) -> Object:
         if self._object is None:

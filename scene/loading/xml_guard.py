@@ -82,15 +82,17 @@ class UndeclaredPrefixes:
     """The namespaces of a parser that leaves names as they are written, for XML that uses prefixes
     which it does not declare: these stand for themselves, as `UNDECLARED` and the prefix.
 
-    start: called for each element with names as those of a parser that knows namespaces. around:
-    the names, as written, of the elements around that element.
+    start, end: called for each element, with names as those of a parser that knows namespaces.
     """
 
     def __init__(
-        self, parser: expat.XMLParserType, start: Callable[[str, dict[str, str]], None]
+        self,
+        parser: expat.XMLParserType,
+        start: Callable[[str, dict[str, str]], None],
+        end: Callable[[str], None],
     ) -> None:
         self._start = start
-        self.around: list[str] = []
+        self._end = end
         self._scopes: list[dict[str, str]] = [{"xml": "xml"}]
         parser.StartElementHandler = self._on_start
         parser.EndElementHandler = self._on_end
@@ -106,10 +108,9 @@ class UndeclaredPrefixes:
             self._resolved(name, self.namespace("") or ""),
             {self._resolved(key, ""): value for key, value in attributes.items()},
         )
-        self.around.append(name)
 
-    def _on_end(self, _: str) -> None:
-        self.around.pop()
+    def _on_end(self, name: str) -> None:
+        self._end(self._resolved(name, self.namespace("") or ""))
         self._scopes.pop()
 
     def namespace(self, prefix: str) -> str | None:

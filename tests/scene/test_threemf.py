@@ -21,6 +21,7 @@ def package(resources: str = CUBE, items: str = ITEM, **keys: str) -> bytes:
         package(CUBE + '<my:settings speed="3"><my:nozzle/></my:settings>'),
         package(CUBE.replace("<triangle ", '<triangle my:paint="4" ')),
         package(CUBE.replace("<object ", '<object my:hidden="no" ')),
+        package(f'<my:group id="9"><multi pindices="0"/></my:group>{CUBE}'),
         package(f'<my:config xmlns="urn:other"><vertex/></my:config>{CUBE}'),
     ],
 )
