@@ -68,6 +68,15 @@ def overlaps(found: Finding) -> bool:
     return found.relation in OVERLAPS and found.exact_relation is not None
 
 
+def possible_overlap(pair: MovingPair, start: float) -> float | None:
+    """A t >= start at which the bodies may overlap by the coarse test that a capped ladder ends at;
+    None where no probe shows one."""
+    try:
+        return next((t for t in _probes(start) if pair.found_at(t).relation in OVERLAPS), None)
+    except Unanswerable:
+        return None
+
+
 class _Scan:
     """t: free, or within the touch band, up to there. met: where the contact at t began; it is no
     later than t, and a tidier end of the interval of the impact. outside: known to have no common

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.motion.impact import Impact, first_impact
+from satcheck.audit.motion.impact import Impact, first_impact, possible_overlap
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.track import STANDS, track_of
 from satcheck.audit.motion.worst import Worst, deepest_pose, least_distance
@@ -18,17 +18,21 @@ def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
     against the other: that is no question for a sweep.
     """
     tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
-    if not pair.may("hull"):
-        reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
-        return Sweep("indeterminate", pair.tolerance, 0.0, reason=reason)
     try:
         moving = MovingPair(pair, *tracks)
     except Unanswerable as why:
         return Sweep("indeterminate", pair.tolerance, 0.0, reason=str(why))
-    impact = first_impact(moving)
-    if impact.reason is not None:
-        return _undecided(moving, impact)
-    return _Answer(moving, impact, {pair.a.id: path_a, pair.b.id: path_b}).sweep()
+    impact = first_impact(moving) if pair.may("hull") else _not_swept(pair)
+    answer = _Answer(moving, impact, {pair.a.id: path_a, pair.b.id: path_b})
+    if impact.reason is None:
+        return answer.sweep()
+    possible = None if pair.may("exact") else possible_overlap(moving, impact.reached)
+    return _undecided(moving, impact) if possible is None else answer.possible_hit(possible)
+
+
+def _not_swept(pair: Pair) -> Impact:
+    reason = f"bodies are not swept at --accuracy {pair.settings.accuracy}"
+    return Impact(0.0, None, 0.0, reason=reason)
 
 
 def _undecided(pair: MovingPair, impact: Impact) -> Sweep:
@@ -50,6 +54,19 @@ class _Answer:
 
     def sweep(self) -> Sweep:
         return self._hit(self._impact.upper) if self._impact.upper is not None else self._free()
+
+    def possible_hit(self, upper: float) -> Sweep:
+        """As at rest, an overlap of what stands for the bodies, which is no proof."""
+        return Sweep(
+            "penetrating",
+            self._pair.tolerance,
+            self._impact.reached,
+            time_of_impact=(self._impact.lower, upper),
+            at=self._places(upper),
+            contact=self._impact.contact,
+            steps=self._pair.steps,
+            proven=False,
+        )
 
     def _hit(self, upper: float) -> Sweep:
         pair, impact = self._pair, self._impact

@@ -10,7 +10,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.movers import Paths
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.report.motion_report import Sweep
-from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Relation
+from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
 from satcheck.audit.severity import Judgement, by_rule, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.frozen import replace
@@ -29,7 +29,7 @@ def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Findin
         finding,
         relation=relation,
         placed_relation=finding.relation,
-        quality=None if undecided else finding.quality,
+        quality=_quality(finding, found, undecided=undecided),
         motion=found,
         severity=judged.severity if graver else finding.severity,
         rule=judged.rule if graver else finding.rule,
@@ -37,6 +37,12 @@ def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Findin
         reason=finding.reason or judged.reason or (found.reason if undecided else None),
         plan=tuple(plan.stages),
     )
+
+
+def _quality(finding: Finding, found: Sweep, *, undecided: bool) -> Quality | None:
+    if undecided:
+        return None
+    return finding.quality if found.proven else "estimate"
 
 
 def _worse(placed: Relation, on_the_way: Relation) -> Relation:

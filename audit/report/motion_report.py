@@ -57,7 +57,8 @@ class Sweep:
     overlap; at its upper end a check of the bodies, posed and rounded to float64, finds one. at:
     the pose there. contact: a t before which they have no common point. reached: up to there
     no overlap is proven. reason: of `indeterminate`, or what
-    surfaces alone left open. steps: what it took.
+    surfaces alone left open. steps: what it took. proven: False of a hit that boxes or hulls alone
+    show, at an accuracy below exact; in JSON the quality of the finding says so.
     """
 
     relation: Relation
@@ -69,6 +70,7 @@ class Sweep:
     worst: WorstPose | None = None
     reason: str | None = None
     steps: int = 0
+    proven: bool = True
 
     def to_dict(self) -> dict[str, Any]:
         return {

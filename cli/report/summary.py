@@ -68,10 +68,13 @@ def _found(report: Report) -> list[str]:
 
 def _hits(report: Report) -> list[str]:
     """Of pairs that do not overlap as they are placed."""
-    hits = sum(is_hit(f) and f.at_rest not in OVERLAPS for f in report.findings)
-    return (
-        [f"{counted(hits, 'pair')} {'hits' if hits == 1 else 'hit'} while moving."] if hits else []
-    )
+    hits = [f.motion for f in report.findings if is_hit(f) and f.at_rest not in OVERLAPS]
+    proven = Counter(hit is not None and hit.proven for hit in hits)
+    said = []
+    for count, possibly in ((proven[True], ""), (proven[False], "possibly ")):
+        if count:
+            said.append(f"{counted(count, 'pair')} {possibly}{'hits' if count == 1 else 'hit'}")
+    return [f"{' and '.join(said)} while moving."] if said else []
 
 
 def _worst(report: Report) -> list[str]:

@@ -80,7 +80,8 @@ def in_motion(finding: Finding, unit: str | None) -> str:
     if swept is None:
         return ""
     if swept.relation == "penetrating":
-        return f"hits at {', '.join(place(one, unit) for one in swept.at)}"
+        verb = "hits" if swept.proven else "possibly hits"
+        return f"{verb} at {', '.join(place(one, unit) for one in swept.at)}"
     if swept.relation == "indeterminate":
         return f"undecided from t = {number(swept.reached)}"
     if swept.relation == "touching":

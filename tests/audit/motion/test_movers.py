@@ -43,6 +43,34 @@ def test_what_hits_on_the_way_fails(tmp_path: Path) -> None:
     assert (effect.asked_by, effect.pairs) == (("the motions of the scene",), 1)
 
 
+@pytest.mark.parametrize("accuracy", ["aabb", "obb", "hull", "parts", "exact"])
+@pytest.mark.parametrize("shape", [unit_box(), moved(bracket(), -3.0, 0.0, 0.0)])
+def test_a_hit_fails_as_the_same_overlap_at_rest_does(tmp_path: Path, accuracy: str, shape) -> None:
+    """Below exact both may be none: the quality says so."""
+    settings = Settings(accuracy=accuracy, depth=False, cache=False)
+    pair = {"a": shape, "b": moved(bracket(), 4.0, 0.5, 0.5)}
+    (resting,) = checked(
+        tmp_path, [], [], settings, a=moved(shape, 3.5, 0, 0), b=pair["b"]
+    ).findings
+    report = checked(tmp_path, [Motion(("a",), RIGHT)], [], settings, **pair)
+    (finding,) = report.findings
+    assert (finding.relation, finding.severity) == (resting.relation, "error")
+    assert finding.quality == resting.quality
+    assert report.summary.verdict == "fail"
+    assert finding.motion.time_of_impact is not None
+
+
+def test_boxes_that_meet_in_no_pose_that_was_tried_pass_nothing(tmp_path: Path) -> None:
+    """The box of the whole way meets the other body, that of no pose does."""
+    turn = Motion(("a",), Rotation((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 90.0))
+    meshes = {"a": box((4, 0, 0), (5, 0.5, 1)), "b": box((4.2, 4.2, 0), (5, 5, 1))}
+    report = checked(tmp_path, [turn], [], Settings(accuracy="aabb"), **meshes)
+    (finding,) = report.findings
+    assert (finding.relation, finding.undecided) == ("indeterminate", "motion")
+    assert "not swept at --accuracy aabb" in finding.reason
+    assert report.summary.verdict == "incomplete"
+
+
 def test_what_passes_passes(tmp_path: Path) -> None:
     report = checked(tmp_path, [Motion(("a",), RIGHT)], a=unit_box(), b=unit_box(3.0, 0, 1.5))
     (finding,) = report.findings
