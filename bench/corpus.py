@@ -1,6 +1,7 @@
 """satcheck on a folder of real files, and what other libraries say of what it lets pass.
 
-    python -m bench.corpus FOLDER|LIST -o RUN.jsonl [--satcheck COMMAND] [--seed 0] [--files N]
+    python -m bench.corpus FOLDER|LIST -o RUN.jsonl [--satcheck COMMAND] [--seed 0]
+        [--files N] [--pairs N]
     python -m bench.corpus --table RUN.jsonl [--before OLDER.jsonl]
 
 Each file is checked alone (a scene, or its connected components), and against itself and another
@@ -20,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -142,8 +144,18 @@ def look_at(asked: Sequence[Record], seed: int) -> Iterator[Record]:
         yield {"what": "look", **question, **given}
 
 
-def measure(files: Sequence[Path], command: Sequence[str], seed: int, path: Path) -> None:
-    """Appends what is missing to the run at `path`."""
+def chosen(records: Sequence[Record], seed: int, most: int | None) -> list[tuple[Record, str]]:
+    """What was looked at, with the kinds of pairs to ask: in an order that the seed makes from each
+    file and kind alone, so that a limit picks the same pairs in every run."""
+    every = [(record, kind) for record in records for kind in record.get("pairs", {})]
+    every.sort(key=lambda entry: zlib.crc32(f"{seed} {entry[1]} {entry[0]['file']}".encode()))
+    return every[:most]
+
+
+def measure(
+    files: Sequence[Path], command: Sequence[str], seed: int, path: Path, pairs: int | None = None
+) -> None:
+    """Appends what is missing to the run at `path`. pairs: at most so many."""
     done = {_key(record) for record in read_run(path)} if path.exists() else set()
     with path.open("a", encoding="utf-8") as out:
 
@@ -158,11 +170,10 @@ def measure(files: Sequence[Path], command: Sequence[str], seed: int, path: Path
         unseen = [couple for couple in couples if ("look", couple["file"], None) not in done]
         for record in look_at(unseen, seed):
             keep(record)
-        for record in read_run(path):
-            for kind, matrix in record.get("pairs", {}).items():
-                if ("pair", record["file"], kind) not in done:
-                    second = record["other"] if kind == "other" else record["file"]
-                    keep(pair(command, [record["file"], second], kind, matrix))
+        for record, kind in chosen(read_run(path), seed, pairs):
+            if ("pair", record["file"], kind) not in done:
+                second = record["other"] if kind == "other" else record["file"]
+                keep(pair(command, [record["file"], second], kind, record["pairs"][kind]))
         asked = [
             question
             for question in questions(read_run(path))
@@ -192,6 +203,7 @@ def main() -> None:
     parser.add_argument("--satcheck", default="satcheck", help="the command that is measured")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--files", type=int, help="so many of the files, chosen by the seed")
+    parser.add_argument("--pairs", type=int, help="so many of the pairs, chosen by the seed")
     parser.add_argument("--table", type=Path, help="print the table of this run, measure nothing")
     parser.add_argument("--before", type=Path, help="an older run to compare with")
     given = parser.parse_args()
@@ -204,7 +216,7 @@ def main() -> None:
         files = files_of(given.source)
         if given.files is not None and given.files < len(files):
             files = sorted(random.Random(given.seed).sample(files, given.files))
-        measure(files, shlex.split(given.satcheck), given.seed, run)
+        measure(files, shlex.split(given.satcheck), given.seed, run, given.pairs)
     before = read_run(given.before) if given.before else None
     sys.stdout.write(table(read_run(run), before))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -9,6 +10,9 @@ from typing import Any
 
 Record = Mapping[str, Any]
 PROVEN = ("exact", "bounded")
+# An error line ends with its code.
+CODE = re.compile(r"\[([a-z-]+)\]$", re.MULTILINE)
+ALONE = re.compile(r"cannot collide|one connected component")
 
 
 def table(records: Sequence[Record], before: Sequence[Record] | None = None) -> str:
@@ -42,12 +46,23 @@ def _files(records: Sequence[Record]) -> str:
 
 
 def _refusals(records: Sequence[Record]) -> str:
+    """Why a file gets no answer: as a mesh in a scene, or alone (exit code 2)."""
     reasons: dict[str, list[str]] = {}
     for record in _of(records, "look"):
         if "refused" in record:
-            reasons.setdefault(record["refused"], []).append(record["file"])
+            reasons.setdefault(f"mesh: {record['refused']}", []).append(record["file"])
+    for record in _of(records, "file"):
+        if record["exit"] == 2:
+            reasons.setdefault(f"alone: {_reason(record)}", []).append(record["file"])
     rows = [[reason, str(len(files)), files[0]] for reason, files in sorted(reasons.items())]
-    return "Meshes refused\n\n" + _grid(("reason", "files", "the first"), rows)
+    return "No answer\n\n" + _grid(("reason", "files", "the first"), rows)
+
+
+def _reason(record: Record) -> str:
+    codes = {*record.get("codes", ()), *CODE.findall(record["error"])}
+    if codes:
+        return ", ".join(sorted(codes))
+    return "one body alone" if ALONE.search(record["error"]) else record["error"][-80:].strip()
 
 
 def _surfaces(records: Sequence[Record]) -> str:
