@@ -1,7 +1,7 @@
 """satcheck on a folder of real files, and what other libraries say of what it lets pass.
 
     python -m bench.corpus FOLDER|LIST -o RUN.jsonl [--satcheck COMMAND] [--seed 0]
-        [--files N] [--pairs N]
+        [--files N] [--pairs N] [--jobs N]
     python -m bench.corpus --table RUN.jsonl [--before OLDER.jsonl]
 
 Each file is checked alone (a scene, or its connected components), and against itself and another
@@ -23,6 +23,7 @@ import tempfile
 import time
 import zlib
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -93,9 +94,10 @@ def alone(command: Sequence[str], file: Path) -> Record:
     return {"what": "file", "file": str(file), **answer}
 
 
-def pair(command: Sequence[str], files: Sequence[str], kind: str, matrix: list[Any]) -> Record:
-    """The file where it stands, and the other one placed."""
-    rows = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], matrix
+def pair(command: Sequence[str], look: Record, kind: str) -> Record:
+    """The file where it stands, and itself or its partner placed."""
+    files = [look["file"], look["other" if kind == "other" else "file"]]
+    rows = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], look["pairs"][kind]
     bodies = [
         {"id": name, "mesh": file, "matrix": placed}
         for name, file, placed in zip("ab", files, rows, strict=True)
@@ -153,27 +155,36 @@ def chosen(records: Sequence[Record], seed: int, most: int | None) -> list[tuple
 
 
 def measure(
-    files: Sequence[Path], command: Sequence[str], seed: int, path: Path, pairs: int | None = None
+    files: Sequence[Path],
+    command: Sequence[str],
+    seed: int,
+    path: Path,
+    *,
+    pairs: int | None = None,
+    jobs: int = 1,
 ) -> None:
-    """Appends what is missing to the run at `path`. pairs: at most so many."""
+    """Appends what is missing to the run at `path`. pairs: at most so many. jobs: processes."""
     done = {_key(record) for record in read_run(path)} if path.exists() else set()
-    with path.open("a", encoding="utf-8") as out:
+    with path.open("a", encoding="utf-8") as out, ThreadPoolExecutor(jobs) as pool:
 
         def keep(record: Record) -> None:
             out.write(json.dumps(record) + "\n")
             out.flush()
 
-        for file in files:
-            if ("file", str(file), None) not in done:
-                keep(alone(command, file))
+        fresh = [file for file in files if ("file", str(file), None) not in done]
+        for record in pool.map(lambda file: alone(command, file), fresh):
+            keep(record)
         couples = partners(files, seed)
         unseen = [couple for couple in couples if ("look", couple["file"], None) not in done]
         for record in look_at(unseen, seed):
             keep(record)
-        for record, kind in chosen(read_run(path), seed, pairs):
-            if ("pair", record["file"], kind) not in done:
-                second = record["other"] if kind == "other" else record["file"]
-                keep(pair(command, [record["file"], second], kind, record["pairs"][kind]))
+        open_pairs = [
+            (record, kind)
+            for record, kind in chosen(read_run(path), seed, pairs)
+            if ("pair", record["file"], kind) not in done
+        ]
+        for record in pool.map(lambda entry: pair(command, *entry), open_pairs):
+            keep(record)
         asked = [
             question
             for question in questions(read_run(path))
@@ -204,6 +215,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--files", type=int, help="so many of the files, chosen by the seed")
     parser.add_argument("--pairs", type=int, help="so many of the pairs, chosen by the seed")
+    parser.add_argument("--jobs", type=int, default=1, help="calls of satcheck at a time")
     parser.add_argument("--table", type=Path, help="print the table of this run, measure nothing")
     parser.add_argument("--before", type=Path, help="an older run to compare with")
     given = parser.parse_args()
@@ -216,7 +228,9 @@ def main() -> None:
         files = files_of(given.source)
         if given.files is not None and given.files < len(files):
             files = sorted(random.Random(given.seed).sample(files, given.files))
-        measure(files, shlex.split(given.satcheck), given.seed, run, given.pairs)
+        measure(
+            files, shlex.split(given.satcheck), given.seed, run, pairs=given.pairs, jobs=given.jobs
+        )
     before = read_run(given.before) if given.before else None
     sys.stdout.write(table(read_run(run), before))
 
