@@ -57,6 +57,8 @@ COVERAGE: dict[str, Cover] = {
     "bodies[].path": PROVEN,
     "bodies[].shape": _stated("primitive shapes"),
     "bodies[].transform": _stated("poses"),
+    "bodies[].units": _stated("units"),
+    "bodies[].unit_scale": _stated("units"),
     "bodies[].groups": _stated("groups"),
     "bodies[].static": _stated("which bodies are static"),
     "bodies[].triangles": PROVEN,

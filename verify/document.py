@@ -170,6 +170,7 @@ class _Report:
         self.bodies = {body.id: body for body in placed}
         if len(self.bodies) < len(placed):
             raise Rejected("not a report: two bodies have one id")
+        self.units = {entry["id"]: entry.get("units") for entry in document["bodies"]}
         self.rules = Rules(document, self.bodies)
         self.order = {id_: k for k, id_ in enumerate(self.bodies)}
         self.listed: set[frozenset[str]] = set()
@@ -240,6 +241,8 @@ class _Report:
             check_id(entry)
             check_no_figures(entry)
             return None
+        if self.units[a.id] != self.units[b.id]:
+            raise Rejected("its bodies are in different units, or in none that is stated")
         for body in (a, b):
             if body.missing is not None:
                 raise _NoFile(f"{body.missing} is not there")
@@ -262,6 +265,8 @@ class _Report:
         for a, b in _unlisted(list(self.bodies.values()), self.listed):
             if self.rules.is_exempt(a, b):
                 exempted += 1
+            elif self.units[a.id] != self.units[b.id]:
+                faults.append(f"{a.id} and {b.id} are not in one unit, and not listed")
             elif _boxes_apart(a, b, self.asked_of(a, b)):
                 pruned += 1
             else:

@@ -93,6 +93,10 @@ MOVING = placed(
     ],
     settings={"depth": True, "clearance": 0.5},
 )
+# A bracket that its entry calls one of centimetres, in a scene of millimetres.
+CONVERTED = placed(
+    {"id": "bracket", "mesh": "part.obj", "units": "cm"}, body("base", BOX, 0.0), settings={}
+)
 
 HONEST: dict[str, Callable[[Path], Json]] = {
     "convex": meshes(unit_box(), unit_box(0.5, 0.25, 0.125), depth=True, volume=True),
@@ -111,6 +115,7 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "rules": SCENE,
     "curved": CURVED,
     "moving": MOVING,
+    "converted": CONVERTED,
     "robot": lambda _: document([SAMPLES / "arm.urdf", SAMPLES / "arm.srdf"]),
 }
 

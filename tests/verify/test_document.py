@@ -90,6 +90,18 @@ def test_a_dropped_finding_is_missed() -> None:
     assert verified(document).faults
 
 
+@pytest.mark.parametrize("name", ["boxes-apart", "boxes-overlap"])
+def test_bodies_of_different_units_have_no_relation(name: str) -> None:
+    document = report_of(name)
+    document["bodies"][0]["units"] = "m"
+    found = verified(document)
+    assert [one.outcome for one in found.findings] == ["rejected"]
+    assert "different units" in str(found.findings[0].reason)
+    document["findings"] = []
+    document["bodies"][1]["units"] = "mm"
+    assert "not in one unit, and not listed" in " ".join(verified(document).faults)
+
+
 def test_without_a_certificate_nothing_is_certified() -> None:
     document = report_of("boxes-apart")
     document["findings"][0]["certificate"] = None
