@@ -15,11 +15,11 @@ from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.boundary import boundary_point, contacts_if_apart
 from satcheck.verify.curved import Curved
 from satcheck.verify.curved_pair import CurvedPair
+from satcheck.verify.distances import check_distance, hulls_are_apart, spanned, squared_gap
 from satcheck.verify.evidence import axis, gap_along, member, rational, vector
 from satcheck.verify.exact import Point, Rejected, dot, sub
 from satcheck.verify.figures import (
     EXACT_WIDTH,
-    Rounding,
     check_figures,
     check_id,
     rounding_of,
@@ -72,8 +72,13 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     )
     mtv = _check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair)
-    hulls_face = pair.convex and _faces(finding, rounding_of(a, b), lambda n: _gap(pair, n))
-    proven = Proven(depth, mtv, hulls_face, hulls_face or mtv or shows_direction(finding, a, b))
+    rounding = rounding_of(a, b)
+    if pair.convex:
+        distance = directed = spanned(finding, rounding, hulls_are_apart(pair))
+    else:
+        distance = check_distance(finding, certificate, pair, rounding)
+        directed = mtv or shows_direction(finding, a, b)
+    proven = Proven(depth, mtv, distance or _is_zero(finding), directed or mtv)
     if relation != exact:
         _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
     if exact not in OVERLAPS:
@@ -95,23 +100,9 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     return proven
 
 
-def _faces(finding: dict[str, Any], rounding: Rounding, gap: Callable[[Point], Fraction]) -> bool:
-    """Whether the normal shows that two convex bodies are as far apart as is said. Rejects one that
-    does not. gap: along an axis, world units times its length.
-
-    Witness points as far apart, on the bodies, show that they are no farther."""
-    figure = finding["distance"] if finding["depth"] is None else -finding["depth"]
-    if finding["normal"] is None or figure is None:
-        return False
-    n, distance = vector(finding["normal"]), number(figure)
-    # A unit vector, to rounding: what its length is off is within what the figure is off.
-    if gap(n) < distance - 2 * rounding.of(distance):
-        raise Rejected("along the normal the bodies are closer than the distance")
-    return finding["witness"] is not None
-
-
-def _gap(pair: Pair, n: Point) -> Fraction:
-    return gap_along(pair.a, pair.b, n)
+def _is_zero(finding: dict[str, Any]) -> bool:
+    """Whether the distance is that of bodies with a common point, which is 0, to rounding."""
+    return finding["exact_relation"] == "touching"
 
 
 def _least(finding: dict[str, Any], asked: Asked) -> Fraction:
@@ -143,16 +134,6 @@ def _keeps(
     return True
 
 
-def squared_gap(ends: Any, pair: Pair) -> Fraction:
-    """Of a point of either body, world units."""
-    p, q = (
-        boundary_point(member(ends, key), body, of_hull=pair.convex)
-        for key, body in (("a", pair.a), ("b", pair.b))
-    )
-    step = sub(q, p)  # type: ignore[arg-type]
-    return Fraction(dot(step, step)) / (1 << 2 * pair.a.k)
-
-
 def _prove_apart(certificate: Any, pair: Pair, least: Fraction) -> None:
     """Rejects separated bodies with a gap narrower than that."""
     if not pair.convex:
@@ -180,7 +161,8 @@ def _check_curved(
     beyond, least = (tolerance if separated else Fraction(0)), _least(finding, asked)
     pair.prove(str(exact), member(certificate, "relation"), beyond, least)
     mtv = _check_mtv(finding, certificate, a, b)
-    proven = Proven(mtv=mtv, normal=mtv or shows_direction(finding, a, b))
+    distance = spanned(finding, rounding_of(a, b), lambda n, length: pair.gap(n, length) >= 0)
+    proven = Proven(False, mtv, distance or _is_zero(finding), distance or mtv)
     _bounds_of_depth(finding)
     if relation != exact:
         band = tolerance * (1 + EXACT_WIDTH)

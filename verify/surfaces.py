@@ -27,8 +27,11 @@ HalfSpace = tuple[Vector, int]
 Mask = NDArray[np.bool_]
 
 
-def near_pairs(a: Exact, b: Exact, reach: float) -> Iterator[tuple[Indices, Indices]]:
-    """All pairs of triangles whose boxes are no further apart than reach, in blocks.
+def near_pairs(
+    a: Exact, b: Exact, reach: float, most: int = MOST_PAIRS
+) -> Iterator[tuple[Indices, Indices]]:
+    """All pairs of triangles whose boxes are no further apart than reach, in blocks, and a few
+    whose are. Rejects surfaces with more than `most` of them.
 
     A difference is rounded monotonically, so none is lost: x <= reach implies fl(x) <= reach.
     """
@@ -48,8 +51,8 @@ def near_pairs(a: Exact, b: Exact, reach: float) -> Iterator[tuple[Indices, Indi
             near = _near(low_a[i][:, None], high_a[i][:, None], low_b[j], high_b[j], reach)
             k, m = np.nonzero(near)
             total += len(k)
-            if total > MOST_PAIRS:
-                raise Rejected(f"more than {MOST_PAIRS} pairs of triangles lie close together")
+            if total > most:
+                raise Rejected(f"more than {most:,} pairs of triangles lie close together")
             if k.size:
                 yield i[k], j[m]
         elif i.size >= j.size:
@@ -59,8 +62,12 @@ def near_pairs(a: Exact, b: Exact, reach: float) -> Iterator[tuple[Indices, Indi
 
 
 def _near(low: Floats, high: Floats, other_low: Floats, other_high: Floats, reach: float) -> Mask:
-    near = (low - other_high <= reach) & (other_low - high <= reach)
-    return np.asarray(near.all(axis=-1))
+    gaps = np.maximum(low - other_high, other_low - high)
+    if reach == 0:
+        return np.asarray((gaps <= 0).all(axis=-1))
+    apart = np.maximum(gaps / reach, 0.0)
+    # Three quotients, three products and two sums, each rounded once.
+    return np.asarray(np.einsum("...k,...k->...", apart, apart) <= 1 + 2.0**-48)
 
 
 def _halves(index: Indices, centres: Floats) -> list[Indices]:
@@ -70,11 +77,13 @@ def _halves(index: Indices, centres: Floats) -> list[Indices]:
     return [index[order[:middle]], index[order[middle:]]]
 
 
-def close_pairs(a: Exact, b: Exact, reach: Fraction) -> Iterator[tuple[int, int, Fraction]]:
+def close_pairs(
+    a: Exact, b: Exact, reach: Fraction, most: int = MOST_PAIRS
+) -> Iterator[tuple[int, int, Fraction]]:
     """The pairs of triangles no further apart than reach, world units, and the square of their
     distance on the lattice, 0 where they meet."""
     within = reach * (1 << a.k)
-    for i, j in near_pairs(a, b, up(reach)):
+    for i, j in near_pairs(a, b, up(reach), most):
         p, q = a.world.vertices[a.world.triangles[i]], b.world.vertices[b.world.triangles[j]]
         left = ~_apart(p, q, up(reach))
         for s, t in zip(i[left].tolist(), j[left].tolist(), strict=True):

@@ -14,7 +14,9 @@ from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shor
 from satcheck.audit.report.report import OVERLAPS, Finding
 from satcheck.audit.report.report_values import plain
 from satcheck.verify import Rejected
+from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector
+from satcheck.verify.figures import rounding_of
 from satcheck.verify.findings import check_finding, depth_at_most, pair_of
 from satcheck.verify.rules import Asked
 
@@ -75,6 +77,8 @@ class _Maker:
             certificate["mtv"] = self._free(finding.mtv)
         if finding.relation != finding.exact_relation:
             certificate |= self._band()
+        if finding.distance and not self.placed.convex:
+            certificate |= self._distance()
         return certificate
 
     def _relation(self) -> Json | None:
@@ -205,6 +209,17 @@ class _Maker:
             if found is not None and not found.overlaps:
                 return {"kind": "axis", "axis": _text(shortened(found.axis))}
         return SURFACES
+
+    def _distance(self) -> Json:
+        """Points next to each other, where few triangles could be nearer than these."""
+        found = core.mesh_distance(self.pair.a.surface(), self.pair.b.surface())
+        ends = overlaps.nearest_points(self.placed, found.triangle_a, found.triangle_b)
+        rounding = rounding_of(self.a, self.b)
+        try:
+            check_distance(plain(self.finding), {"distance": ends}, self.placed, rounding)
+        except Rejected:
+            return {}
+        return {"distance": ends}
 
     def _band(self) -> Json:
         """Why the relation is another than the exact one."""

@@ -1,0 +1,90 @@
+"""How far apart two bodies are: true figures are proven, no other figure is."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from satcheck.verify import distances
+from tests.audit.shapes import Mesh, bracket, unit_box
+from tests.verify.honest import document, honest, meshes, write
+from tests.verify.reports import Json, pieces, verified, wall
+
+APART = ("apart in a notch", "near", "in parts", "curved")
+
+
+def left(made: Json) -> set[str]:
+    found = verified(made)
+    assert found.accepted, [one.reason for one in found.findings]
+    return {one.field for one in found.uncovered}
+
+
+@pytest.mark.parametrize("name", [*APART, "a gap in the touch band"])
+def test_the_distance_is_proven(name: str) -> None:
+    assert any(one["distance"] is not None for one in honest(name)["findings"])
+    assert "findings[].distance" not in left(honest(name))
+
+
+@pytest.mark.parametrize("name", APART)
+@pytest.mark.parametrize("factor", [1 - 1e-6, 1 + 1e-6])
+def test_a_distance_a_little_off_is_rejected(name: str, factor: float) -> None:
+    made = honest(name)
+    for number, finding in enumerate(made["findings"]):
+        if finding["distance"]:
+            finding["distance"] *= factor
+            found = verified(made).findings[number]
+            assert found.outcome == "rejected", found
+            finding["distance"] /= factor
+
+
+def moved_along(finding: Json, by: float) -> None:
+    """The distance and the witness of B, together."""
+    finding["distance"] += by
+    finding["witness"]["b"] = [
+        p + by * n for p, n in zip(finding["witness"]["b"], finding["normal"], strict=True)
+    ]
+
+
+@pytest.mark.parametrize("by", [-1e-3, 1e-3])
+def test_witness_points_that_fit_a_false_distance_do_not_help(by: float) -> None:
+    for name in ("apart in a notch", "near", "in parts"):
+        made = honest(name)
+        moved_along(made["findings"][0], by)
+        assert verified(made).findings[0].outcome == "rejected"
+
+
+def test_a_distance_without_evidence_is_named() -> None:
+    made = honest("near")
+    made["findings"][0]["certificate"].pop("distance")
+    assert "findings[].distance" in left(made)
+
+
+def test_a_wall_of_no_thickness_is_nothing_to_be_near_to(tmp_path: Path) -> None:
+    """It stands closer than the box, and is no part of the body: so it proves no distance."""
+    a: Mesh = pieces(wall(2.0, 2.0, 2.0), bracket())
+    made = document(write(tmp_path, a=a, b=unit_box(3.5, 3.5, 1.0)), clearance=3.0)
+    finding: dict[str, Any] = made["findings"][0]
+    finding.update(distance=0.5, normal=[1.0, 0.0, 0.0])
+    finding["witness"] = {"a": [3.0, 3.0, 2.0], "b": [3.5, 3.5, 2.0]}
+    assert not verified(made).accepted
+
+
+def test_too_many_triangles_leave_it_unproven(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(distances, "MOST_NEAR", 0)
+    made = meshes(bracket(), unit_box(2.5, 2.5, 1.0), clearance=0.75)(tmp_path)
+    assert "distance" not in made["findings"][0]["certificate"]
+    assert "findings[].distance" in left(made)
+
+
+def test_the_reports_here_are_at_an_angle_too(tmp_path: Path) -> None:
+    """Between two edges, and between a corner and a face, at distances that no float64 is."""
+    third = math.sqrt(1 / 3)
+    for b in (unit_box(2.0 + third, 2.0 + third, 1.0), unit_box(6.0 + third, 2.1, 4.0 + third)):
+        made = document(write(tmp_path, a=bracket(), b=b), clearance=2.0)
+        assert made["findings"][0]["distance"] > 0.5
+        assert "findings[].distance" not in left(made)

@@ -1,0 +1,81 @@
+"""That two bodies are as far apart as a finding says: no farther, and no nearer.
+
+Of convex bodies, curved ones among them, the planes across the normal show that nothing is nearer,
+and the witness points that something is as near. Of other meshes a certificate names a point of
+either boundary, and all triangles that could be nearer than these are looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+from satcheck.verify.boundary import boundary_point
+from satcheck.verify.evidence import gap_along, member, vector
+from satcheck.verify.exact import Point, Rejected, dot, sub
+from satcheck.verify.figures import Rounding
+from satcheck.verify.relations import Pair
+from satcheck.verify.surfaces import close_pairs
+from satcheck.verify.world import Exact
+
+Json = dict[str, Any]
+# So many pairs of triangles with near boxes are looked at; more have no certificate.
+MOST_NEAR = 2_000_000
+
+
+def squared_gap(ends: Any, pair: Pair) -> Fraction:
+    """Of a point of either body, world units."""
+    p, q = (
+        boundary_point(member(ends, key), body, of_hull=pair.convex)
+        for key, body in (("a", pair.a), ("b", pair.b))
+    )
+    step = sub(q, p)  # type: ignore[arg-type]
+    return Fraction(dot(step, step)) / (1 << 2 * pair.a.k)
+
+
+def spanned(finding: Json, rounding: Rounding, is_apart: Callable[[Point, Fraction], bool]) -> bool:
+    """Whether a convex pair is as far apart, or overlaps as far, as the finding says along its
+    normal. Rejects one that is closer. is_apart: whether the gap along an axis is at least a
+    length, world units, which may be below 0.
+    """
+    figure = finding["distance"] if finding["depth"] is None else -finding["depth"]
+    if finding["normal"] is None or figure is None:
+        return False
+    length = Fraction(figure)
+    if not is_apart(vector(finding["normal"]), length - 2 * rounding.of(length)):
+        raise Rejected("along the normal the bodies are closer than the finding says")
+    return finding["witness"] is not None
+
+
+def hulls_are_apart(pair: Pair) -> Callable[[Point, Fraction], bool]:
+    def is_apart(n: Point, length: Fraction) -> bool:
+        gap = gap_along(pair.a, pair.b, n)
+        longer = gap * gap - length * length * dot(n, n)
+        if gap >= 0:
+            return length <= 0 or longer >= 0
+        return length < 0 and longer <= 0
+
+    return is_apart
+
+
+def check_distance(finding: Json, certificate: Json, pair: Pair, rounding: Rounding) -> bool:
+    """Of meshes, by the part `distance` of the certificate, where there is one."""
+    if "distance" not in certificate or finding["distance"] is None:
+        return False
+    length = Fraction(finding["distance"])
+    slack = rounding.of(length)
+    if squared_gap(certificate["distance"], pair) > (length + slack) ** 2:
+        raise Rejected("the points of the distance are further apart than that")
+    nothing_nearer(pair.a, pair.b, length - slack)
+    return True
+
+
+def nothing_nearer(a: Exact, b: Exact, length: Fraction) -> None:
+    """Rejects surfaces that are closer than this, world units."""
+    if length <= 0:
+        return
+    least = (length * (1 << a.k)) ** 2
+    for _, _, squared in close_pairs(a, b, length, MOST_NEAR):
+        if squared < least:
+            raise Rejected("triangles of the bodies are closer than the distance")
