@@ -102,7 +102,7 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
 
 def _is_zero(finding: dict[str, Any]) -> bool:
     """Whether the distance is that of bodies with a common point, which is 0, to rounding."""
-    return finding["exact_relation"] == "touching"
+    return str(finding["exact_relation"]) == "touching"
 
 
 def _least(finding: dict[str, Any], asked: Asked) -> Fraction:
