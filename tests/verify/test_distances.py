@@ -10,9 +10,12 @@ import pytest
 
 from satcheck.verify import distances
 from tests.audit.shapes import Mesh, bracket, unit_box
-from tests.verify.honest import document, honest, meshes, write
+from tests.verify.honest import document, honest, write
 from tests.verify.reports import Json, pieces, verified, wall
 
+# A wedge and a box apart from it. The face x + y + z = 2.9 of the wedge has a large box.
+CORNERS = [(4.0, -0.6, -0.5), (-0.6, 4.0, -0.5), (-0.5, -0.6, 4.0), (5.0, 5.0, 5.0)]
+SLANTED = pieces((CORNERS, [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]), unit_box(20.0))
 APART = ("apart in a notch", "near", "in parts", "curved")
 
 
@@ -76,13 +79,15 @@ def test_too_many_triangles_leave_it_unproven(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(distances, "MOST_NEAR", 0)
-    made = meshes(bracket(), unit_box(2.5, 2.5, 1.0), clearance=0.75)(tmp_path)
+    made = document(write(tmp_path, a=SLANTED, b=unit_box(edge=0.5)), clearance=1.0)
     assert "distance" not in made["findings"][0]["certificate"]
     assert "findings[].distance" in left(made)
 
 
 def test_the_reports_here_are_at_an_angle_too(tmp_path: Path) -> None:
     """Between two edges, and between a corner and a face, at distances that no float64 is."""
+    slanted = document(write(tmp_path, a=SLANTED, b=unit_box(edge=0.5)), clearance=1.0)
+    assert "findings[].distance" not in left(slanted)
     third = math.sqrt(1 / 3)
     for b in (unit_box(2.0 + third, 2.0 + third, 1.0), unit_box(6.0 + third, 2.1, 4.0 + third)):
         made = document(write(tmp_path, a=bracket(), b=b), clearance=2.0)
