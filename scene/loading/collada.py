@@ -1,57 +1,92 @@
-"""COLLADA through trimesh (pycollada), which must deliver every triangle that the file promises."""
+"""COLLADA through pycollada, which must deliver every triangle that the file promises."""
 
 from __future__ import annotations
 
 import io
+from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.collada_nodes import IDENTITY, Floats, mirrors, placed, walk
 from satcheck.scene.loading.collada_outline import read_outline
 from satcheck.scene.loading.raw_mesh import RawMesh
 
+Triangles = NDArray[np.int64]
 
-def read_collada(data: memoryview) -> RawMesh:
+
+def read_collada(data: bytes) -> RawMesh:
     """The visual scene of a COLLADA file, flattened; raises MeshFileError without a file name.
 
     pycollada keeps coordinates and transforms as float32, hence the precision.
     """
-    content = bytes(data)
-    outline = read_outline(content)
+    outline = read_outline(data)
     promised = outline.promised_triangles()
     if promised == 0:
         raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
 
-    import numpy as np
-    import trimesh
+    import collada
 
-    scene: Any = trimesh.load_scene(
-        io.BytesIO(content), file_type="dae", process=False, skip_materials=True
-    )
-    vertices, triangles, offset = [], [], 0
-    for node in scene.graph.nodes_geometry:
-        matrix, name = scene.graph[node]
-        mesh = scene.geometry[name]
-        placed = np.asarray(mesh.vertices, dtype="<f8") @ matrix[:3, :3].T + matrix[:3, 3]
-        faces = np.asarray(mesh.faces, dtype=np.int64)
-        if np.linalg.det(matrix[:3, :3]) < 0:
-            faces = faces[:, ::-1]
-        if faces.size and (faces.min() < 0 or faces.max() >= len(placed)):
-            raise MeshFileError("index-out-of-range", f"geometry {name!r}: index out of range")
-        vertices.append(placed)
-        triangles.append(faces + offset)
-        offset += len(placed)
-    read = sum(len(faces) for faces in triangles)
+    # What it cannot read it leaves out, mostly materials and lights; the promise sees to the rest.
+    document: Any = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])
+    meshes = list(_scene_meshes(document)) if document.scene is not None else []
+    read = sum(len(triangles) for _, triangles in meshes)
     if read != promised:
         raise MeshFileError(
             "count-mismatch", f"the file promises {promised} triangles, {read} could be read"
         )
-    points = np.concatenate(vertices)
+    offsets = np.cumsum([0, *(len(points) for points, _ in meshes)])
+    points = np.concatenate([points for points, _ in meshes])
+    triangles = np.concatenate(
+        [corners + offset for (_, corners), offset in zip(meshes, offsets, strict=False)]
+    )
     if not np.isfinite(points).all():
         raise MeshFileError("non-finite", "non-finite coordinates")
     return RawMesh(
         vertices=points.astype("<f8").tobytes(),
-        triangles=np.concatenate(triangles).astype("<u4").tobytes(),
+        triangles=triangles.astype("<u4").tobytes(),
         precision="float32",
-        units=str(scene.units) if scene.units else None,
+        units=_units(document.assetInfo.unitmeter),
         warnings=tuple(outline.warnings.items()),
     )
+
+
+def _units(metres: float | None) -> str:
+    return "meters" if metres is None or metres == 1.0 else f"{metres} * meters"
+
+
+def _scene_meshes(document: Any) -> Iterator[tuple[Floats, Triangles]]:
+    """Vertices in the world and triangles, once for each instance."""
+    from collada.scene import ControllerNode, GeometryNode
+
+    scene = list(walk([(node, IDENTITY) for node in document.scene.nodes]))
+    for node, matrix in scene:
+        if isinstance(node, GeometryNode):
+            mirrored = mirrors(matrix)
+            for points, triangles in _primitives(node.geometry):
+                yield placed(points, matrix), triangles[:, ::-1] if mirrored else triangles
+        elif isinstance(node, ControllerNode):
+            from satcheck.scene.loading.collada_shapes import shaped
+
+            geometry, shape, mirrored = shaped(node, matrix, scene)
+            for points, triangles in _primitives(geometry):
+                yield shape(points), triangles[:, ::-1] if mirrored else triangles
+
+
+def _primitives(geometry: Any) -> Iterator[tuple[Floats, Triangles]]:
+    """Vertices as the file has them, and triangles, of each group of polygons."""
+    from collada.polylist import Polylist
+    from collada.triangleset import TriangleSet
+
+    for primitive in geometry.primitives:
+        fans = primitive.triangleset() if isinstance(primitive, Polylist) else primitive
+        if not isinstance(fans, TriangleSet) or fans.vertex_index is None:
+            continue
+        points = np.asarray(fans.vertex, dtype=np.float64)
+        triangles = np.asarray(fans.vertex_index, dtype=np.int64).reshape(-1, 3)
+        if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
+            name = geometry.id
+            raise MeshFileError("index-out-of-range", f"geometry {name!r}: index out of range")
+        yield points, triangles

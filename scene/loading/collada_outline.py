@@ -16,14 +16,18 @@ from satcheck.scene.loading.placing import instances
 from satcheck.scene.loading.xml_guard import guarded_parser, parse_xml, split_name
 
 _ROOT = "COLLADA"
-_READ = frozenset({"triangles", "polylist", "polygons"})
+_READ = frozenset({"triangles", "polylist", "polygons", "tristrips", "trifans"})
+_ONE_P_EACH = frozenset({"polygons", "tristrips", "trifans"})
 _NO_TRIANGLES = frozenset({"lines", "linestrips"})
-_NOT_READ = frozenset({"tristrips", "trifans", "ph"})
-# Transformations that the parser takes for others.
+_NOT_READ = frozenset({"ph"})
+# Transformations that the parser takes for others, and those that it leaves out where their numbers
+# are not as many as here.
 _BENDS = frozenset({"lookat", "skew"})
-_TEXTS = frozenset({"p", "vcount", "float_array"})
-_SCENE_PREFIX = "scene:"  # keys of the graph: visual scenes and nodes, and geometries
+_MOVES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
+_TEXTS = frozenset({"p", "vcount", "float_array", *_MOVES})
+_SCENE_PREFIX = "scene:"  # keys of the graph: visual scenes and nodes; geometries, controllers
 _GEOMETRY_PREFIX = "geometry:"
+_CONTROLLER_PREFIX = "controller:"
 
 
 @dataclass(slots=True)
@@ -49,7 +53,7 @@ class Outline:
             kind="node",
         )
         for key, refusal in self.misplaced.items():
-            if self._holds_triangles(key):
+            if self._holds_triangles(key) or self._is_shaped():  # any node can be a joint
                 raise refusal
         total = sum(self.triangles[instance.key] for instance in placed)
         if total > limits.MAX_TRIANGLES:
@@ -57,6 +61,9 @@ class Outline:
                 "too-large", f"{total} triangles in all instances exceed {limits.MAX_TRIANGLES}"
             )
         return total
+
+    def _is_shaped(self) -> bool:
+        return any(key.startswith(_CONTROLLER_PREFIX) for key in self.children)
 
     def _holds_triangles(self, key: str) -> bool:
         seen, left = {key}, [key]
@@ -86,6 +93,22 @@ class _Primitive:
     words: int = 0
 
 
+@dataclass(slots=True)
+class _Accessor:
+    """How the numbers of a source make points. The parser looks at the names only."""
+
+    offset: str
+    stride: str
+    names: list[str] = field(default_factory=list)
+
+    @property
+    def makes_points(self) -> bool:
+        return (self.offset, self.stride) == ("0", "3") and self.names in (
+            ["X", "Y", "Z"],
+            ["", "", ""],
+        )
+
+
 def read_outline(data: bytes) -> Outline:
     reader = _OutlineReader()
     parse_xml(lambda: reader.parser.Parse(data, True))
@@ -99,9 +122,13 @@ class _OutlineReader:
         self.parser.StartElementHandler = self._start
         self.parser.EndElementHandler = self._end
         self.parser.CharacterDataHandler = self._text
-        self._depth = 0
+        self._around: list[str] = []  # the elements that are open
         self._owners: list[str] = []  # the visual scenes and nodes around
         self._geometry: str | None = None
+        self._controller: str | None = None
+        self._source: str | None = None
+        self._accessors: dict[str, _Accessor] = {}  # of the sources of this geometry
+        self._in_vertices = False
         self._primitive: _Primitive | None = None
         self._promised_floats = -1
         self._words: list[str] | None = None
@@ -112,7 +139,14 @@ class _OutlineReader:
             "instance_visual_scene": self._start_root,
             "instance_node": lambda attributes: self._refer(_SCENE_PREFIX, attributes),
             "instance_geometry": lambda attributes: self._refer(_GEOMETRY_PREFIX, attributes),
-            "instance_controller": self._start_controller,
+            "instance_controller": lambda attributes: self._refer(_CONTROLLER_PREFIX, attributes),
+            "controller": self._start_controller,
+            "skin": lambda attributes: self._start_shaper("skin", attributes),
+            "morph": lambda attributes: self._start_shaper("morph", attributes),
+            "source": self._start_source,
+            "accessor": self._start_accessor,
+            "param": self._start_param,
+            "vertices": self._start_vertices,
             "input": self._start_input,
             "float_array": self._start_floats,
         }
@@ -122,8 +156,8 @@ class _OutlineReader:
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         local = split_name(name)[1]
-        self._depth += 1
-        if self._depth == 1 and local != _ROOT:
+        self._around.append(local)
+        if len(self._around) == 1 and local != _ROOT:
             raise MeshFileError("not-this-format", f"not a COLLADA file: its root is <{local}>")
         if local in _NOT_READ and self._geometry:
             raise self._fail("unsupported-feature", f"<{local}> is not read")
@@ -146,6 +180,7 @@ class _OutlineReader:
             raise self._fail("bad-record", "an element without a count") from None
 
     def _start_geometry(self, attributes: dict[str, str]) -> None:
+        self._accessors.clear()
         self._geometry = _GEOMETRY_PREFIX + attributes.get("id", "")
         self.outline.triangles[self._geometry] = 0
 
@@ -161,8 +196,8 @@ class _OutlineReader:
     def _start_root(self, attributes: dict[str, str]) -> None:
         self.outline.root = _SCENE_PREFIX + self._target(attributes)
 
-    def _target(self, attributes: dict[str, str]) -> str:
-        url = attributes.get("url", "")
+    def _target(self, attributes: dict[str, str], name: str = "url") -> str:
+        url = attributes.get(name, "")
         if not url.startswith("#"):
             raise self._fail("outside-path", f"reference {url!r} leaves the file: refused")
         return url[1:]
@@ -171,10 +206,40 @@ class _OutlineReader:
         if self._owners:
             self.outline.children[self._owners[-1]].append(prefix + self._target(attributes))
 
-    def _start_controller(self, _: dict[str, str]) -> None:
-        raise self._fail("unsupported-feature", "skinned meshes are not read")
+    def _start_controller(self, attributes: dict[str, str]) -> None:
+        self._controller = _CONTROLLER_PREFIX + attributes.get("id", "")
+        self.outline.children[self._controller] = []
+
+    def _start_shaper(self, kind: str, attributes: dict[str, str]) -> None:
+        if self._controller is None:
+            return
+        target = _GEOMETRY_PREFIX + self._target(attributes, "source")
+        self.outline.children[self._controller].append(target)
+        words = "joints stand" if kind == "skin" else "weights of morph targets are"
+        self.outline.warnings["rest-shape"] = f"{words} as the file stores them"
+
+    def _start_source(self, attributes: dict[str, str]) -> None:
+        self._source = attributes.get("id")
+
+    def _start_accessor(self, attributes: dict[str, str]) -> None:
+        if self._source is not None:
+            self._accessors[self._source] = _Accessor(
+                attributes.get("offset", "0").strip(), attributes.get("stride", "1").strip()
+            )
+
+    def _start_param(self, attributes: dict[str, str]) -> None:
+        if self._source in self._accessors:
+            self._accessors[self._source].names.append(attributes.get("name", ""))
+
+    def _start_vertices(self, _: dict[str, str]) -> None:
+        self._in_vertices = True
 
     def _start_input(self, attributes: dict[str, str]) -> None:
+        if self._in_vertices and attributes.get("semantic") == "POSITION":
+            accessor = self._accessors.get(attributes.get("source", "").lstrip("#"))
+            if accessor is None or not accessor.makes_points:
+                message = "positions should be X, Y, Z after X, Y, Z from the first number on"
+                raise self._fail("unsupported-feature", message)
         if self._primitive and attributes.get("offset", "0").isdecimal():
             offset = int(attributes.get("offset", "0"))
             self._primitive.stride = max(self._primitive.stride, offset + 1)
@@ -188,7 +253,7 @@ class _OutlineReader:
 
     def _end(self, name: str) -> None:
         local = split_name(name)[1]
-        self._depth -= 1
+        self._around.pop()
         if local in _TEXTS and self._words is not None:
             words = "".join(self._words).split()
             self._words = None
@@ -197,13 +262,21 @@ class _OutlineReader:
             self._owners.pop()
         elif local == "geometry":
             self._geometry = None
+        elif local == "controller":
+            self._controller = None
+        elif local == "source":
+            self._source = None
+        elif local == "vertices":
+            self._in_vertices = False
         elif local in _READ and self._primitive:
             self._end_primitive(self._primitive)
             self._primitive = None
 
     def _end_text(self, local: str, words: list[str]) -> None:
-        if local == "float_array" and self._geometry:
+        if local == "float_array" and (self._geometry or self._controller):
             self._check_floats(words)
+        elif local in _MOVES and self._around[-1] == "node":
+            self._check_move(local, words)
         primitive = self._primitive
         if primitive is None:
             return
@@ -215,8 +288,14 @@ class _OutlineReader:
             if any(word.startswith("-") for word in words):
                 raise self._fail("index-out-of-range", "negative vertex number")
             primitive.words += len(words)
-            if primitive.kind == "polygons":
+            if primitive.kind in _ONE_P_EACH:
                 primitive.polygons.append(len(words) // primitive.stride)
+
+    def _check_move(self, local: str, words: list[str]) -> None:
+        if len(words) != _MOVES[local] or not _are_finite(words):
+            message = f"<{local}> should be {_MOVES[local]} finite numbers"
+            refusal = self._fail("bad-record", message)
+            self.outline.misplaced.setdefault(self._owners[-1], refusal)
 
     def _check_floats(self, words: list[str]) -> None:
         if len(words) != self._promised_floats:
@@ -247,3 +326,10 @@ class _OutlineReader:
             raise self._fail("bad-record", "a polygon with fewer than 3 corners")
         assert self._geometry is not None
         self.outline.triangles[self._geometry] += corners - 2 * primitive.count
+
+
+def _are_finite(words: list[str]) -> bool:
+    try:
+        return all(math.isfinite(float(word)) for word in words)
+    except ValueError:
+        return False

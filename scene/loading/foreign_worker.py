@@ -1,4 +1,4 @@
-"""The reading child: checks a GLB, glTF, 3MF or DAE file, reads it, checks what came out."""
+"""The reading child: checks a GLB, glTF, 3MF, DAE or ZAE file, reads it, checks what came out."""
 
 from __future__ import annotations
 
@@ -32,7 +32,11 @@ def _read(request: protocol.Request) -> RawScene:
     if request.format == "dae":
         from satcheck.scene.loading.collada import read_collada
 
-        return alone(read_collada(request.data))
+        return alone(read_collada(bytes(request.data)))
+    if request.format == "zae":
+        from satcheck.scene.loading.zae import read_zae
+
+        return alone(read_zae(request.data))
     from satcheck.scene.loading.gltf import read_gltf
 
     return read_gltf(

@@ -23,6 +23,7 @@ FORMATS = {
     ".gltf": "gltf",
     ".3mf": "3mf",
     ".dae": "dae",
+    ".zae": "zae",
 }
 
 _MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")
@@ -35,18 +36,18 @@ _STL_HEADER_BYTES = 84
 _STL_FACET_BYTES = 50
 _STL_COUNT = slice(80, 84)
 
-# The first bytes of what people misname as meshes: (signature, name, our format or None).
+# The first bytes of what people misname as meshes: (signature, name, our formats of that kind).
 _SIGNATURES = (
-    (b"\x89PNG\r\n", "a PNG image", None),
-    (b"\xff\xd8\xff", "a JPEG image", None),
-    (b"GIF8", "a GIF image", None),
-    (b"%PDF", "a PDF document", None),
-    (b"\x1f\x8b", "gzip data", None),
-    (b"\x7fELF", "an ELF program", None),
-    (b"glTF", "a GLB file", "glb"),
-    (b"PK\x03\x04", "a zip archive", "3mf"),
-    (b"ply\n", "a PLY file", "ply"),
-    (b"ply\r\n", "a PLY file", "ply"),
+    (b"\x89PNG\r\n", "a PNG image", ()),
+    (b"\xff\xd8\xff", "a JPEG image", ()),
+    (b"GIF8", "a GIF image", ()),
+    (b"%PDF", "a PDF document", ()),
+    (b"\x1f\x8b", "gzip data", ()),
+    (b"\x7fELF", "an ELF program", ()),
+    (b"glTF", "a GLB file", ("glb",)),
+    (b"PK\x03\x04", "a zip archive", ("3mf", "zae")),
+    (b"ply\n", "a PLY file", ("ply",)),
+    (b"ply\r\n", "a PLY file", ("ply",)),
 )
 
 # With what the lines of a text format begin, comments left out.
@@ -156,10 +157,10 @@ def _size(path: str, location: Path) -> int:
 
 
 def _refuse_other_content(path: str, file_format: str, size: int, data: bytes) -> None:
-    content, content_format = _sniff(size, data)
+    content, content_formats = _sniff(size, data)
     if content is None and file_format == "stl":
         content = _other_text(data)
-    if content is not None and content_format != file_format:
+    if content is not None and file_format not in content_formats:
         raise MeshFileError(
             "format-mismatch",
             f"not of format {file_format.upper()}: its content is {content}",
@@ -167,14 +168,14 @@ def _refuse_other_content(path: str, file_format: str, size: int, data: bytes) -
         )
 
 
-def _sniff(size: int, data: bytes) -> tuple[str | None, str | None]:
-    """(what the content unmistakably is, the format of that name), or (None, None)."""
-    for signature, name, signature_format in _SIGNATURES:
+def _sniff(size: int, data: bytes) -> tuple[str | None, tuple[str, ...]]:
+    """(what the content unmistakably is, our formats of that kind), or (None, ())."""
+    for signature, name, formats in _SIGNATURES:
         if data.startswith(signature):
-            return name, signature_format
+            return name, formats
     if _is_binary_stl(size, data):
-        return "a binary STL file", "stl"
-    return None, None
+        return "a binary STL file", ("stl",)
+    return None, ()
 
 
 def _is_binary_stl(size: int, data: bytes) -> bool:

@@ -8,17 +8,15 @@ items and components; supports count like any other object.
 
 from __future__ import annotations
 
-import io
 import zipfile
-import zlib
 from typing import IO
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading import limits
 from satcheck.scene.loading.placing import instances
 from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene
 from satcheck.scene.loading.threemf_model import ENCODINGS, Model, Object, part_name, read_model
 from satcheck.scene.loading.xml_guard import UnboundPrefix, guarded_parser, parse_stream, split_name
+from satcheck.scene.loading.zip_guard import open_part, opened_zip
 from satcheck.scene.plain_ids import UniqueNames
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
@@ -27,15 +25,8 @@ _DEFAULT_PART = "3D/3dmodel.model"
 
 def read_3mf(data: memoryview) -> RawScene:
     """What the build of a 3MF package places; raises MeshFileError without a file name."""
-    try:
-        with zipfile.ZipFile(io.BytesIO(data)) as package:
-            return _Package(package).read()
-    except zipfile.BadZipFile as error:
-        raise MeshFileError("not-this-format", f"not a 3MF file: {error}") from None
-    except (zlib.error, EOFError) as error:
-        raise MeshFileError("bad-record", f"damaged zip data: {error}") from None
-    except (RuntimeError, NotImplementedError) as error:  # encrypted, or an unknown compression
-        raise MeshFileError("unsupported-feature", f"zip: {error}") from None
+    with opened_zip(data, "a 3MF file") as package:
+        return _Package(package).read()
 
 
 class _Package:
@@ -91,16 +82,7 @@ class _Package:
         name = self._names.get(part.lower())
         if name is None:
             raise MeshFileError("missing-resource", f"the package has no part {part!r}")
-        entry = self._package.getinfo(name)
-        inflation = entry.file_size / max(entry.compress_size, 1)
-        if entry.file_size > limits.MAX_PART_BYTES or (
-            entry.file_size > limits.SMALL_PART_BYTES and inflation > limits.MAX_INFLATION
-        ):
-            raise MeshFileError(
-                "too-large",
-                f"part {part!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes",
-            )
-        return self._package.open(entry)
+        return open_part(self._package, name)
 
     def _model(self, part: str) -> Model:
         model = self._models.get(part)

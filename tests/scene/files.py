@@ -177,6 +177,8 @@ def collada(
     faces: Faces = CUBE_QUADS,
     nodes: str = '<node id="n"><instance_geometry url="#g"/></node>',
     library_nodes: str = "",
+    primitives: str | None = None,
+    controllers: str = "",
     float_count: int | None = None,
     doctype: str = "",
 ) -> bytes:
@@ -185,6 +187,10 @@ def collada(
     corners = " ".join(str(i) for face in faces for i in face)
     sides = " ".join(str(len(face)) for face in faces)
     params = "".join(f'<param name="{axis}" type="float"/>' for axis in "XYZ")
+    polylist = (
+        f'<polylist count="{len(faces)}"><input semantic="VERTEX" source="#v" offset="0"/>'
+        f"<vcount>{sides}</vcount><p>{corners}</p></polylist>"
+    )
     return (
         f'<?xml version="1.0" encoding="utf-8"?>{doctype}<COLLADA xmlns="{_COLLADA}" '
         'version="1.4.1"><asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>'
@@ -192,9 +198,9 @@ def collada(
         f'<float_array id="a" count="{count}">{floats}</float_array><technique_common>'
         f'<accessor source="#a" count="{len(points)}" stride="3">{params}</accessor>'
         '</technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/>'
-        f'</vertices><polylist count="{len(faces)}"><input semantic="VERTEX" source="#v" '
-        f'offset="0"/><vcount>{sides}</vcount><p>{corners}</p></polylist></mesh></geometry>'
-        f"</library_geometries><library_nodes>{library_nodes}</library_nodes>"
+        f"</vertices>{polylist if primitives is None else primitives}</mesh></geometry>"
+        f"</library_geometries><library_controllers>{controllers}</library_controllers>"
+        f"<library_nodes>{library_nodes}</library_nodes>"
         f'<library_visual_scenes><visual_scene id="S">{nodes}</visual_scene>'
         '</library_visual_scenes><scene><instance_visual_scene url="#S"/></scene></COLLADA>'
     ).encode()

@@ -274,11 +274,6 @@ REFUSED = {
         "unsupported-feature",
         "<skew> is not read",
     ),
-    "skinned.dae": (
-        files.collada(nodes=_CUBE_NODE.format("") + '<node><instance_controller url="#c"/></node>'),
-        "unsupported-feature",
-        "skinned",
-    ),
     "beams.3mf": (
         files.threemf(_with_beams(files.object_3mf(1))),
         "unsupported-feature",

@@ -1,0 +1,63 @@
+"""ZAE: a COLLADA document in a zip archive, beside its textures.
+
+Khronos, "COLLADA 1.5.0 specification" (2008), chapter 2: manifest.xml names the document in
+<dae_root>. Many archives have no manifest; then the only document counts.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import zipfile
+from typing import IO
+from urllib.parse import unquote
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.collada import read_collada
+from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.xml_guard import guarded_parser, parse_stream, split_name
+from satcheck.scene.loading.zip_guard import open_part, opened_zip
+
+_MANIFEST = "manifest.xml"
+
+
+def read_zae(data: memoryview) -> RawMesh:
+    """Raises MeshFileError without a file name."""
+    with opened_zip(data, "a ZAE file") as archive, _document(archive) as stream:
+        document = stream.read()
+    return read_collada(document)
+
+
+def _document(archive: zipfile.ZipFile) -> IO[bytes]:
+    return open_part(archive, _name_of_document(archive))
+
+
+def _name_of_document(archive: zipfile.ZipFile) -> str:
+    names = archive.namelist()
+    if _MANIFEST in names:
+        wanted = posixpath.normpath(unquote(_root_in_manifest(archive)).partition("#")[0])
+        if wanted not in names:
+            message = f"the manifest names {wanted!r}, which is not in the archive"
+            raise MeshFileError("missing-resource", message)
+        return wanted
+    documents = [name for name in names if name.lower().endswith(".dae")]
+    if len(documents) != 1:
+        message = f"{len(documents)} COLLADA documents and no {_MANIFEST} to say which counts"
+        raise MeshFileError("missing-resource" if not documents else "bad-record", message)
+    return documents[0]
+
+
+def _root_in_manifest(archive: zipfile.ZipFile) -> str:
+    parser = guarded_parser()
+    around: list[str] = []
+    words: list[str] = []
+
+    def text(piece: str) -> None:
+        if around[-1:] == ["dae_root"]:
+            words.append(piece)
+
+    parser.StartElementHandler = lambda name, _: around.append(split_name(name)[1])
+    parser.EndElementHandler = lambda _: around.pop()
+    parser.CharacterDataHandler = text
+    with open_part(archive, _MANIFEST) as stream:
+        parse_stream(parser, stream)
+    return "".join(words).strip()

@@ -1,0 +1,41 @@
+"""Zip archives from strangers: what is damaged is said, and nothing unpacks to a flood."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import IO
+
+from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading import limits
+
+
+@contextmanager
+def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]:
+    """kind: "a 3MF file" and the like, for messages. Raises MeshFileError for all that is wrong
+    with the archive, also while its parts are read in the block."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            yield archive
+    except zipfile.BadZipFile as error:
+        raise MeshFileError("not-this-format", f"not {kind}: {error}") from None
+    except (zlib.error, EOFError) as error:
+        raise MeshFileError("bad-record", f"damaged zip data: {error}") from None
+    except (RuntimeError, NotImplementedError) as error:  # encrypted, or an unknown compression
+        raise MeshFileError("unsupported-feature", f"zip: {error}") from None
+
+
+def open_part(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
+    """A part of the archive; raises MeshFileError for one that unpacks too far."""
+    entry = archive.getinfo(name)
+    inflation = entry.file_size / max(entry.compress_size, 1)
+    if entry.file_size > limits.MAX_PART_BYTES or (
+        entry.file_size > limits.SMALL_PART_BYTES and inflation > limits.MAX_INFLATION
+    ):
+        raise MeshFileError(
+            "too-large", f"part {name!r} unpacks {inflation:.0f}:1 to {entry.file_size} bytes"
+        )
+    return archive.open(entry)
