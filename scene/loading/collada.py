@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -15,6 +16,9 @@ from satcheck.scene.loading.collada_outline import read_outline
 from satcheck.scene.loading.raw_mesh import RawMesh
 
 Triangles = NDArray[np.int64]
+
+_NAME = rb"(?:[\w.-]+:)?bind_material"
+_MATERIALS = re.compile(rb"<%b(?:\s[^>]*)?(?<!/)>.*?</%b\s*>" % (_NAME, _NAME), re.DOTALL)
 
 
 def read_collada(data: bytes) -> RawMesh:
@@ -29,8 +33,10 @@ def read_collada(data: bytes) -> RawMesh:
 
     import collada
 
-    # What it cannot read it leaves out, mostly materials and lights; the promise sees to the rest.
-    document: Any = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])
+    # What it cannot read it leaves out, such as lights; that nothing else is missing the promise
+    # shows. A mesh whose material cannot be read would be left out, too.
+    bare = _MATERIALS.sub(b"", data)
+    document: Any = collada.Collada(io.BytesIO(bare), ignore=[collada.common.DaeError])
     meshes = list(_scene_meshes(document)) if document.scene is not None else []
     read = sum(len(triangles) for _, triangles in meshes)
     if read != promised:

@@ -96,6 +96,18 @@ def test_a_transform_that_a_parser_leaves_out_is_refused(tmp_path, move):
     assert "finite numbers" in message
 
 
+def test_a_material_that_is_not_there_costs_no_mesh(tmp_path):
+    bound = (
+        '<bind_material><technique_common><instance_material symbol="m" target="#gone"/>'
+        "</technique_common></bind_material>"
+    )
+    nodes = f'<node id="n"><instance_geometry url="#g">{bound}</instance_geometry></node>'
+    assert loaded(tmp_path, "a.dae", files.collada(nodes=nodes)).health.volume == 1.0
+    nodes += f'<node id="o"><translate>5 0 0</translate>{nodes[13:]}'
+    nodes = nodes.replace(bound, "<bind_material/>", 1)
+    assert loaded(tmp_path, "a.dae", files.collada(nodes=nodes)).health.volume == 2.0
+
+
 def floats(id_: str, numbers: Sequence[float], name: str, width: int = 1) -> str:
     kind = "float4x4" if width == 16 else "float"
     return (
