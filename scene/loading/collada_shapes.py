@@ -121,6 +121,7 @@ def _skinned(skin: Any, matrices: Mapping[str, Floats], bind: Floats) -> Shape:
         blended = np.zeros((len(points), 4, 4))
         np.add.at(blended, vertices, shares[:, None, None] * of_joint[joints])
         blended /= total[:, None, None]
-        return np.einsum("nij,nj->ni", blended[:, :3, :3], points) + blended[:, :3, 3]
+        turned: Floats = np.einsum("nij,nj->ni", blended[:, :3, :3], points)
+        return turned + blended[:, :3, 3]
 
     return shape
