@@ -112,14 +112,20 @@ def _import_what_follows(form: str) -> None:
         import satcheck.cli.report.json  # noqa: F401
 
 
-def refuse_early(paths: tuple[str, ...], output: Path | None, others: tuple[str, ...] = ()) -> None:
-    """What can be seen to fail before any work is done. others: more files that are read."""
+def refuse_early(
+    paths: tuple[str, ...],
+    output: Path | None,
+    others: tuple[str, ...] = (),
+    option: str = "-o",
+) -> None:
+    """What can be seen to fail before any work is done. others: more files that are read. option:
+    that names the output."""
     if not paths:
         raise wrong_usage("give two or more mesh files, or a scene file")
     if output and not output.absolute().parent.is_dir():
         raise cannot_write(str(output), "its folder does not exist")
     if output is not None and any(_is_an_input(output, path) for path in (*paths, *others)):
-        raise wrong_usage(f"-o {output} would overwrite an input")
+        raise wrong_usage(f"{option} {output} would overwrite an input")
 
 
 def _is_an_input(output: Path, path: str) -> bool:

@@ -32,6 +32,7 @@ class Choices:
     """What the command line asked for."""
 
     paths: tuple[str, ...]
+    moved: Path | None
     output: Path | None
     pins: tuple[str, ...]
     clearance: Length | None
@@ -68,19 +69,19 @@ class Choices:
 
 def run(choices: Choices) -> int:
     """Resolve, write the scene and the document; returns the exit code."""
-    refuse_early(choices.paths, choices.output, others=choices.posing.pose)
-    _refuse_output(choices)
+    _refuse_outputs(choices)
     document = Document()
     scene = _loaded(choices)
     stray = _stray(choices, scene)
     settings = _settings(choices, scene)
     found = _resolve(scene, settings, choices)
-    if choices.output:
-        write_file(choices.output, _written(scene, found, choices))
-        found = replace(found, report=_checked(choices.output, settings, choices))
-    document.write(_render(found, choices, document.page), utf8=choices.form == "json")
+    if choices.moved:
+        write_file(choices.moved, _written(scene, found, choices))
+        found = replace(found, report=_checked(choices.moved, settings, choices))
+    utf8 = choices.form == "json"
+    document.deliver(lambda page: _render(found, choices, page), choices.output, utf8=utf8)
     if stray is not None:
-        talk(f"note: {choices.output} is read with --allow-outside alone, for {stray}")
+        talk(f"note: {choices.moved} is read with --allow-outside alone, for {stray}")
     return exit_codes.of_report(found.report, exit_zero=False)
 
 
@@ -103,10 +104,14 @@ def _loaded(choices: Choices) -> Scene:
     return posed(scene, pose)
 
 
-def _refuse_output(choices: Choices) -> None:
+def _refuse_outputs(choices: Choices) -> None:
     """What cannot be written is said before any work is done."""
-    if choices.output is None:
+    refuse_early(choices.paths, choices.output, others=choices.posing.pose)
+    if choices.moved is None:
         return
+    refuse_early(choices.paths, choices.moved, others=choices.posing.pose, option="--moved")
+    if choices.output is not None and choices.output.absolute() == choices.moved.absolute():
+        raise click.UsageError("--moved and -o name the same file")
     from satcheck.scene.loader import is_mesh
 
     wanted = {".toml", ".json"}
@@ -114,24 +119,25 @@ def _refuse_output(choices: Choices) -> None:
         wanted = {Path(choices.scene_file).suffix.lower()}
     elif not all(map(is_mesh, choices.body_files)):
         raise click.UsageError(
-            "-o writes one scene file, or one of mesh files alone; links of robots are not moved"
+            "--moved writes one scene file, or one of mesh files alone; "
+            "links of robots are not moved"
         )
-    if choices.output.suffix.lower() not in wanted:
+    if choices.moved.suffix.lower() not in wanted:
         known = " or ".join(sorted(wanted))
-        raise click.UsageError(f"-o {choices.output}: this scene is written as a {known} file")
+        raise click.UsageError(f"--moved {choices.moved}: this scene is written as a {known} file")
 
 
 def _stray(choices: Choices, scene: Scene) -> str | None:
     """A mesh that OUT names outside of its folder; UsageError where nobody has allowed that."""
-    if choices.output is None:
+    if choices.moved is None:
         return None
     from satcheck.scene.moved_file import stray_mesh
 
-    stray = stray_mesh(choices.scene_file, choices.output, scene)
+    stray = stray_mesh(choices.scene_file, choices.moved, scene)
     if stray is not None and not choices.allow_outside:
         raise click.UsageError(
-            f"-o {choices.output}: {stray} lies outside of its folder, so that it could be read "
-            "with --allow-outside alone: write it above the meshes, or add that option"
+            f"--moved {choices.moved}: {stray} lies outside of its folder, so that it could be "
+            "read with --allow-outside alone: write it above the meshes, or add that option"
         )
     return stray
 
@@ -169,11 +175,11 @@ def _resolve(scene: Scene, settings: Settings, choices: Choices) -> Resolution:
 def _written(scene: Scene, found: Resolution, choices: Choices) -> str:
     from satcheck.scene.moved_file import moved_scene_file, scene_file_of
 
-    assert choices.output is not None
+    assert choices.moved is not None
     translations = {move.body: move.translation for move in found.moves}
     if choices.scene_file is not None:
-        return moved_scene_file(choices.scene_file, choices.output, translations)
-    return scene_file_of(choices.output, scene, translations)
+        return moved_scene_file(choices.scene_file, choices.moved, translations)
+    return scene_file_of(choices.moved, scene, translations)
 
 
 def _checked(path: Path, settings: Settings, choices: Choices) -> Report:
@@ -202,7 +208,7 @@ def _checked(path: Path, settings: Settings, choices: Choices) -> Report:
 
 
 def _render(found: Resolution, choices: Choices, page: Page) -> str:
-    output = str(choices.output) if choices.output else None
+    output = str(choices.moved) if choices.moved else None
     if choices.form == "json":
         from satcheck.cli.report.json import document
 

@@ -62,7 +62,7 @@ def _refuse_plot(choices: Choices) -> None:
         raise click.UsageError(
             f"--plot {choices.plot}: a PNG needs more libraries: pip install 'satcheck[{EXTRA}]'"
         )
-    refuse_early(choices.paths, choices.plot)
+    refuse_early(choices.paths, choices.plot, option="--plot")
     if choices.plot.absolute() == (choices.output and choices.output.absolute()):
         raise click.UsageError("--plot and -o name the same file")
 

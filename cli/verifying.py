@@ -7,15 +7,18 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from satcheck._version import __version__
 from satcheck.cli import exit_codes
 from satcheck.cli.output import Document, harmless, talk
 from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen
 from satcheck.scene.loading.regular_file import size_of
 
 if TYPE_CHECKING:
     from satcheck.verify import Checked, Verification
     from satcheck.verify.document import Outcome
 
+SCHEMA = "satcheck.verification/1"
 MOST_BYTES = 1 << 30
 # At most this many files that are not there are named.
 MOST_NAMED = 3
@@ -28,22 +31,36 @@ _CALLED: dict[Outcome, str] = {
 }
 
 
-def run(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -> int:
-    """debug is read by the process as a whole."""
+@frozen
+class Choices:
+    """What the command line asked for. root: where the paths of the report start."""
+
+    report: Path
+    root: Path
+    form: str
+    output: Path | None
+    allow_outside: bool
+
+
+def run(choices: Choices) -> int:
+    """Verify, write the document; returns the exit code."""
+    from satcheck.cli.checking import refuse_early
     from satcheck.cli.progress import Bar
     from satcheck.cli.report.json import document as json_text
     from satcheck.verify import Rejected, verify
 
-    del debug
+    report, root = choices.report, choices.root
+    refuse_early((str(report),), choices.output)
     document = Document()
     content = _read(report)
     try:
         with Bar() as bar:
-            found = verify(content, root, bar, allow_outside=allow_outside)
+            found = verify(content, root, bar, allow_outside=choices.allow_outside)
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
-    text = json_text(_values(found)) if form == "json" else _table(found)
-    document.write(text, utf8=form == "json")
+    in_json = choices.form == "json"
+    text = json_text(_values(found)) if in_json else _table(found)
+    document.deliver(lambda _: text, choices.output, utf8=in_json)
     if found.missing:
         talk(f"satcheck: {_missing(found, root)}")
     if not found.certified:
@@ -75,7 +92,8 @@ def _read(report: Path) -> Any:
 
 def _values(found: Verification) -> dict[str, Any]:
     return {
-        "schema": "satcheck.verification/1",
+        "schema": SCHEMA,
+        "tool": {"name": "satcheck", "version": __version__},
         "accepted": found.accepted and found.certified,
         "findings": [asdict(finding) for finding in found.findings],
         "faults": list(found.faults),

@@ -79,14 +79,6 @@ form_option = click.option(
     type=click.Choice(FORMATS),
     help="How to report. [default: table; json where the name after -o ends in .json]",
 )
-table_or_json_option = click.option(
-    "--format",
-    "form",
-    type=click.Choice(FORMATS),
-    default="table",
-    show_default=True,
-    help="How to report.",
-)
 output_option = click.option(
     "-o",
     "--output",

@@ -11,23 +11,24 @@ from satcheck.cli.commands.options import (
     HELP_NAMES,
     Command,
     debug_option,
+    form_option,
     jobs_option,
     open_option,
+    output_option,
     outside_option,
     paths_argument,
     split_option,
-    table_or_json_option,
     units_option,
 )
 from satcheck.cli.commands.robots import package_option
 from satcheck.cli.lengths import length
+from satcheck.cli.output import form_of
 
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("SCENE")
 @click.option(
-    "-o",
-    "--output",
+    "--moved",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
     help="Write the moved scene to FILE. [default: show the moves only]",
@@ -61,7 +62,8 @@ from satcheck.cli.lengths import length
 )
 @open_option
 @jobs_option
-@table_or_json_option
+@form_option
+@output_option
 @split_option
 @package_option
 @click.option(
@@ -81,8 +83,8 @@ def command(debug: bool, pose: tuple[str, ...], state: tuple[str, ...], **option
 
     SCENE is a scene file, or mesh files, also with robots. Static bodies and pinned ones stay, so
     do the links of robots, and pairs that the scene allows. Of several ways one with a small sum of
-    squared lengths is taken. The moved scene is checked afresh, and with -o it is the file written
-    that is checked: what still overlaps is said.
+    squared lengths is taken. The moved scene is checked afresh, and with --moved it is the file
+    written that is checked: what still overlaps is said.
 
     Exit codes: 0, nothing overlaps any more; 1, something does; 2, wrong usage, an unreadable
     input, or an internal error; 3, nothing that is known overlaps, but not everything could be
@@ -92,4 +94,10 @@ def command(debug: bool, pose: tuple[str, ...], state: tuple[str, ...], **option
     from satcheck.cli.resolving import Choices, run
 
     del debug
+    output = options["output"]
+    if options["form"] is None and output is not None and output.suffix.lower() == ".toml":
+        raise click.UsageError(
+            f"-o {output}: the report is no TOML; --moved {output} writes the moved scene"
+        )
+    options["form"] = form_of(options["form"], options["output"])
     return run(Choices(**options, posing=Posing(pose, state)))

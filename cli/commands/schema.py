@@ -6,14 +6,23 @@ import click
 
 from satcheck.cli.commands.options import HELP_NAMES, Command
 
-DOCUMENTS = ("report", "resolution", "samples", "scene", "stability", "suggestions", "tradeoff")
+DOCUMENTS = (
+    "report",
+    "resolution",
+    "samples",
+    "scene",
+    "stability",
+    "suggestions",
+    "tradeoff",
+    "verification",
+)
 
 
 @click.command("schema", cls=Command, context_settings=HELP_NAMES)
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def command(document: str) -> None:
     """Print the JSON Schema of a report: of a check, of resolve, of robots in many poses, of
-    stability, of suggestions, of tradeoff; or that of a scene file."""
+    stability, of suggestions, of tradeoff, of verify; or that of a scene file."""
     from satcheck.cli.output import Document
     from satcheck.cli.report.schema import text
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -10,9 +11,11 @@ from satcheck.cli.commands.options import (
     HELP_NAMES,
     Command,
     debug_option,
+    form_option,
+    output_option,
     outside_option,
-    table_or_json_option,
 )
+from satcheck.cli.output import form_of
 
 
 @click.command("verify", cls=Command, context_settings=HELP_NAMES)
@@ -24,10 +27,11 @@ from satcheck.cli.commands.options import (
     help="The folder where the check ran: paths in the report start there.  "
     "[default: the current one]",
 )
-@table_or_json_option
+@form_option
+@output_option
 @outside_option
 @debug_option
-def command(report: Path, root: Path, form: str, allow_outside: bool, debug: bool) -> int:
+def command(debug: bool, **options: Any) -> int:
     """Re-check the certificates of a report from the mesh files.
 
     REPORT is what satcheck --certificate -o REPORT.json A B wrote. Its verdicts are checked in
@@ -37,6 +41,8 @@ def command(report: Path, root: Path, form: str, allow_outside: bool, debug: boo
     Exit codes: 0, every verdict is accepted; 1, one is rejected or not certified; 2, wrong usage,
     an unreadable report, no certificate in it, a mesh file that is not there, or an internal error.
     """
-    from satcheck.cli.verifying import run
+    from satcheck.cli.verifying import Choices, run
 
-    return run(report, root, form, allow_outside, debug)
+    del debug
+    options["form"] = form_of(options["form"], options["output"])
+    return run(Choices(**options))

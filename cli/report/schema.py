@@ -16,7 +16,7 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `resolution`, `samples`,
-    `stability`, `suggestions`, `tradeoff`; `scene`."""
+    `stability`, `suggestions`, `tradeoff`, `verification`; `scene`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     found = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")

@@ -45,7 +45,7 @@ def test_a_dry_run_shows_the_moves() -> None:
 def test_what_is_written_passes_a_check(tmp_path: Path) -> None:
     scene, moved = scene_of_boxes(tmp_path, 0, 0.7, 1.4, units="mm"), str(tmp_path / "moved.json")
     assert satcheck("--no-depth", scene).code == 1
-    ran = satcheck("resolve", scene, "-o", moved, "--clearance", "10um")
+    ran = satcheck("resolve", scene, "--moved", moved, "--clearance", "10um")
     assert ran.code == 0, ran.err
     assert f"{moved}, checked: 3 bodies, 3 pairs" in ran.out
     assert satcheck("--no-depth", "--clearance", "10um", moved).code == 0
@@ -60,7 +60,7 @@ def test_the_document_follows_its_schema(tmp_path: Path) -> None:
     assert ran.document["summary"]["total_motion"] == 1.0
     assert [move["translation"] for move in ran.document["moves"]] == [[-0.5, 0, 0], [0.5, 0, 0]]
     scene = scene_of_boxes(tmp_path, 0, 0.5)
-    written = satcheck("resolve", scene, "-o", str(output), "--format", "json")
+    written = satcheck("resolve", scene, "--moved", str(output), "--format", "json")
     Draft202012Validator(SCHEMA).validate(written.document)
     assert written.document["output"] == str(output)
 
@@ -69,7 +69,7 @@ def test_the_same_scene_gives_the_same_bytes(tmp_path: Path) -> None:
     scene, output = scene_of_boxes(tmp_path, 0, 0.3, 0.8, 1.1), tmp_path / "moved.json"
     seen = set()
     for jobs in ("1", "3"):
-        ran = satcheck("resolve", scene, "-o", str(output), "--format", "json", "--jobs", jobs)
+        ran = satcheck("resolve", scene, "--moved", str(output), "--format", "json", "--jobs", jobs)
         seen.add((ran.out, output.read_bytes()))
     assert len(seen) == 1
 
@@ -106,11 +106,11 @@ def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
         (("box.obj",), "one body alone"),
         (("missing.json",), "no such file"),
         ((*PUSHED, "--pin", "boks"), "no body is called 'boks'"),
-        ((*PUSHED, "-o", "moved.obj"), ".json"),
-        ((*PUSHED, "workcell.json", "-o", "moved.json"), "mesh files alone"),
+        ((*PUSHED, "--moved", "moved.obj"), ".json"),
+        ((*PUSHED, "workcell.json", "--moved", "moved.json"), "mesh files alone"),
         ((*PUSHED, "--max-motion", "1mm"), "no units"),
-        (("workcell.json", "-o", "workcell.json"), "overwrite an input"),
-        (("workcell.json", "-o", "nowhere/moved.json"), "does not exist"),
+        (("workcell.json", "--moved", "workcell.json"), "overwrite an input"),
+        (("workcell.json", "--moved", "nowhere/moved.json"), "does not exist"),
     ],
 )
 def test_wrong_usage(arguments: tuple[str, ...], said: str) -> None:
@@ -134,7 +134,7 @@ position = [0.75, 0.0, 0.0]  # too close
 """
     scene, moved = tmp_path / "scene.toml", tmp_path / "moved.toml"
     scene.write_text(text)
-    ran = satcheck("resolve", str(scene), "-o", str(moved))
+    ran = satcheck("resolve", str(scene), "--moved", str(moved))
     assert ran.code == 0, ran.err
     assert moved.read_text() == text.replace("0.75", "1.0")
 
@@ -166,7 +166,7 @@ def test_mesh_files_become_a_scene_in_toml(tmp_path: Path) -> None:
     for name in PUSHED:
         shutil.copy(SAMPLES / name, tmp_path)
     moved = tmp_path / "moved.toml"
-    ran = satcheck("resolve", *(str(tmp_path / name) for name in PUSHED), "-o", str(moved))
+    ran = satcheck("resolve", *(str(tmp_path / name) for name in PUSHED), "--moved", str(moved))
     assert ran.code == 0, ran.err
     document = tomllib.loads(moved.read_text())
     assert document["schema"] == "satcheck.scene/1"
@@ -177,11 +177,11 @@ def test_mesh_files_become_a_scene_in_toml(tmp_path: Path) -> None:
 def test_a_scene_that_could_not_be_read_is_not_written(tmp_path: Path) -> None:
     meshes = [str(SAMPLES / name) for name in PUSHED]
     moved = tmp_path / "moved.json"
-    ran = satcheck("resolve", *meshes, "-o", str(moved))
+    ran = satcheck("resolve", *meshes, "--moved", str(moved))
     assert ran.code == 2
     assert "lies outside of its folder" in ran.err
     assert not moved.exists()
-    ran = satcheck("resolve", *meshes, "-o", str(moved), "--allow-outside")
+    ran = satcheck("resolve", *meshes, "--moved", str(moved), "--allow-outside")
     assert ran.code == 0, ran.err
     assert "read with --allow-outside alone" in ran.err
     assert satcheck("--no-depth", "--allow-outside", str(moved)).code == 0
@@ -201,3 +201,28 @@ def test_the_links_of_a_robot_are_said_to_stay(tmp_path: Path) -> None:
     assert satcheck("resolve", str(robot), "--pose", '{"j": 1.5}').code == 0
     refused = satcheck("resolve", str(robot), "--pose", '[{"j": 0}, {"j": 1}]')
     assert "one pose at a time" in refused.err
+
+
+def test_the_report_goes_where_that_of_any_command_goes(tmp_path: Path) -> None:
+    report, moved = tmp_path / "report.json", tmp_path / "moved.json"
+    scene = scene_of_boxes(tmp_path, 0, 0.5)
+    ran = satcheck("resolve", scene, "--moved", str(moved), "-o", str(report))
+    assert (ran.code, ran.out) == (0, ""), ran.err
+    document = json.loads(report.read_text(encoding="utf-8"))
+    Draft202012Validator(SCHEMA).validate(document)
+    assert document["output"] == str(moved)
+    assert satcheck("--no-depth", str(moved)).code == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("-o", "moved.toml"), "--moved moved.toml writes the moved scene"),
+        (("-o", "x.json", "--moved", "x.json"), "--moved and -o name the same file"),
+        (("--moved", "box.obj"), "--moved box.obj would overwrite an input"),
+    ],
+)
+def test_outputs_that_make_no_sense(arguments: tuple[str, ...], said: str) -> None:
+    ran = satcheck("resolve", *PUSHED, *arguments)
+    assert ran.code == 2
+    assert said in " ".join(ran.err.split())
