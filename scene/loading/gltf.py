@@ -26,7 +26,7 @@ from satcheck.scene.loading.gltf_buffers import (
     member,
     split_glb,
 )
-from satcheck.scene.loading.gltf_meshes import DRACO, Meshes, Shape
+from satcheck.scene.loading.gltf_meshes import DRACO, Meshes, Shape, Skin
 from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
 from satcheck.scene.loading.raw_mesh import (
     NO_SURFACE,
@@ -162,8 +162,8 @@ class _Scene:
     def _mesh(self, shape: Shape) -> RawMesh | MeshFileError:
         """A mesh that cannot be used counts: its nodes must not get lost."""
         try:
-            joints = None if shape.skin is None else self._skin(shape.skin)
-            return self._meshes.read(shape, joints)
+            skin = None if shape.skin is None else self._skin(shape.skin)
+            return self._meshes.read(shape, skin)
         except MeshFileError as error:
             return error
 
@@ -194,20 +194,15 @@ class _Scene:
             copies.append((f"{node.path}[{i}]", multiply(node.matrix, _placement(*parts))))
         return copies
 
-    def _skin(self, number: int) -> tuple[Matrix, ...]:
-        """For each joint of a skin the matrix from the coordinates of the mesh to the world."""
+    def _skin(self, number: int) -> Skin:
         skin = member(items(self._document, "skins"), number, "skin")
         joints = [self._node_number(joint) for joint in items(skin, "joints")]
-        bound: list[Matrix | None] = [None] * len(joints)
+        bound = None
         if "inverseBindMatrices" in skin:
-            columns = self._accessors.numbers(integer(skin, "inverseBindMatrices", -1), "MAT4")
-            bound = [_from_columns(matrix, f"skin {number}") for matrix in columns]
-        if len(bound) < len(joints):
-            raise MeshFileError("count-mismatch", f"skin {number}: a joint lacks its matrix")
-        return tuple(
-            multiply(self._world(joint), inverse) or IDENTITY
-            for joint, inverse in zip(joints, bound, strict=False)
-        )
+            bound = self._accessors.numbers(integer(skin, "inverseBindMatrices", -1), "MAT4")
+            if len(bound) < len(joints):
+                raise MeshFileError("count-mismatch", f"skin {number}: a joint lacks its matrix")
+        return Skin(tuple(self._world(joint) or IDENTITY for joint in joints), bound)
 
     def _world(self, node: int) -> Matrix | None:
         """Where a node stands in the world."""

@@ -34,6 +34,15 @@ class Shape:
     skin: int | None = None
 
 
+@frozen
+class Skin:
+    """joints: where each stands in the world. bound: for each the matrix from the mesh to the joint
+    as it was bound, column-major 4x4; None: the identity."""
+
+    joints: tuple[Matrix, ...]
+    bound: Sequence[Sequence[float]] | None = None
+
+
 class Meshes:
     """isolated: whether this process may crash."""
 
@@ -54,16 +63,15 @@ class Meshes:
             raise MeshFileError("bad-record", f"mesh {number}: weights should be numbers")
         return tuple(map(float, values)) if any(values) else ()
 
-    def read(self, shape: Shape, joints: Sequence[Matrix] | None) -> RawMesh:
+    def read(self, shape: Shape, skin: Skin | None) -> RawMesh:
         """All primitives that have triangles, as one.
 
-        joints: of the skin, each from the coordinates of the mesh to the world. Raises
-        MeshFileError, `NO_SURFACE` where there are no triangles.
+        skin: that of the shape. Raises MeshFileError, `NO_SURFACE` where there are no triangles.
         """
         warnings: dict[str, str] = {}
         where = f"mesh {shape.mesh}"
         parts = (
-            self._primitive(primitive, shape, joints, where, warnings)
+            self._primitive(primitive, shape, skin, where, warnings)
             for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives")
         )
         vertices, triangles = concatenate([(*part, None) for part in parts if part is not None])
@@ -81,7 +89,7 @@ class Meshes:
         self,
         primitive: Any,
         shape: Shape,
-        joints: Sequence[Matrix] | None,
+        skin: Skin | None,
         where: str,
         warnings: dict[str, str],
     ) -> tuple[Block, Block] | None:
@@ -111,11 +119,11 @@ class Meshes:
             warnings["rest-shape"] = "morph targets have the weights that the file stores"
             if shape.weights:
                 positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
-        if joints is not None:
+        if skin is not None:
             from satcheck.scene.loading.gltf_shapes import skinned
 
             warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
-            positions = skinned(positions, columns, joints, where)
+            positions = skinned(positions, columns, skin.joints, skin.bound, where)
         return positions, triangles
 
     def _packed(

@@ -22,16 +22,26 @@ def morphed(positions: Block, moves: Sequence[tuple[float, Block]]) -> bytes:
     return _finite(moved)
 
 
-def skinned(positions: Block, columns: Columns, joints: Sequence[Matrix], where: str) -> bytes:
+def skinned(
+    positions: Block,
+    columns: Columns,
+    joints: Sequence[Matrix],
+    bound: Sequence[Sequence[float]] | None,
+    where: str,
+) -> bytes:
     """Each vertex where its joints put it, in world coordinates.
 
     columns: of the attributes JOINTS_0, WEIGHTS_0, JOINTS_1 and so on. joints: row-major 4x4, from
-    the coordinates of the mesh to the world.
+    each joint to the world. bound: column-major 4x4, from the mesh to each joint. As the last rows
+    of matrices and the sums of weights are rounded in many files, what they make is divided by its
+    fourth coordinate.
     """
     points = np.frombuffer(positions, "<f8").reshape(-1, 3)
-    matrices = np.array(joints, "<f8").reshape(-1, 4, 4)[:, :3]
-    blended = np.zeros((len(points), 3, 4))
-    total = np.zeros(len(points))
+    matrices = np.array(joints, "<f8").reshape(-1, 4, 4)
+    if bound is not None:
+        inverse = np.array(bound[: len(joints)], "<f8").reshape(-1, 4, 4)
+        matrices = matrices @ inverse.transpose(0, 2, 1)
+    blended = np.zeros((len(points), 4, 4))
     number = 0
     while (of_joints := columns(f"JOINTS_{number}", "VEC4")) is not None:
         indices = np.array(of_joints).reshape(-1, 4).astype(np.int64)
@@ -44,13 +54,11 @@ def skinned(positions: Block, columns: Columns, joints: Sequence[Matrix], where:
             )
         for k in range(4):
             blended += weights[:, k, None, None] * matrices[indices[:, k]]
-            total += weights[:, k]
         number += 1
-    if not (total > 0).all():
-        raise MeshFileError("bad-record", f"{where}: a vertex of the skin has no joint")
-    blended /= total[:, None, None]
     placed = np.einsum("nij,nj->ni", blended[:, :, :3], points) + blended[:, :, 3]
-    return _finite(placed)
+    if not (placed[:, 3] > 0).all():
+        raise MeshFileError("bad-record", f"{where}: a vertex of the skin has no joint")
+    return _finite(placed[:, :3] / placed[:, 3:])
 
 
 def _finite(points: np.ndarray) -> bytes:

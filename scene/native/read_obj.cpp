@@ -15,8 +15,8 @@ namespace {
 //   lines, points, curves    no area, so they cannot collide: accepted with a warning
 //   surfaces, other files    geometry that is not read: an error
 //   a whole number alone     a count that some exporters write: accepted with a warning
-constexpr std::array<std::string_view, 18> no_geometry = {
-    "vt",   "vn",     "vp",     "o",      "g",      "s",          "mg",        "usemtl", "mtllib",
+constexpr std::array<std::string_view, 20> no_geometry = {
+    "vt",     "vn",     "vp",    "vw",       "o",        "g",   "s",          "t",         "mg", "usemtl", "mtllib",
     "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "res"};
 constexpr std::array<std::string_view, 18> no_area = {"p",    "l",    "cdc",  "cstype", "deg", "bmat", "step",  "curv",  "curv2", "parm",
                                                       "trim", "hole", "scrv", "sp",     "end", "con",  "ctech", "stech"};

@@ -1,4 +1,4 @@
-// Object File Format (Geomview), ASCII, three-dimensional. One vertex or face a line, as every exporter writes it.
+// Object File Format (Geomview), ASCII, three-dimensional. Each vertex and each face begins a line.
 #include "builder.hpp"
 #include "readers.hpp"
 #include "text.hpp"
@@ -97,36 +97,59 @@ class OffReader {
     return line;
   }
 
+  // The words of one record, which may go on in the next lines: then it ends with the last of them.
+  class Record {
+   public:
+    Record(OffReader& reader, std::string what)
+        : reader_(reader), what_(std::move(what)), words_(reader.required_line(what_)), line_(reader.lines_.number()) {}
+
+    std::string_view next() {
+      std::string_view word;
+      while (!words_.next(word)) {
+        words_ = Words(reader_.required_line("the end of " + what_));
+        goes_on_ = true;
+      }
+      return word;
+    }
+    // Colours and the like may stand behind a record of one line.
+    void end() {
+      if (goes_on_ && !words_.none_left()) {
+        fail_at_line(code::bad_record, "bad record: " + what_ + " ends within a line", reader_.lines_.number());
+      }
+      check_numbers(words_, line_);
+    }
+    std::int64_t line() const { return line_; }
+
+   private:
+    OffReader& reader_;
+    std::string what_;
+    Words words_;
+    std::int64_t line_;
+    bool goes_on_ = false;
+  };
+
   void vertex(std::int64_t i) {
-    Words words(required_line("vertex " + std::to_string(i + 1) + " of " + std::to_string(vertex_count_)));
-    parse_vertex(words, lines_.number(), mesh_);
-    check_numbers(words, lines_.number());  // normals, colours and texture coordinates
+    Record record(*this, "vertex " + std::to_string(i + 1) + " of " + std::to_string(vertex_count_));
+    for (int axis = 0; axis < 3; ++axis) mesh_.vertices.push_back(parse_coordinate(record.next(), lines_.number(), mesh_));
+    record.end();
   }
 
   void face(std::int64_t i) {
-    Words words(required_line("face " + std::to_string(i + 1) + " of " + std::to_string(face_count_)));
-    const std::int64_t line = lines_.number();
-    std::string_view word;
-    words.next(word);
-    const std::int64_t sides = parse_integer(word, line, "the number of corners");
-    if (sides < 0) fail_at_line(code::bad_record, "bad face record: negative number of corners", line);
+    Record record(*this, "face " + std::to_string(i + 1) + " of " + std::to_string(face_count_));
+    const std::int64_t sides = parse_integer(record.next(), record.line(), "the number of corners");
+    if (sides < 0) fail_at_line(code::bad_record, "bad face record: negative number of corners", record.line());
     corners_.clear();
     for (std::int64_t corner = 0; corner < sides; ++corner) {
-      if (!words.next(word)) {
-        fail_at_line(code::bad_record, "bad face record: " + std::to_string(sides) + " corners promised, " +
-                                           std::to_string(corner) + " given",
-                     line);
-      }
-      const std::int64_t index = parse_integer(word, line, "a vertex number");
+      const std::int64_t index = parse_integer(record.next(), lines_.number(), "a vertex number");
       if (index < 0 || index >= vertex_count_) {
         fail_at_line(code::index_out_of_range, "face index out of range: " + std::to_string(index) + " of " +
                                                    std::to_string(vertex_count_) + " vertices",
-                     line);
+                     lines_.number());
       }
       corners_.push_back(static_cast<std::uint32_t>(index));
     }
-    check_numbers(words, line);  // a colour
-    polygons_.add(corners_, line, mesh_);
+    record.end();
+    polygons_.add(corners_, record.line(), mesh_);
   }
 
   std::string_view bytes_;

@@ -113,7 +113,7 @@ REFUSED = {
     "huge.off": (b"OFF\n4000000000 1 0\n", "count-mismatch", "4000000000"),
     "cut.off": (OFF[:-20], "truncated", "face 5 of 6"),
     "more.off": (OFF + b"3 0 1 2\n", "trailing-data", "line 18"),
-    "garbage.off": (b"OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0\n", "bad-record", "bad face record"),
+    "garbage.off": (b"OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0\n", "truncated", "face 1 of 1"),
     "high.off": (files.off(faces=[(0, 1, 20)]), "index-out-of-range", "20 of 8"),
     "not.glb": (b"{}", "not-this-format", "glTF"),
     "version.glb": (b"glTF" + struct.pack("<II", 1, 12), "unsupported-feature", "version 1"),

@@ -40,7 +40,7 @@ def test_geometry_that_is_not_read_is_an_error(tmp_path, statement):
 
 def test_names_and_looks_are_no_geometry(tmp_path):
     names = b"mtllib a b.mtl\nusemtl \\\nc\ng a f b\no v 1\n"
-    looks = b"s off\nmg 1 2\nlod 3\nbevel on\nvt 0 0\nvn 0 0 1\n"
+    looks = b"s off\nmg 1 2\nlod 3\nbevel on\nvw 1 0 1\nt crease 2/1/0 1 2 3.5\nvt 0 0\nvn 0 0 1\n"
     assert warnings(loaded(tmp_path, "a.obj", CUBE + names + looks)) == {}
 
 

@@ -59,6 +59,16 @@ def test_refused_headers(tmp_path, header, code):
     assert refusal(tmp_path, "a.off", cube(header))[0] == code
 
 
+def test_records_may_go_on_in_the_next_lines(tmp_path):
+    content = f"OFF {COUNTS}\n".encode() + cube("").replace(b" ", b"\n")
+    assert loaded(tmp_path, "a.off", content).health.volume == 1.0
+
+
+def test_a_corner_that_lacks_takes_none_of_the_next_face(tmp_path):
+    content = cube(f"OFF {COUNTS}\n").replace(b"4 0 1 3 2\n", b"4 0 1 3\n")
+    assert refusal(tmp_path, "a.off", content)[0] == "bad-record"
+
+
 def test_words_behind_a_record_are_an_error(tmp_path):
     for content in (cube(f"OFF\n{COUNTS}\n", " red"), cube(f"OFF\n{COUNTS}\n", colour=" red")):
         code, message = refusal(tmp_path, "a.off", content)
