@@ -184,7 +184,7 @@ NB_MODULE(_readers, m) {
       .def_ro("line", &ReadError::line, "Line number from 1, or -1.")
       .def_ro("offset", &ReadError::offset, "Byte offset from 0, or -1.");
 
-  m.def("read_obj", &read<read_obj>, nb::arg("data"), "Wavefront OBJ; polygons as fans.");
+  m.def("read_obj", &read<read_obj>, nb::arg("data"), "Wavefront OBJ.");
   m.def("read_stl", &read<read_stl>, nb::arg("data"), "Binary or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.");
   m.def("read_binary_stl", &read_stl_in_pieces, nb::arg("descriptor"), nb::arg("size"),
         "What read_stl makes of the `size` bytes of an open file that is binary by its count of facets, without holding them; "

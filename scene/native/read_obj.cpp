@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "builder.hpp"
+#include "polygons.hpp"
 #include "readers.hpp"
 #include "text.hpp"
 
@@ -135,7 +136,7 @@ class ObjReader {
   }
 
   void report() {
-    polygons_.report("line", mesh_);
+    polygons_.finish("line", mesh_);
     if (without_area_ > 0) {
       const bool one = without_area_ == 1;
       mesh_.warnings.push_back({code::ignored_geometry, std::to_string(without_area_) + (one ? " statement" : " statements") +

@@ -1,5 +1,6 @@
 // Object File Format (Geomview), ASCII, three-dimensional. Each vertex and each face begins a line.
 #include "builder.hpp"
+#include "polygons.hpp"
 #include "readers.hpp"
 #include "text.hpp"
 
@@ -23,7 +24,7 @@ class OffReader {
     if (lines_.next_filled(line, comment)) {
       fail_at_line(code::trailing_data, "more lines than the header promises", lines_.number());
     }
-    polygons_.report("line", mesh_);
+    polygons_.finish("line", mesh_);
     return std::move(mesh_);
   }
 

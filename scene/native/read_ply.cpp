@@ -7,6 +7,7 @@
 #include "builder.hpp"
 #include "bytes.hpp"
 #include "ply_header.hpp"
+#include "polygons.hpp"
 #include "readers.hpp"
 #include "text.hpp"
 
@@ -221,7 +222,7 @@ void read_faces(Records& records, const PlyElement& element, std::int64_t vertex
     face.assign(corners.begin(), corners.end());
     polygons.add(face, records.place(), mesh);
   });
-  polygons.report(Records::unit, mesh);
+  polygons.finish(Records::unit, mesh);
 }
 
 // A strip of triangles: each corner makes one with the two before it, every other one turned; strip_end begins a new strip.

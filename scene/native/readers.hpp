@@ -10,8 +10,7 @@
 
 namespace satcheck::scene {
 
-// Wavefront OBJ. Every `f` of the file, polygons as fans from their first vertex; colours, texture
-// coordinates, normals, lines and points are not geometry here.
+// Wavefront OBJ. Every `f` of the file; colours, texture coordinates, normals, lines and points are not geometry here.
 ReadOutcome read_obj(std::string_view bytes);
 
 // Binary STL (recognised by its size, 84 + 50 n) or ASCII STL; corners of the same coordinates, bit for bit, are one vertex.

@@ -1,0 +1,37 @@
+// Polygons of a file, cut into triangles that cover them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "read_result.hpp"
+
+namespace satcheck::scene {
+
+// Polygons with fewer than three corners are counted and reported once. Those that name vertices which the file only
+// writes later are cut when all are there.
+class Polygons {
+ public:
+  // place: of the polygon in the file, for messages.
+  void add(const std::vector<std::uint32_t>& corners, std::int64_t place, MeshData& mesh) {
+    if (corners.size() == 3) {
+      mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
+    } else {
+      add_other(corners, place, mesh);
+    }
+  }
+
+  // Cuts what is left, and warns. `unit` names what `place` counted: "line", "face".
+  void finish(const char* unit, MeshData& mesh);
+
+ private:
+  void add_other(const std::vector<std::uint32_t>& corners, std::int64_t place, MeshData& mesh);
+
+  std::int64_t too_short_ = 0;
+  std::int64_t first_short_ = 0;
+  std::vector<std::vector<std::uint32_t>> waiting_;
+  std::int64_t steps_ = 0;  // of cutting, all polygons of the file together
+};
+
+}  // namespace satcheck::scene
