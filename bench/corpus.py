@@ -95,16 +95,17 @@ def alone(command: Sequence[str], file: Path) -> Record:
 
 
 def pair(command: Sequence[str], look: Record, kind: str) -> Record:
-    """The file where it stands, and itself or its partner placed."""
+    """The file where it stands, and itself or its partner placed, both as if in metres: what a file
+    states of its units would scale it once more."""
     files = [look["file"], look["other" if kind == "other" else "file"]]
     rows = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], look["pairs"][kind]
     bodies = [
-        {"id": name, "mesh": file, "matrix": placed}
+        {"id": name, "mesh": file, "matrix": placed, "units": "m"}
         for name, file, placed in zip("ab", files, rows, strict=True)
     ]
     with tempfile.TemporaryDirectory() as scratch:
         scene = Path(scratch) / "pair.json"
-        content = {"schema": "satcheck.scene/1", "bodies": bodies}
+        content = {"schema": "satcheck.scene/1", "units": "m", "bodies": bodies}
         scene.write_text(json.dumps(content), encoding="utf-8")
         answer = ask(command, ["--depth" if kind == DEPTH else "--no-depth", str(scene)])
     report = answer.pop("report", None)
