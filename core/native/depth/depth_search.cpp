@@ -35,6 +35,8 @@ constexpr std::size_t kMostWalls = 24;
 // How far beyond the boundary of a set a step leads, so that rounding does not leave it inside: a share of
 // the known way out.
 constexpr double kBeyond = 1e-10;
+// Facets of a set that may cut a box of which other sets cover the rest.
+constexpr std::size_t kMostCuts = 4;
 // Sets that a point may be moved out of within its box.
 constexpr std::size_t kSetsLeft = 24;
 // How far into the open, in halves of the box.
@@ -98,7 +100,7 @@ class Search {
       ++result_.boxes;
       poll();
       open_from = result_.upper;
-      if (is_covered(box)) continue;
+      if (is_covered(box) || is_covered_by_several(box)) continue;
       Vec3 t = box.nearest_to_origin();
       if (is_on_seam(box)) {
         fit(on_facets(box));
@@ -172,6 +174,49 @@ class Search {
     }
     box.sets.resize(kept);
     return false;
+  }
+
+  // The same by one set and, for each part of the box beyond a facet of that, one more. So two sets that overlap but
+  // little cover the seam between them in few boxes.
+  bool is_covered_by_several(const TranslationBox& box) {
+    if (box.sets.size() < 2) return false;
+    for (const std::uint32_t i : box.sets) {
+      const double length = length_covered_with(i, box);
+      if (length < enough()) continue;
+      covered_to_ = std::fmin(covered_to_, length);
+      return true;
+    }
+    return false;
+  }
+
+  double length_covered_with(std::uint32_t first, const TranslationBox& box) {
+    const ForbiddenSet& set = sets_[first];
+    work_done += kPlaneWork * set.normal.size();
+    cuts_.clear();
+    double length = INFINITY;
+    for (std::size_t k = 0; k < set.normal.size(); ++k) {
+      const Vec3 n = set.normal[k];
+      const double middle = dot(n, box.centre), at = set.offset[k];
+      const double spread = std::fabs(n.x) * box.half.x + std::fabs(n.y) * box.half.y + std::fabs(n.z) * box.half.z;
+      if (middle + spread < at) continue;
+      if (at >= enough()) {
+        length = std::fmin(length, at);
+      } else if (middle >= at || cuts_.size() == kMostCuts) {
+        return -INFINITY;
+      } else {
+        cuts_.push_back({n, at});
+      }
+    }
+    for (const Wall& cut : cuts_) {
+      double beyond = -INFINITY;
+      for (std::size_t j = 0; j < box.sets.size() && beyond < enough(); ++j) {
+        if (box.sets[j] == first) continue;
+        beyond = std::fmax(beyond, sets_[box.sets[j]].reach_beyond(box.centre, box.half, cut.normal, cut.offset, enough()));
+      }
+      length = std::fmin(length, beyond);
+      if (length < enough()) return -INFINITY;
+    }
+    return length;
   }
 
   // Whether no set holds t, and it is short enough to matter.
@@ -347,6 +392,7 @@ class Search {
   DepthInterval result_;
   double covered_to_ = INFINITY;  // the boxes that were dropped hold no shorter way out
   std::vector<ForbiddenSet> sets_;
+  std::vector<Wall> cuts_;  // of length_covered_with()
   std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
   std::uint64_t next_number_ = 0, next_poll_ = kPollWork;
   bool scanned_ = false;

@@ -2,6 +2,7 @@
 
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
+#include "base/work.hpp"
 #include "convex/polytope.hpp"
 
 namespace satcheck {
@@ -13,6 +14,14 @@ namespace {
 constexpr double kFacetError = 7 * 1.1e-14;
 // Differences of vertices, dot products and sums over a box that the set holds.
 constexpr double kSetError = 128 * kUnitRoundoff;
+
+// Steps of a facet that a part of a box is held against: measured.
+constexpr std::uint64_t kHeightWork = 6;
+// A facet nearly parallel to an axis bends the bound of a part far out, where rounding would count.
+constexpr double kMostFactor = 64;
+// Roundings of the height of a part of a box, as a share of 1 + factor times the largest coordinate and offset: a sum of
+// normals 2 a coordinate, products, their sum and the difference 8, over three coordinates.
+constexpr double kPartError = 32 * kUnitRoundoff;
 
 }  // namespace
 
@@ -37,6 +46,35 @@ ForbiddenSet::Reach ForbiddenSet::reach(Vec3 c, Vec3 h) const {
     result.length = std::fmin(result.length, offset[k]);
   }
   return result;
+}
+
+double ForbiddenSet::reach_beyond(Vec3 c, Vec3 h, Vec3 cut, double at, double least) const {
+  if (empty()) return -INFINITY;
+  const double size = max_abs(c) + max_abs(h);
+  const auto height = [&](Vec3 m) {
+    return dot(m, c) + std::fabs(m.x) * h.x + std::fabs(m.y) * h.y + std::fabs(m.z) * h.z;
+  };
+  double length = INFINITY;
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    // The greatest height of that part over this facet is at most that of the box over the sum of the facet's normal
+    // and any positive multiple of the plane's, less as much of the offset. As a function of the factor that bound is
+    // convex and bends where a coordinate of the sum vanishes.
+    const Vec3 n = normal[k];
+    bool holds = height(n) < offset[k];
+    for (int axis = 0; axis < 3 && !holds; ++axis) {
+      const double factor = -n[axis] / cut[axis];
+      if (!(factor > 0 && factor <= kMostFactor)) continue;
+      const double error = kPartError * (1 + factor) * (size + std::fabs(at));
+      holds = height(n + cut * factor) - factor * at + error < offset[k];
+    }
+    if (!holds) length = std::fmin(length, offset[k]);
+    if (length < least) {
+      work_done += kHeightWork * (k + 1);
+      return length;
+    }
+  }
+  work_done += kHeightWork * normal.size();
+  return length;
 }
 
 ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector<Vec3>& part_of_b) {

@@ -33,6 +33,10 @@ struct ForbiddenSet {
     bool meets;
   };
   Reach reach(Vec3 centre, Vec3 half) const;
+
+  // The same length for the part of the box beyond one plane: normal . t >= offset, `normal` unit. Any number below
+  // `least` where it is less than that.
+  double reach_beyond(Vec3 centre, Vec3 half, Vec3 normal, double offset, double least) const;
 };
 
 // Convex hulls of points; none where the difference has no volume.
