@@ -39,6 +39,8 @@ constexpr double kBeyond = 1e-10;
 constexpr std::size_t kMostCuts = 4;
 // Sets that a point may be moved out of within its box.
 constexpr std::size_t kSetsLeft = 24;
+// How much deeper than the others a set has to hold a point to be kept beside them.
+constexpr double kDeeper = 2;
 // How far into the open, in halves of the box.
 constexpr double kIntoTheOpen = 1.0 / 16;
 // A way out that ends at a face is shortened to that face where the two agree to this share of it.
@@ -351,7 +353,16 @@ class Search {
       if (!(nearest.distance(t) <= kSeam * result_.upper)) break;
       t = in_plane(nearest.nearest_to(t));
     }
-    ask_meshes(t);
+    if (!deepen(t)) ask_meshes(t);
+  }
+
+  // One more set that holds t, farther inside than those that are known.
+  bool deepen(Vec3 t) {
+    const double known = std::fmax(deepest_exit(t).depth, 0.0);
+    ForbiddenSet set = prove_overlap(a_, moved_.at(t), b_, t, relation_at(t));
+    if (!(set.exit(t).depth > kDeeper * known)) return false;
+    sets_.push_back(std::move(set));
+    return true;
   }
 
   // A way out along the normal of a face ends exactly where a corner leaves the plane of that face.
