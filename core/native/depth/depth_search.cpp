@@ -39,6 +39,8 @@ constexpr double kBeyond = 1e-10;
 constexpr std::size_t kMostCuts = 4;
 // Sets that a point may be moved out of within its box.
 constexpr std::size_t kSetsLeft = 24;
+// From so many sets on each is made where the bodies overlap the most.
+constexpr std::size_t kManySets = 40;
 // How much deeper than the others a set has to hold a point to be kept beside them.
 constexpr double kDeeper = 2;
 // How far into the open, in halves of the box.
@@ -287,7 +289,7 @@ class Search {
         ++asked;
         const MeshRelation relation = relation_at(t);
         if (is_free(relation)) return take(t);
-        ForbiddenSet set = prove_overlap(a_, moved_.at(t), b_, t, relation);
+        ForbiddenSet set = proof_at(t, relation);
         if (set.empty()) return;
         exit = set.exit(t);
         sets_.push_back(std::move(set));
@@ -297,6 +299,11 @@ class Search {
       if (!next || norm(*next) >= result_.upper) return;
       t = in_plane(*next);
     }
+  }
+
+  ForbiddenSet proof_at(Vec3 t, const MeshRelation& relation) {
+    const Overlaps overlaps = sets_.size() < kManySets ? Overlaps::first : Overlaps::thickest;
+    return prove_overlap(a_, moved_.at(t), b_, t, relation, overlaps);
   }
 
   ForbiddenSet::Exit deepest_exit(Vec3 t) {
@@ -359,7 +366,7 @@ class Search {
   // One more set that holds t, farther inside than those that are known.
   bool deepen(Vec3 t) {
     const double known = std::fmax(deepest_exit(t).depth, 0.0);
-    ForbiddenSet set = prove_overlap(a_, moved_.at(t), b_, t, relation_at(t));
+    ForbiddenSet set = proof_at(t, relation_at(t));
     if (!(set.exit(t).depth > kDeeper * known)) return false;
     sets_.push_back(std::move(set));
     return true;

@@ -2,6 +2,8 @@
 // cross and on all of which the bodies end, for beside such a crossing both have material.
 #include "depth/overlap_proof.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,9 +11,15 @@
 #include "exact/triangle_pair.hpp"
 #include "mesh_pair/boundary_contact.hpp"
 #include "mesh_pair/common_point.hpp"
+#include "mesh_pair/traversal.hpp"
 
 namespace satcheck {
 namespace {
+
+// Crossings that are tried, about.
+constexpr std::size_t kPockets = 8;
+// A crossing this near to a common point, in its depths, is taken to belong to the same overlap.
+constexpr double kNear = 2;
 
 class Proof {
  public:
@@ -20,9 +28,9 @@ class Proof {
   ForbiddenSet take() { return std::move(set_); }
 
   // Of the sets that two metrics a side give, the one that holds t the deepest.
-  void by_regions(const Surface& moved, const MeshRelation& relation) {
+  void by_regions(const Surface& moved, const MeshRelation& relation, Overlaps overlaps) {
     if (!a_.solid || !b_.solid) return;
-    if (const auto common = common_point(moved, b_, relation)) {
+    if (const auto common = overlaps == Overlaps::first ? common_point(moved, b_, relation) : deepest_common_point(moved, relation)) {
       const std::vector<InnerRegion> in_a = regions(a_, common->point - t_);
       const std::vector<InnerRegion> in_b = regions(b_, common->point);
       for (const InnerRegion& p : in_a) {
@@ -39,6 +47,32 @@ class Proof {
   }
 
  private:
+  // Where A and B have the thickest of some overlaps in common: the one of the relation, and those at more crossings.
+  std::optional<CommonPoint> deepest_common_point(const Surface& moved, const MeshRelation& relation) const {
+    std::optional<CommonPoint> deepest = common_point(moved, b_, relation);
+    if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return deepest;
+    std::vector<CommonPoint> tried;
+    if (deepest) tried.push_back(*deepest);
+    const std::vector<ContactPair> contacts = find_contacts(moved, b_, AtCrossing::go_on).contacts;
+    const std::size_t stride = std::max<std::size_t>(1, contacts.size() / kPockets);
+    for (std::size_t k = 0; k < contacts.size(); k += stride) {
+      const Corners p = corners(moved.mesh, contacts[k].a), q = corners(b_.mesh, contacts[k].b);
+      if (classify(p, q) != TriangleContact::crossing) continue;
+      MeshRelation here;
+      here.relation = Relation::penetrating;
+      here.triangle_a = contacts[k].a;
+      here.triangle_b = contacts[k].b;
+      here.point = crossing_point(p, q);
+      const auto is_known = [&](const CommonPoint& c) { return norm(c.point - *here.point) <= kNear * c.depth; };
+      if (std::any_of(tried.begin(), tried.end(), is_known)) continue;
+      const auto common = common_point(moved, b_, here);
+      if (!common) continue;
+      tried.push_back(*common);
+      if (!deepest || common->depth > deepest->depth) deepest = common;
+    }
+    return deepest;
+  }
+
   static std::vector<InnerRegion> regions(const Surface& solid, Vec3 seed) {
     std::vector<InnerRegion> found;
     if (auto round = grow_inner_region(solid, seed, {})) {
@@ -67,9 +101,9 @@ class Proof {
 }  // namespace
 
 ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
-                           const MeshRelation& relation) {
+                           const MeshRelation& relation, Overlaps overlaps) {
   Proof proof(a, b, t);
-  proof.by_regions(moved, relation);
+  proof.by_regions(moved, relation, overlaps);
   proof.by_triangles(relation);
   return proof.take();
 }
