@@ -13,11 +13,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from satcheck.audit.asked.settings import DEPTH_BUDGET
+from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
 from satcheck.core import DepthInterval, Mesh, Surface, mesh_relation, search_depth
 from tests.core.voxel_solids import Cell, VoxelSolid, box
 from tests.oracles.free_directions import along, directions, is_free, sampled_depth
 
 WORK = 200_000_000
+DEFAULT = math.ceil(DEPTH_BUDGET * WORK_PER_SECOND)
 
 
 def search(a: Mesh, b: Mesh, upper: float, width: float = 0.01, work: int = WORK) -> DepthInterval:
@@ -85,6 +88,8 @@ def torus(turns: int, sides: int, radius: float = 2.0, tube: float = 0.75) -> Me
             faces += [(here, along_u, k * sides + m), (here, k * sides + m, i * sides + m)]
     return Mesh(np.array(points), np.array(faces, dtype=np.uint32))
 
+
+Point = tuple[float, float, float]
 
 CROSSED = (0.4, 0.9, 1.1)  # where the second torus lies: it leans into the tube of the first
 
@@ -169,6 +174,48 @@ def test_an_interval_that_ran_out_of_work_is_wide_but_right() -> None:
         assert part.upper - part.lower > 0.01 * part.upper
         assert part.lower <= full.upper
         assert full.lower <= part.upper
+
+
+def turned(mesh: Mesh, seed: int) -> Mesh:
+    """By any rotation, so that no two faces of different meshes are parallel."""
+    matrix = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    matrix[:, 0] *= np.linalg.det(matrix)
+    return Mesh(mesh.vertices @ matrix.T, mesh.triangles)
+
+
+def bars(sizes_and_middles: list[tuple[Point, Point]]) -> Mesh:
+    """Boxes in one mesh, which may overlap."""
+    cube = box((0, 0, 0), (1, 1, 1)).mesh()
+    points = [
+        (cube.vertices - 0.5) * np.array(size) + np.array(middle)
+        for size, middle in sizes_and_middles
+    ]
+    faces = [cube.triangles + np.uint32(k * len(cube.vertices)) for k in range(len(points))]
+    return Mesh(np.concatenate(points), np.concatenate(faces))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_bars_among_bars_converge(seed: int) -> None:
+    """Thin bars make forbidden sets that overlap but little, with long seams between them."""
+    places = list(itertools.product(np.linspace(-0.4, 0.4, 6).tolist(), repeat=2))
+    rods = bars([((0.03, 0.03, 1.0), (x, y, 0.0)) for x, y in places])
+    edges: list[tuple[Point, Point]] = []
+    for p, q in itertools.product((-0.5, 0.5), repeat=2):
+        edges += [
+            ((1.0, 0.05, 0.05), (0.0, p, q)),
+            ((0.05, 1.0, 0.05), (p, 0.0, q)),
+            ((0.05, 0.05, 1.0), (p, q, 0.0)),
+        ]
+    frame = turned(bars(edges), seed).translated((0.1, 0.2, 0.15))
+    found = search(rods, frame, upper=3.0, work=DEFAULT)
+    assert found.stop == "narrow"
+    assert found.upper - found.lower <= 0.01 * found.upper
+    surface = Surface(frame, True)
+    assert found.way_out is not None
+    assert is_free(rods, surface, found.way_out)
+    for way in directions(300):
+        for share in (0.5, 0.9, 0.999):
+            assert not is_free(rods, surface, along(way, share * found.lower))
 
 
 FAR = 1e9

@@ -265,7 +265,7 @@ class Search {
     poll();
     ++result_.mesh_tests;
     work_done += kVertexWork * a_.mesh.vertices.size();
-    return mesh_relation(moved_.at(t), b_);
+    return overlap_relation(moved_.at(t), b_);
   }
 
   static bool is_free(const MeshRelation& r) {

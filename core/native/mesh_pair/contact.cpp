@@ -130,7 +130,7 @@ PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair cros
   return samples.facts();
 }
 
-PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts) {
+PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> from_a, from_b;
   for (const ContactPair& c : contacts) {
     from_a.emplace_back(c.a, c.b);
@@ -155,7 +155,7 @@ PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<Co
     sheet.prepare_cuts();
     sheet.sample(ContactSide::Cut::all, samples);
   }
-  if (samples.contact_matters()) find_any_contact(a, b, contacts, samples);
+  if (wanted == Wanted::relation && samples.contact_matters()) find_any_contact(a, b, contacts, samples);
   return samples.facts();
 }
 

@@ -15,7 +15,10 @@ struct ContactPair {
 // What a generic point shows at which two triangles cross. Usually that settles the relation.
 PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing);
 
-// Settled or complete facts. `contacts` holds every pair with a common point.
-PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts);
+// Whether boundaries that only touch count, or common interiors alone.
+enum class Wanted { relation, overlap };
+
+// Settled or complete facts, of the contact only where that is wanted. `contacts` holds every pair with a common point.
+PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Wanted wanted);
 
 }  // namespace satcheck

@@ -63,8 +63,9 @@ MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair c
   return make_relation(Relation::penetrating, Evidence{crossing.a, crossing.b, point});
 }
 
-MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts) {
-  MeshRelation result = make_relation(judge_contact(a, b, contacts));
+MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
+                             Wanted wanted) {
+  MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted));
   result.judged = contacts.size();
   return result;
 }
@@ -75,13 +76,13 @@ std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& 
     return crossing_relation(a, b, *found.crossing);
   }
   if (!found.contacts.empty()) return std::nullopt;
-  return judged_relation(a, b, {});
+  return judged_relation(a, b, {}, Wanted::relation);
 }
 
-MeshRelation relation_of_solids(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+MeshRelation relation_of_solids(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
   if (const auto simple = simple_relation_of(a, b, found)) return *simple;
-  if (!found.crossing) return judged_relation(a, b, found.contacts);
-  return judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts);
+  if (!found.crossing) return judged_relation(a, b, found.contacts, wanted);
+  return judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts, wanted);
 }
 
 MeshRelation relation_of_sheets(const Surface& a, const Surface& b, const SurfaceContacts& found) {
@@ -102,13 +103,14 @@ MeshRelation with_counts(MeshRelation result, const SurfaceContacts& found) {
   return result;
 }
 
-MeshRelation relation_in_order(const Surface& a, const Surface& b) {
+MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted) {
   if (same_geometry(a, b)) {
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
-  return with_counts(a.solid || b.solid ? relation_of_solids(a, b, found) : relation_of_sheets(a, b, found), found);
+  const bool solid = a.solid || b.solid;
+  return with_counts(solid ? relation_of_solids(a, b, found, wanted) : relation_of_sheets(a, b, found), found);
 }
 
 std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Surface& b) {
@@ -126,11 +128,15 @@ MeshRelation mirrored(MeshRelation found) {
   return found;
 }
 
+MeshRelation relation_of(const Surface& a, const Surface& b, Wanted wanted) {
+  return comes_before(a, b) ? relation_in_order(a, b, wanted) : mirrored(relation_in_order(b, a, wanted));
+}
+
 }  // namespace
 
-MeshRelation mesh_relation(const Surface& a, const Surface& b) {
-  return comes_before(a, b) ? relation_in_order(a, b) : mirrored(relation_in_order(b, a));
-}
+MeshRelation mesh_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::relation); }
+
+MeshRelation overlap_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::overlap); }
 
 std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
   if (comes_before(a, b)) return simple_relation_in_order(a, b);

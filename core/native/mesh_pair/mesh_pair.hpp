@@ -29,6 +29,10 @@ struct MeshRelation {
 
 MeshRelation mesh_relation(const Surface& a, const Surface& b);
 
+// The same where only a common interior counts, which takes less: `separated` may be touching, and one that `contains`
+// the other, or is `inside`, may reach its surface.
+MeshRelation overlap_relation(const Surface& a, const Surface& b);
+
 // The same of two solids whose boxes differ, where one crossing settles it, or that they have no contact. It looks
 // at little beyond where the boxes of the two meet.
 std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b);

@@ -13,8 +13,8 @@ double half_area(const Aabb& box) {
   return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-// Steps of a pair of boxes, and of a pair of triangles: measured.
-constexpr std::uint64_t kBoxWork = 10, kTriangleWork = 15;
+// Steps of a pair of boxes, of a pair of triangles, and of one that meets: measured.
+constexpr std::uint64_t kBoxWork = 10, kTriangleWork = 15, kContactWork = 150;
 
 class Traversal {
  public:
@@ -41,6 +41,7 @@ class Traversal {
       }
     }
     work_done += kBoxWork * found_.box_tests + kTriangleWork * found_.triangle_tests;
+    work_done += kContactWork * found_.contacts.size();
     return std::move(found_);
   }
 

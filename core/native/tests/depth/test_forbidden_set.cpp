@@ -57,11 +57,40 @@ void random_hulls() {
   }
 }
 
+// Of a part of a box that counts as held, no point is outside; and two halves of a box that one set holds are held.
+void parts_of_boxes() {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> at(-1, 1);
+  const auto point = [&] { return Vec3{at(random), at(random), at(random)}; };
+  int held = 0;
+  for (int k = 0; k < 2000; ++k) {
+    std::vector<Vec3> p, q;
+    for (int i = 0; i < 8; ++i) {
+      p.push_back(point());
+      q.push_back(point());
+    }
+    const ForbiddenSet set = forbidden_set(p, q);
+    const Vec3 centre = point() * 0.6, half = Vec3{0.5 + at(random) / 3, 0.5 + at(random) / 3, 0.5 + at(random) / 3} * 0.6;
+    const Vec3 direction = point(), normal = direction * (1 / norm(direction));
+    const double offset = dot(normal, centre) + 0.3 * at(random);
+    const double length = set.reach_beyond(centre, half, normal, offset, -INFINITY);
+    CHECK(length >= set.reach(centre, half).length);
+    held += length == INFINITY && set.reach(centre, half).length < INFINITY;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 s = point(), t = centre + Vec3{s.x * half.x, s.y * half.y, s.z * half.z};
+      if (dot(normal, t) < offset || norm(t) >= length) continue;
+      CHECK(set.exit(t).depth > 0);
+    }
+  }
+  CHECK(held > 20);
+}
+
 }  // namespace
 
 int main() {
   two_cubes();
   no_volume_no_set();
   random_hulls();
+  parts_of_boxes();
   return exit_status();
 }

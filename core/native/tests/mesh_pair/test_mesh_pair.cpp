@@ -19,10 +19,14 @@ namespace {
 
 const Mesh cube = box({0, 0, 0}, {4, 4, 4});
 
+bool is_free(Relation r) { return r == Relation::separated || r == Relation::touching; }
+
 Relation relate(const Mesh& a, const Mesh& b) {
   const Surface s = make_surface(a, measure_topology(a).solid), t = make_surface(b, measure_topology(b).solid);
   const MeshRelation result = mesh_relation(s, t);
   CHECK(result.proven);
+  const MeshRelation overlap = overlap_relation(s, t);
+  CHECK(overlap.proven && is_free(overlap.relation) == is_free(result.relation));
   return result.relation;
 }
 
