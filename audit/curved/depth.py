@@ -37,7 +37,11 @@ def sandwiched_depth(pair: Pair, move: Vector | None, plan: Plan) -> Depth:
 
 def _depth_with(pair: Pair, *, around: bool) -> Depth | None:
     """None where the meshes do not overlap."""
-    meshes = replace(pair, a=_as_mesh(pair, pair.a, around), b=_as_mesh(pair, pair.b, around))
+    settings = pair.settings
+    if not pair.may("hull"):  # shapes have no oriented boxes, so meshes get none
+        settings = replace(settings, accuracy="aabb")
+    a, b = _as_mesh(pair, pair.a, around), _as_mesh(pair, pair.b, around)
+    meshes = replace(pair, a=a, b=b, settings=settings)
     plan = Plan()
     contact = settle(meshes, plan)
     return measure_depth(meshes, contact, None, plan) if contact.relation in OVERLAPS else None

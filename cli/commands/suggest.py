@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
@@ -22,6 +23,11 @@ from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_opti
 FORMATS = ("toml", "json", "srdf")
 
 
+def _form_of(output: Path | None) -> str:
+    ending = "" if output is None else output.suffix.lower().removeprefix(".")
+    return ending if ending in FORMATS else FORMATS[0]
+
+
 @click.command("suggest", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("SCENE")
 @click.option(
@@ -33,9 +39,8 @@ FORMATS = ("toml", "json", "srdf")
     "--format",
     "form",
     type=click.Choice(FORMATS),
-    default=FORMATS[0],
-    show_default=True,
-    help="Rules for a scene file, data, or disable_collisions for the SRDF of a robot.",
+    help="Rules for a scene file, data, or disable_collisions for the SRDF of a robot. "
+    "[default: as the name after -o ends; else toml]",
 )
 @output_option
 @planar_option
@@ -60,5 +65,6 @@ def command(debug: bool, **options: Any) -> int:
     from satcheck.cli.suggesting import Choices, run
 
     del debug
+    options["form"] = options["form"] or _form_of(options["output"])
     options["posing"] = Posing(*(options.pop(name) for name in POSE_OPTIONS))
     return run(Choices(**options))

@@ -78,7 +78,7 @@ COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
     "poses": (("arm.urdf", "--pose", "arm_poses.json", "--contacts"), "samples"),
     "boxes": (("--accuracy", "aabb", "workcell.json"), "report"),
     "resolve": (("resolve", *PUSHED), "resolution"),
-    "suggest": (("suggest", "--format", "json", "cell.toml"), "suggestions"),
+    "suggest": (("suggest", "cell.toml"), "suggestions"),
     "stability": (("stability", "--samples", "1", *PUSHED), "stability"),
     "tradeoff": (("tradeoff", "--repeat", "1", "--budget", "2", *PUSHED), "tradeoff"),
 }

@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from satcheck.scene.primitives import Cylinder, Sphere
-from tests.audit.curved.bodies import ask, bracket, moved, shape
+from satcheck.scene.primitives import Box, Cylinder, Sphere
+from tests.audit.curved.bodies import ask, bracket, moved, shape, tilted
 
 # Figures are sums and differences of coordinates below 8.
 ROUNDING = 64 * 2.0**-50
@@ -36,3 +36,13 @@ def test_a_shape_in_a_mesh_moves_off_its_face(accuracy: str) -> None:
     assert found.depth_bounds is not None
     assert found.depth_bounds[1] == pytest.approx(0.25, abs=ROUNDING)
     assert found.mtv_verified
+
+
+@pytest.mark.parametrize("accuracy", ["aabb", "obb"])
+def test_boxes_that_meet_have_a_depth_where_oriented_boxes_are_apart(accuracy: str) -> None:
+    """A shape has no oriented box, so the meshes that stand for it are asked without."""
+    slab = shape("slab", Box((1.0, 8.0, 1.0)), tilted(45.0, 0.0, 0.0, 0.0))
+    found = ask(shape("ball", Sphere(0.5), moved(0.0, 2.5, -2.5)), slab, accuracy=accuracy)
+    assert (found.relation, found.quality) == ("penetrating", "estimate")
+    assert found.depth_bounds is not None
+    assert found.depth_bounds[0] == 0.0
