@@ -122,7 +122,8 @@ def _lost_report(body: Lost) -> BodyReport:
 
 
 def _body_report(body: PlacedBody, health: Health) -> BodyReport:
-    file, shape, transform = body.body.file, body.body.shape, body.body.transform
+    file, given = body.body.file, body.body.as_given or body.body
+    shape, transform = given.shape, given.transform
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
     return BodyReport(

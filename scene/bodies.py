@@ -63,6 +63,7 @@ class Body:
     None: all of the file. static: one of the surroundings, see `Scene.check_static`. pinned: stays
     where it is when a scene is pulled apart. units: that the world coordinates are in; None: nobody
     states any. unit_scale: what the transform converts coordinates of the file by; None: nothing.
+    as_given: the body whose outline this one is, in a check in a plane.
     """
 
     id: str
@@ -76,6 +77,7 @@ class Body:
     pinned: bool = False
     units: str | None = None
     unit_scale: float | None = None
+    as_given: Body | None = None
 
     def world_mesh(self) -> Mesh:
         """The mesh in world coordinates, each rounded once; ValueError when one overflows."""

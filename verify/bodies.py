@@ -7,12 +7,13 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
-from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth
+from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.planar.laid_flat import laid_flat
 from satcheck.scene.primitives import Primitive, is_curved, primitive_of
 from satcheck.scene.shape_file import shape_file
 from satcheck.scene.shape_image import image_of
@@ -81,8 +82,35 @@ class Bodies:
         self._files = MeshFiles(allow_outside=allow_outside)
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
+    def place_all(self, entries: list[Any], plane: str | None) -> list[Placed]:
+        """The report's bodies; in a check in a plane the prisms over their outlines, each as the
+        bodies stand together."""
+        if plane is None:
+            return [self.place(entry) for entry in entries]
+        given = [self._find(entry) for entry in entries]
+        bodies = [one[0] for one in given if not isinstance(one, Placed)]
+        flat = laid_flat(Scene("", None, tuple(bodies)), cast(Any, plane))
+        prisms = {body.id: body.file for body in flat.bodies}
+        return [
+            one if isinstance(one, Placed) else _outline(one[0], prisms.get(one[0].id), entry)
+            for one, entry in zip(given, entries, strict=True)
+        ]
+
     def place(self, entry: Any) -> Placed:
         """entry: one of the report's bodies. A file that is gone or has changed is a reason."""
+        found = self._find(entry)
+        if isinstance(found, Placed):
+            return found
+        body, shape = found
+        try:
+            placed = place_shape(body.id, body.groups, shape, body.transform)
+            _check_figures(entry, shape, placed.resolution)
+        except Rejected as why:
+            return _lost(body, str(why))
+        return replace(placed, static=body.static)
+
+    def _find(self, entry: Any) -> tuple[Body, Shape] | Placed:
+        """The body as the report places it, or why it cannot be had."""
         if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
             raise Rejected("a body of the report has no id")
         listed = entry.get("groups")
@@ -112,9 +140,12 @@ class Bodies:
             reason = f"{file} has changed: its SHA-256 is another"
             return Placed(name, groups, None, static=static, reason=reason)
         try:
-            return replace(self._placed(name, groups, shape, entry), static=static)
+            pose = _pose(entry.get("transform"))
         except Rejected as why:
             return Placed(name, groups, None, static=static, reason=str(why))
+        primitive = None if values is None else primitive_of(values)
+        found = Body(name, name, shape.file, pose, tuple(listed), static=static, shape=primitive)
+        return found, shape
 
     def _read(self, file: str, path: str | None) -> Shape | Missing | str:
         """The file, or the mesh of its node `path`."""
@@ -144,12 +175,23 @@ class Bodies:
                 self._shapes[key] = f"{file}: not a shape: {error}"
         return self._shapes[key]
 
-    def _placed(
-        self, name: str, groups: frozenset[str], shape: Shape, entry: dict[str, Any]
-    ) -> Placed:
-        placed = place_shape(name, groups, shape, _pose(entry.get("transform")))
+
+def _lost(body: Body, reason: str) -> Placed:
+    return Placed(body.id, frozenset(body.groups), None, static=body.static, reason=reason)
+
+
+def _outline(body: Body, prism: MeshFile | None, entry: dict[str, Any]) -> Placed:
+    if prism is None:
+        return _lost(body, "it has no outline in the plane")
+    shape = _checked_shape(prism)
+    if isinstance(shape, str):
+        return _lost(body, shape)
+    try:
+        placed = place_shape(body.id, body.groups, shape, None)
         _check_figures(entry, shape, placed.resolution)
-        return placed
+    except Rejected as why:
+        return _lost(body, str(why))
+    return replace(placed, static=body.static)
 
 
 def _check_figures(entry: dict[str, Any], shape: Shape, resolution: float) -> None:

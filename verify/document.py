@@ -15,6 +15,7 @@ from satcheck.verify.coverage import Uncovered, uncovered
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
+from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import Departure, departures
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
 
@@ -166,7 +167,8 @@ class _Report:
         self.document = document
         self.findings = _list(document, "findings")
         self.asked = _asked(_object(document, "settings"))
-        placed = [reader.place(entry) for entry in _list(document, "bodies")]
+        plane = document["settings"]["planar"]
+        placed = reader.place_all(_list(document, "bodies"), plane)
         self.bodies = {body.id: body for body in placed}
         if len(self.bodies) < len(placed):
             raise Rejected("not a report: two bodies have one id")
@@ -181,8 +183,6 @@ class _Report:
         self.faults = [f"{b.id}: {b.reason}" for b in unplaced]
         self.beyond: list[str] = []
         self.faults += _faults_of_issues(document, self.bodies)
-        if document["settings"]["planar"] is not None:
-            self.beyond.append("bodies are outlines in a plane")
         if document.get("motions"):
             self.beyond.append("bodies move: what happens on the way is not certified")
 
@@ -392,4 +392,5 @@ def _asked(settings: dict[str, Any]) -> Asked:
         None if tolerance == "input-precision" else float(number(tolerance)),
         None if clearance is None else float(number(clearance)),
         settings.get("allow_open") is True,
+        across=None if (plane := settings["planar"]) is None else ACROSS[plane],
     )

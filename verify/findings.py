@@ -25,6 +25,7 @@ from satcheck.verify.figures import (
     rounding_of,
     shows_direction,
 )
+from satcheck.verify.in_plane import check_in_plane, check_proof_in_plane, reaching
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import OVERLAPS, Pair, prove, prove_free
 from satcheck.verify.rules import Asked
@@ -63,10 +64,15 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     pair = pair_of(a, b, a.world, b.world)
     relation, exact = finding.get("relation"), finding.get("exact_relation")
     separated = relation == "separated"
+    proof, ends = member(certificate, "relation"), pair
+    if asked.across is not None:
+        check_in_plane(finding, asked.across)
+        ends = pair_of(a, b, *reaching(str(exact), a.world, b.world, asked.across))
+        check_proof_in_plane(proof, ends, asked.across)
     hulls_apart = prove(
-        exact if isinstance(exact, str) else "",
-        member(certificate, "relation"),
-        pair,
+        str(exact),
+        proof,
+        ends,
         tolerance if separated else Fraction(0),
         _least(finding, asked),
     )

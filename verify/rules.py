@@ -28,7 +28,8 @@ KEYS = ("allowed", *NUMBERS, "severity")
 @dataclass(frozen=True, slots=True)
 class Asked:
     """What the report says is asked of a pair. tolerance: None: the input precision. severity: of
-    its errors; None: error. names: key -> the name of the rule that sets it."""
+    its errors; None: error. names: key -> the name of the rule that sets it. across: the axis
+    across the plane in which the bodies are outlines; None: they are as they are."""
 
     tolerance: float | None
     clearance: float | None
@@ -37,6 +38,7 @@ class Asked:
     max_volume: float | None = None
     severity: str | None = None
     names: Mapping[str, str] = field(default_factory=dict)
+    across: int | None = None
 
     def name(self, key: str) -> str | None:
         """Of the rule that sets the key; None: none does."""

@@ -95,7 +95,7 @@ class Settings:
         for name in ("contacts", "volume"):
             if getattr(self, name) and self.accuracy != "exact":
                 raise _refused(f"{name} is found on triangles: not at accuracy {self.accuracy}")
-        for name in ("volume", "contacts", "cross_check", "certificate"):
+        for name in ("volume", "contacts", "cross_check"):
             if self.planar is not None and getattr(self, name):
                 raise _refused(f"{name} is about bodies in space: not with planar")
         if self.planar not in (None, *PLANES):

@@ -13,11 +13,13 @@ from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.report.report import OVERLAPS, Finding
 from satcheck.audit.report.report_values import plain
+from satcheck.core.conventions import axis_across
 from satcheck.verify import Rejected
 from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector
 from satcheck.verify.figures import rounding_of
 from satcheck.verify.findings import check_finding, depth_at_most, pair_of
+from satcheck.verify.in_plane import reaching
 from satcheck.verify.rules import Asked
 
 Json = dict[str, Any]
@@ -37,6 +39,7 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
         pair.asked.max_volume,
         pair.asked.severity,
         pair.asked.rules or {},
+        None if (plane := pair.settings.planar) is None else axis_across(plane),
     )
     if pair.curved:
         from satcheck.audit.certify.curved import make
@@ -61,7 +64,12 @@ class _Maker:
             raise AssertionError("a placed body has a world mesh")
         self.a, self.b = a, b
         self.worlds = a.world, b.world
-        self.placed = pair_of(a, b, a.world, b.world)
+        self.placed = self.ends = pair_of(a, b, a.world, b.world)
+        plane = pair.settings.planar
+        self.across = None if plane is None else axis_across(plane)
+        if self.across is not None:
+            relation = str(finding.exact_relation)
+            self.ends = pair_of(a, b, *reaching(relation, a.world, b.world, self.across))
 
     def make(self) -> Json | str:
         finding = self.finding
@@ -82,7 +90,7 @@ class _Maker:
         return certificate
 
     def _relation(self) -> Json | None:
-        exact, placed = self.finding.exact_relation, self.placed
+        exact, placed = self.finding.exact_relation, self.ends
         if exact == "separated":
             return self._apart()
         if exact == "touching":
@@ -93,7 +101,9 @@ class _Maker:
             both = overlaps.inside_both(placed) if solids else None
             return proof if both is None else {**proof, "both": both}
         if solids == 2:
-            return self._hulls_overlap() or overlaps.overlap(placed, self._hint())
+            return self._hulls_overlap() or overlaps.overlap(
+                placed, self._hint(), across=self.across
+            )
         return (overlaps.sheet_overlap if solids else overlaps.crossing)(placed, self._hint())
 
     def _hint(self) -> tuple[int, int] | None:
@@ -158,14 +168,16 @@ class _Maker:
         """For convex bodies that stick out of each other."""
         if not self.placed.convex:
             return None
-        found = expanded(self.placed, Fraction(0))
+        found = expanded(self.ends, Fraction(0))
         if found is None or not found.overlaps:
             return None
         leads: Json = {}
         for axis in range(3):
+            if axis == self.across:
+                continue
             for side in (1, -1):
                 n = [side if k == axis else 0 for k in range(3)]
-                lead = self.placed.a.extent(n) - self.placed.b.extent(n)
+                lead = self.ends.a.extent(n) - self.ends.b.extent(n)
                 if lead > 0:
                     leads.setdefault("a_reaches", n)
                 elif lead < 0:

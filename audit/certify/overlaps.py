@@ -64,14 +64,27 @@ def contacts(pair: Pair, hint: tuple[int, int] | None) -> Iterator[tuple[int, in
             yield s, t
 
 
-def boundary_contact(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
-    """A common point of the boundaries."""
+def boundary_contact(
+    pair: Pair, hint: tuple[int, int] | None, across: int | None = None
+) -> Json | None:
+    """A common point of the boundaries. across: of prisms along this axis, one between their ends,
+    in the middle of what two of their walls share."""
     of_a, of_b = Boundary(pair.a), Boundary(pair.b)
+    ends = set() if across is None else {abs(p[across]) for p in pair.a.points}
     for s, t in contacts(pair, hint):
         for p, q in product(of_a.pieces(s), of_b.pieces(t)):
-            for point in common(p, q)[:1]:
-                return {"a": point_of(pair.a, s, point), "b": point_of(pair.b, t, point)}
+            shared = common(p, q)
+            for point in shared[:1] if across is None else _middle(shared):
+                if across is None or abs(point[across]) not in ends:
+                    return {"a": point_of(pair.a, s, point), "b": point_of(pair.b, t, point)}
     return None
+
+
+def _middle(points: list[Point]) -> list[Point]:
+    if not points:
+        return []
+    x, y, z = (sum((p[k] for p in points), Fraction()) / len(points) for k in range(3))
+    return [(x, y, z)]
 
 
 def point_of(body: Exact, triangle: int, p: Point) -> Json:
@@ -84,7 +97,7 @@ def _minus(p: Any, q: Point) -> Any:
     return tuple(c - d for c, d in zip(p, q, strict=True))
 
 
-def overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
+def overlap(pair: Pair, hint: tuple[int, int] | None, across: int | None = None) -> Json | None:
     """For solids: a point inside both, and one inside each alone; or one inside one of them alone,
     and one where both end.
 
@@ -104,7 +117,9 @@ def overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
         _search_regions(pair, found, _is_complete)
     if not _shows_overlap(found):
         _search_cells(pair, found, _shows_overlap)
-    meet = None if _is_complete(found) else boundary_contact(pair, hint)
+    meet = None if _is_complete(found) else boundary_contact(pair, hint, across)
+    if meet is None and not _is_complete(found):
+        _search_regions(pair, found, _is_complete)
     if meet is None and not _is_complete(found):
         _search_cells(pair, found, _is_complete)
     if not (_is_complete(found) or (meet and _shows_overlap(found))):

@@ -139,7 +139,7 @@ def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
         health=examined.health,
         outline=None if corners is None else tuple(map(tuple, corners.tolist())),
     )
-    return replace(body, file=file, transform=None, shape=None)
+    return replace(body, file=file, transform=None, shape=None, as_given=body)
 
 
 def _stood_up(mesh: Mesh, plane: Plane) -> Mesh:
