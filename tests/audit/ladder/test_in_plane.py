@@ -229,7 +229,7 @@ def test_seen_edge_on_is_unreadable() -> None:
     assert [issue.code for issue in report.issues if issue.severity == "error"] == ["no-outline"]
 
 
-@pytest.mark.parametrize("asked", ["volume", "contacts", "cross_check", "certificate"])
+@pytest.mark.parametrize("asked", ["volume", "contacts", "cross_check"])
 def test_what_is_about_space_is_refused(asked: str) -> None:
     with pytest.raises(SatcheckError, match="planar"):
         Settings(planar="xy", **{asked: True})  # type: ignore[arg-type]
