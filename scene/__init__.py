@@ -1,9 +1,9 @@
 """satcheck.scene: files -> bodies, with what is known about each mesh before anything trusts it.
 
-`load_scene(paths)` reads mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE), scene files
-(`satcheck.scene/1`, `satcheck-scene-1`) and robots (URDF, SRDF; `scene.robot` poses them). A mesh
-file that cannot be used is reported as `Unreadable`; warnings about the others are `Issue`s with
-the stable codes of `CODES`.
+`load_scene(paths)` reads mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML),
+scene files (`satcheck.scene/1`, `satcheck-scene-1`) and robots (URDF, SRDF; `scene.robot` poses
+them). A mesh file that cannot be used is reported as `Unreadable`; warnings about the others are
+`Issue`s with the stable codes of `CODES`.
 """
 
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable

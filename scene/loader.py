@@ -40,10 +40,11 @@ def load_scene(
     which none is known have `units` None, and pairs of them with others are not decided. units: of
     the inputs that state none. Up-axes are not converted. split: which bodies a mesh file is.
     "none": one, the whole file, flattened (nodes, instances and build items applied). "nodes": one
-    for each node of a GLB or glTF file with a mesh, and for each way from the build of a 3MF file
-    to an object with a mesh; other formats have no nodes. "components": these taken apart into
-    pieces that share no edge. None: "nodes" for one file alone, otherwise "none". Files without
-    bodies of their own, of rules or SRDF, count as no file here: they change no body and no id.
+    for each node of a GLB or glTF file with a mesh, and for each way from the build of a 3MF file,
+    or the root of a 3DXML file, to an object with a mesh; other formats have no nodes.
+    "components": these taken apart into pieces that share no edge. None: "nodes" for one file
+    alone, otherwise "none". Files without bodies of their own, of rules or SRDF, count as no file
+    here: they change no body and no id.
     A `.toml` file is a scene of the form satcheck.scene/1, a `.json` file one of this form or of
     satcheck-scene-1; its groups are its own, and get -2, -3, ... where several scenes have them;
     its rules are about its own bodies, mesh files and robots, without own bodies about all.

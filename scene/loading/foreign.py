@@ -31,7 +31,7 @@ def read_foreign(
     seconds: float,
     megabytes: int,
 ) -> RawScene:
-    """The meshes of a GLB, glTF, 3MF, DAE or ZAE file; flat: as one mesh. Raises MeshFileError."""
+    """The meshes of a file of such a format; flat: as one mesh. Raises MeshFileError."""
     directory = str(source.location.absolute().parent)
     request = protocol.pack_request(
         source.format, directory, source.data, flat=flat, allow_outside=allow_outside

@@ -1,4 +1,4 @@
-"""The reading child: checks a GLB, glTF, 3MF, DAE or ZAE file, reads it, checks what came out."""
+"""The reading child: checks a file, reads it, checks what came out."""
 
 from __future__ import annotations
 
@@ -33,6 +33,14 @@ def _read(request: protocol.Request) -> RawScene:
         from satcheck.scene.loading.collada import read_collada
 
         return alone(read_collada(bytes(request.data)))
+    if request.format == "3dxml":
+        from satcheck.scene.loading.threedxml import read_3dxml
+
+        return read_3dxml(request.data)
+    if request.format == "xaml":
+        from satcheck.scene.loading.xaml import read_xaml
+
+        return alone(read_xaml(request.data))
     if request.format == "zae":
         from satcheck.scene.loading.zae import read_zae
 

@@ -24,6 +24,8 @@ FORMATS = {
     ".3mf": "3mf",
     ".dae": "dae",
     ".zae": "zae",
+    ".3dxml": "3dxml",
+    ".xaml": "xaml",
 }
 
 _MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")
@@ -45,7 +47,7 @@ _SIGNATURES = (
     (b"\x1f\x8b", "gzip data", ()),
     (b"\x7fELF", "an ELF program", ()),
     (b"glTF", "a GLB file", ("glb",)),
-    (b"PK\x03\x04", "a zip archive", ("3mf", "zae")),
+    (b"PK\x03\x04", "a zip archive", ("3mf", "zae", "3dxml")),
     (b"ply\n", "a PLY file", ("ply",)),
     (b"ply\r\n", "a PLY file", ("ply",)),
 )

@@ -12,6 +12,7 @@ from typing import IO
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh
+from satcheck.scene.loading.written_mesh import digits_of
 from satcheck.scene.loading.xml_guard import (
     UNDECLARED,
     UndeclaredPrefixes,
@@ -259,10 +260,6 @@ class _ModelReader:
 
 
 def _note_digits(object_: Object, text: str) -> None:
-    mantissa, exponent, _ = text.lower().partition("e")
-    if exponent:
-        digits = len(mantissa.lstrip("+-0.").replace(".", ""))
-        object_.significant = max(object_.significant, digits)
-    else:
-        decimals = len(mantissa.rstrip().partition(".")[2])
-        object_.decimals = max(object_.decimals, decimals)
+    decimals, significant = digits_of(text)
+    object_.decimals = max(object_.decimals, decimals)
+    object_.significant = max(object_.significant, significant)
