@@ -207,8 +207,8 @@ def command(**options: Any) -> int:
     A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), each one
     body; scenes (TOML or JSON: satcheck.scene/1, satcheck-scene-1) with several; robots (URDF, and
     the SRDF about it), each link of which is one; or drawings (SVG, DXF), with --planar. One GLB,
-    glTF, 3MF or 3DXML file alone is a scene too: each node with a mesh is a body. Every pair of bodies is checked,
-    in the coordinates of the files. A body inside another collides with it.
+    glTF, 3MF or 3DXML file alone is a scene too: each node with a mesh is a body. Every pair of
+    bodies is checked, in the coordinates of the files. A body inside another collides with it.
 
     A LENGTH is a number in the units of the files. Where a scene declares its units, it may
     carry one of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
