@@ -77,8 +77,19 @@ def _known(path: Path) -> os.stat_result | None:
 
 
 def _write_in_place(path: Path, pieces: Iterable[bytes]) -> None:
-    with path.open("wb") as stream:
+    number = _descriptor(str(path))
+    # Opened by its name once more, what a shell redirects would be cut off and begin anew.
+    with path.open("wb") if number is None else os.fdopen(os.dup(number), "wb") as stream:
         stream.writelines(pieces)
+
+
+def _descriptor(path: str) -> int | None:
+    """The number of the descriptor that the path names."""
+    named = {"/dev/stdout": 1, "/dev/stderr": 2}
+    folder, _, number = path.rpartition("/")
+    if folder in ("/dev/fd", "/proc/self/fd") and number.isdecimal():
+        return int(number)
+    return named.get(path)
 
 
 def _to_disk(descriptor: int) -> None:

@@ -167,6 +167,20 @@ def test_standard_output_by_its_name(tmp_path: Path, name: str) -> None:
     assert json.loads(text.removeprefix("before\n").partition("after")[0])
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="needs /dev/stderr")
+@pytest.mark.parametrize("name", ["/dev/stderr", "/dev/fd/2"])
+def test_what_is_open_already_is_not_cut_off(tmp_path: Path, name: str) -> None:
+    with (tmp_path / "log").open("w") as log:
+        log.write("before\n")
+        log.flush()
+        arguments = command("--format", "json", "-o", name, *PUSHED)
+        subprocess.run(arguments, cwd=SAMPLES, env=environment(), stderr=log, check=False)
+    text = (tmp_path / "log").read_text(encoding="utf-8")
+    document, _, last = text.removeprefix("before\n").rpartition("}\n")
+    assert json.loads(document + "}")["schema"] == "satcheck.report/1"
+    assert last == f"2 bodies, 1 pair: 1 penetrating. Depth 1. Report: {name}\n"
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_a_device_that_is_full() -> None:
     ran = satcheck("--format", "json", "-o", "/dev/full", *PUSHED)
