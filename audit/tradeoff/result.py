@@ -80,7 +80,7 @@ class Row:
             "relation": self.relation,
             "proven": self.proven,
             "right": self.right,
-            "distance": None if figure is None else figure.value,
+            "signed_distance": None if figure is None else figure.value,
             "bounds": None if figure is None else [figure.low, figure.high],
             "width": None if figure is None else figure.width,
             "error": self.error,
