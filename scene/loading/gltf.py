@@ -182,7 +182,7 @@ class _Scene:
         rotations = columns("ROTATION", "VEC4")
         scales = columns("SCALE", "VEC3")
         counts = {len(given) for given in (translations, rotations, scales) if given is not None}
-        if len(counts) != 1:
+        if len(counts) != 1 or 0 in counts:
             raise MeshFileError("count-mismatch", f"node {node.key}: how many instances is unclear")
         (count,) = counts
         self._copied += count

@@ -23,8 +23,12 @@ class Unpacked:
     def __init__(
         self, accessors: Accessors, packed: dict[str, Any], attributes: dict[str, Any]
     ) -> None:
-        import DracoPy
-
+        try:
+            import DracoPy
+        except ImportError:
+            raise MeshFileError(
+                "unsupported-feature", "Draco data is read by DracoPy: pip install DracoPy"
+            ) from None
         self._accessors = accessors
         self._attributes = attributes
         ids = packed.get("attributes")

@@ -22,7 +22,7 @@ def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]
             yield archive
     except zipfile.BadZipFile as error:
         raise MeshFileError("not-this-format", f"not {kind}: {error}") from None
-    except (zlib.error, EOFError) as error:
+    except (zlib.error, EOFError, ValueError) as error:  # ValueError: an offset before its start
         raise MeshFileError("bad-record", f"damaged zip data: {error}") from None
     except (RuntimeError, NotImplementedError) as error:  # encrypted, or an unknown compression
         raise MeshFileError("unsupported-feature", f"zip: {error}") from None

@@ -137,6 +137,14 @@ def test_normalized_rotations_of_instances(tmp_path):
     assert body.world_mesh().bounds == ((-1, -1, 0), (0, 0, 1))
 
 
+def test_a_node_that_draws_no_instance_is_refused(tmp_path):
+    document = Document()
+    empty = document.accessor(b"", "VEC3", 0)
+    instancing = {"attributes": {"TRANSLATION": empty}}
+    document.json["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": instancing}
+    assert refusal(tmp_path, "a.glb", document.glb())[0] == "count-mismatch"
+
+
 def test_instances_that_disagree_on_their_number_are_refused(tmp_path):
     document = Document()
     attributes = {
