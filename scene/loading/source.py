@@ -46,6 +46,7 @@ _SIGNATURES = (
     (b"%PDF", "a PDF document", ()),
     (b"\x1f\x8b", "gzip data", ()),
     (b"\x7fELF", "an ELF program", ()),
+    (b"version https://git-lfs", "a Git LFS pointer: git lfs pull fetches the file", ()),
     (b"glTF", "a GLB file", ("glb",)),
     (b"PK\x03\x04", "a zip archive", ("3mf", "zae", "3dxml")),
     (b"ply\n", "a PLY file", ("ply",)),

@@ -1,5 +1,7 @@
 // Stereolithography files: "StereoLithography Interface Specification", 3D Systems, 1989. Facet normals and
 // attribute bytes are ignored: the corners carry the orientation.
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "base/large_pages.hpp"
@@ -199,19 +201,21 @@ class AsciiStlReader {
       mesh_.triangles.push_back(corners_.number(point, corners_.hash(&point), mesh_.vertices));
     }
     expect_end("endloop");
+    skip_remark();
     expect_end("endfacet");
     skip_remark();
   }
 
-  // Some exporters write a number or a colour behind `endfacet`. The next statement may follow in that line, too.
+  // What some exporters write behind the end of a loop or facet, as a number or a colour: up to the end of the line, or up
+  // to a word that belongs to the format.
   void skip_remark() {
+    static constexpr std::array<std::string_view, 9> keywords = {"facet", "outer",   "loop",     "vertex",  "solid",
+                                                          "end",   "endloop", "endfacet", "endsolid"};
+    const auto is_keyword = [](std::string_view word) {
+      return std::any_of(keywords.begin(), keywords.end(), [&](std::string_view known) { return same_word(word, known); });
+    };
     std::string_view word;
-    while (words_.peek_in_line(word) && !same_word(word, "facet") && !same_word(word.substr(0, 3), "end")) {
-      if (same_word(word, "outer") || same_word(word, "vertex") || same_word(word, "solid")) {
-        expected("facet or endsolid", word);
-      }
-      words_.next_in_line(word);
-    }
+    while (words_.peek_in_line(word) && !is_keyword(word)) words_.next_in_line(word);
   }
 
   StlWords words_;

@@ -71,6 +71,11 @@ REFUSED = {
     "bad_slash.obj": (CUBE + b"f 1 2 3/x\n", "bad-record", "'3/x'"),
     "stl.obj": (STL, "format-mismatch", "binary STL"),
     "png.stl": (b"\x89PNG\r\n\x1a\n" + b"\0" * 90, "format-mismatch", "PNG"),
+    "pointer.glb": (
+        b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n",
+        "format-mismatch",
+        "git lfs pull",
+    ),
     "short.stl": (b"hello", "not-this-format", "5 bytes"),
     "empty.stl": (b"", "not-this-format", "0 bytes"),
     "obj.stl": (CUBE, "format-mismatch", "looks like an OBJ file"),

@@ -11,6 +11,7 @@ CUBE = files.ascii_stl()
 SPELLINGS = {
     "numbered": CUBE.replace(b"endfacet", b"endfacet 7"),
     "coloured": CUBE.replace(b"endfacet", b"endfacet color 0.5 0.5 1"),
+    "remarks": CUBE.replace(b"endloop", b"endloop foo ").replace(b"endfacet", b"endfacet bar"),
     "apart": CUBE.replace(b"endloop", b"end loop").replace(b"endfacet", b"end facet"),
     "end-solid": CUBE.replace(b"endsolid cube", b"end solid cube"),
     "nameless": CUBE.replace(b"solid cube", b"solid"),
@@ -47,6 +48,7 @@ def test_several_solids_are_one_mesh(tmp_path):
         CUBE.replace(b"endfacet", b"endfacet vertex 0 0 0", 1),
         CUBE.replace(b"endfacet", b"endfacet outer loop", 1),
         CUBE.replace(b"endfacet", b"endfacets", 1),
+        CUBE.replace(b"endloop", b"endloop x vertex 0 0 0", 1),
         CUBE.replace(b"endsolid cube", b"endsolid cube facet normal 0 0 1"),
         CUBE.replace(b"endloop", b"vertex 1 1 1\nendloop", 1),
     ],
