@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from satcheck import core
@@ -56,8 +57,23 @@ def _convex_depth(pair: Pair, result: core.PairResult | Signed, plan: Plan) -> D
     value = max(-result.distance, 0.0)
     escape = verified_escape(pair, value, result.normal, plan)
     lower = value if result.upper is None else min(max(0.0, -result.upper), value)
-    upper = escape.bound if result.lower is None else min(-result.lower, escape.bound)
+    upper = escape.bound if result.lower is None else -result.lower
+    if pair.curved:
+        upper = min(upper, escape.bound)
+    elif frees_boxes(pair, value, result.normal):
+        upper = value
     witness = None
     if result.witness_a is not None and result.witness_b is not None:
         witness = Witness(result.witness_a, result.witness_b)
     return Depth(lower, max(upper, value), result.normal, escape, witness)
+
+
+def frees_boxes(pair: Pair, length: float, normal: Vector) -> bool:
+    """Whether a translation of A along an axis, as long as that and without any rounding, takes its
+    world box off that of B. Then it bounds the depth whichever body is moved."""
+    axes = [axis for axis in range(3) if normal[axis]]
+    if len(axes) != 1 or abs(normal[axes[0]]) != 1.0:
+        return False
+    axis = axes[0]
+    ahead, behind = (pair.b, pair.a) if normal[axis] > 0 else (pair.a, pair.b)
+    return math.fsum((behind.bounds[1][axis], -ahead.bounds[0][axis], -length)) <= 0

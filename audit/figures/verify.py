@@ -59,7 +59,11 @@ def relation_after(pair: Pair, translation: Vector) -> str:
         return "separated" if frees(pair, translation) else "penetrating"
     moved = pair.a.mesh.translated(translation)
     if pair.may("exact"):
-        found = core.mesh_relation(pair.a.surface().refit(moved), pair.b.surface())
+        try:
+            surface = pair.a.surface().refit(moved)
+        except ValueError:  # rounding has made one point of several: no longer the same solid
+            return "unproven"
+        found = core.mesh_relation(surface, pair.b.surface())
         return found.relation if found.proven else "unproven"
     return core.check_pair(
         core.Hull(moved.convex_hull()), pair.b.hull_shape(), query="overlap"
