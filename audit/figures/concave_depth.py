@@ -16,7 +16,7 @@ from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import crossing_depth
-from satcheck.audit.figures.depth import Depth
+from satcheck.audit.figures.depth import Depth, frees_boxes
 from satcheck.audit.figures.verify import Escape, verified_escape
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
@@ -46,6 +46,8 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
     elif contact.proven and pair.may("parts"):
         lower = max(lower, depth_of_parts(pair, plan))
     escape, normal = _shortest_escape(pair, ways, plan)
+    if frees_boxes(pair, hulls.length, hulls.normal):
+        upper = min(upper, hulls.length)
     upper = min(upper, escape.bound)
     return Depth(min(lower, upper), upper, normal, escape)
 
