@@ -25,7 +25,7 @@ def test_within_the_range_scale_changes_nothing(scale: float) -> None:
     assert result.distance == pytest.approx(-0.25 / np.sqrt(3) * scale, rel=1e-12)
 
 
-@pytest.mark.parametrize("coordinate", [1e46, -1e200, 1e-81, 5e-324])
+@pytest.mark.parametrize("coordinate", [1e46, -1e200])
 def test_beyond_it_meshes_hulls_and_poses_are_refused(coordinate: float) -> None:
     points = TETRAHEDRON.copy()
     points[1, 0] = coordinate
@@ -39,12 +39,12 @@ def test_beyond_it_meshes_hulls_and_poses_are_refused(coordinate: float) -> None
 
 
 def test_the_limits_are_those_of_the_readme() -> None:
-    corner = np.array([[1e-80, 0, 0], [1e-45, 0, 0], [0, 1e-45, 0], [0, 0, 1e45]])
+    corner = np.array([[5e-324, 0, 0], [1e-45, 0, 0], [0, 1e-45, 0], [0, 0, 1e45]])
     assert len(core.Mesh(corner, FACES).vertices) == 4
     with pytest.raises(OverflowError, match="below 1e-45"):
         core.Mesh(TETRAHEDRON * 9e-46, FACES)
-    limits = next(line for line in README.read_text("utf-8").splitlines() if "1e-80" in line)
-    assert "between 1e-80 and 1e45" in limits
+    limits = next(line for line in README.read_text("utf-8").splitlines() if "1e45" in line)
+    assert "at most 1e45" in limits
     assert "at least 1e-45 across" in limits
 
 

@@ -25,15 +25,15 @@ struct Extent {
 
 SATCHECK_WIDE Extent measure(const Vec3* points, std::size_t count) {
   Extent extent;
-  const Lanes none = all_lanes(0.0), least = all_lanes(kSmallestCoordinate), largest = all_lanes(kLargestCoordinate);
+  const Lanes largest = all_lanes(kLargestCoordinate);
   const Lanes infinite = all_lanes(INFINITY);
   ThreeLanes low{{infinite, infinite, infinite}}, high{{-infinite, -infinite, -infinite}};
-  LaneMask fine = none == none;
+  LaneMask fine = largest == largest;
   std::size_t i = 0;
   for (; i + 4 <= count; i += 4) {
     for (int k = 0; k < 3; ++k) {
-      const Lanes c = load_lanes(&points[i].x + 4 * k), size = abs(c);
-      fine = fine & ((c == none) | ((size >= least) & (size <= largest)));
+      const Lanes c = load_lanes(&points[i].x + 4 * k);
+      fine = fine & (abs(c) <= largest);
       low.lane[k] = smaller(c, low.lane[k]);
       high.lane[k] = larger(c, high.lane[k]);
     }
@@ -66,7 +66,7 @@ void require_in_range(std::span<const Vec3> points, const char* what) {
     if (in_range(p.x) && in_range(p.y) && in_range(p.z)) continue;
     const std::string where = std::string(what) + " " + std::to_string(i);
     if (!is_finite(p)) throw std::invalid_argument(where + " is not finite");
-    throw std::overflow_error(where + " is out of range: coordinates other than 0 lie between 1e-80 and 1e45");
+    throw std::overflow_error(where + " is out of range: no coordinate is larger than 1e45");
   }
   throw std::overflow_error("the size is out of range: it is below 1e-45");
 }

@@ -1,9 +1,8 @@
 // The coordinates that the core works with, checked wherever coordinates enter it.
 //
 // Largest: the float64 stages multiply up to six coordinate differences, and (2e45)^6 is finite.
-// Smallest size: likewise (1e-45)^6 is no subnormal. Smallest non-zero coordinate: two different
-// doubles of at least 1e-80 differ by a multiple of 1e-97, so that the terms of an exact product of three
-// differences are multiples of 1e-291, which float64 holds.
+// Smallest size: likewise (1e-45)^6 is no subnormal. A single coordinate may be as small as float64 goes: no sign hangs
+// on a product that underflows (exact/predicates.hpp).
 #pragma once
 
 #include <span>
@@ -13,13 +12,9 @@
 namespace satcheck {
 
 inline constexpr double kLargestCoordinate = 1e45;
-inline constexpr double kSmallestCoordinate = 1e-80;
 inline constexpr double kSmallestSize = 1e-45;
 
-inline bool in_range(double coordinate) {
-  const double size = std::fabs(coordinate);
-  return (size == 0) | ((size >= kSmallestCoordinate) & (size <= kLargestCoordinate));  // without a jump
-}
+inline bool in_range(double coordinate) { return std::fabs(coordinate) <= kLargestCoordinate; }
 
 // Whether require_in_range() accepts points that were computed, not given.
 bool are_in_range(std::span<const Vec3> points);

@@ -125,7 +125,7 @@ auto rows_view(const std::vector<Row>& rows, nb::handle owner) {
 void bind_mesh_class(nb::module_& m) {
   nb::class_<Mesh>(m, "Mesh", R"(Immutable triangle mesh: vertices (n, 3) float64, triangles (m, 3) int32, int64 or uint32, counter-clockwise
 seen from outside. ValueError when an index is out of range or a coordinate is not finite, OverflowError
-when a coordinate other than 0 lies outside 1e-80 .. 1e45, beyond which nothing is proven.)")
+when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing is proven there.)")
       .def("__init__", &construct_mesh<std::uint32_t>, "vertices"_a.noconvert(),
            "triangles"_a.noconvert())
       .def("__init__", &construct_mesh<std::int32_t>, "vertices"_a.noconvert(),

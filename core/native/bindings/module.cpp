@@ -91,8 +91,8 @@ void bind_shapes(nb::module_& m) {
       .def_prop_ro("dimension", [](const Shape& s) { return s.is_polytope() ? s.polytope.dimension : 3; });
   nb::class_<HullShape, Shape>(m, "Hull",
                               R"(Convex hull of points, an (n, 3) float64 array or a sequence of (x, y, z), n >= 1, or of a
-Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite, OverflowError when one other than 0 lies
-outside 1e-80 .. 1e45, beyond which nothing is proven.)")
+Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite, OverflowError when one is
+beyond 1e45 or the points are less than 1e-45 across: nothing is proven there.)")
       .def(
           "__init__", [](HullShape* self, const Points& points) { new (self) HullShape{make_hull(to_points(points))}; },
           nb::arg("points").noconvert())

@@ -86,8 +86,11 @@ void place_witnesses(ExactFigure& figure, const ExactDifference& difference,
 ExactFigure rooted(const Dyadic& numerator, const Dyadic& denominator) {
   // The ratio is within 2 ulp, 4 roundoffs; the root halves that and adds one of its own.
   constexpr double kRootError = 4 * kUnitRoundoff;
+  // The square of a very short length underflows.
+  const double square = rounded_ratio(numerator, denominator);
+  const Dyadic longer = Dyadic(0x1p1000) * Dyadic(0x1p1000);
   ExactFigure figure;
-  figure.value = std::sqrt(rounded_ratio(numerator, denominator));
+  figure.value = square > 0x1p-900 ? std::sqrt(square) : std::sqrt(rounded_ratio(numerator * longer, denominator)) * 0x1p-1000;
   figure.lower = std::nextafter(figure.value * (1 - kRootError), 0.0);
   figure.upper = std::nextafter(figure.value * (1 + kRootError), INFINITY);
   return figure;

@@ -21,9 +21,12 @@ inline double origin_error(const Shape& shape, const Pose& pose) {
   return pose.rotation == Mat3{} ? 0 : 72 * kUnitRoundoff * max_abs(shape.origin);
 }
 
+// Lengths whose squares underflow are off by less than this. Only points that close to each other notice.
+inline constexpr double kSquaresUnderflow = 1e-150;
+
 // Of cores that are vertices, which are judged where their poses round them to. `scale` is that of A - B.
 inline double proof_noise(double scale, const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
-  return kSupportError * scale + placement_error(a, pose_a) + placement_error(b, pose_b);
+  return kSupportError * scale + placement_error(a, pose_a) + placement_error(b, pose_b) + kSquaresUnderflow;
 }
 
 }  // namespace satcheck

@@ -73,7 +73,7 @@ class Builder {
     facet.bound =
         kPlaneBound * ((std::fabs(u.y * v.z) + std::fabs(u.z * v.y)) * extent_.x +
                        (std::fabs(u.z * v.x) + std::fabs(u.x * v.z)) * extent_.y +
-                       (std::fabs(u.x * v.y) + std::fabs(u.y * v.x)) * extent_.z);
+                       (std::fabs(u.x * v.y) + std::fabs(u.y * v.x)) * extent_.z) + kUnderflow;
     facets_.push_back(facet);
     return static_cast<std::uint32_t>(facets_.size() - 1);
   }

@@ -56,13 +56,19 @@ Vec3 weighted_mean(const std::array<Vec3, 6>& points, const std::array<double, 6
   return sum * (1 / total);
 }
 
+// The square of a very short edge underflows.
+Vec3 unit_of(Vec3 d) {
+  while (max_abs(d) < 0x1p-400) d = d * 0x1p600;
+  return d * (1 / norm(d));
+}
+
 std::vector<EdgeArc> arcs_of(const Polytope& p) {
   std::vector<EdgeArc> arcs;
   if (p.dimension < 3) return arcs;
   arcs.reserve(p.edges.size());
   for (const PolytopeEdge& e : p.edges) {
     const Vec3 d = p.vertices[e.head] - p.vertices[e.tail];
-    arcs.push_back({p.vertices[e.tail], d * (1 / norm(d)), p.face_normal[e.left], p.face_normal[e.right]});
+    arcs.push_back({p.vertices[e.tail], unit_of(d), p.face_normal[e.left], p.face_normal[e.right]});
   }
   return arcs;
 }

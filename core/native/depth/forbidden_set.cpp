@@ -81,11 +81,9 @@ ForbiddenSet forbidden_set(const std::vector<Vec3>& part_of_a, const std::vector
   std::vector<Vec3> differences;
   double scale = 0;
   differences.reserve(part_of_a.size() * part_of_b.size());
-  const auto in_reach = [](double x) { return std::fabs(x) < kSmallestCoordinate ? 0.0 : x; };
   for (const Vec3& q : part_of_b) {
     for (const Vec3& p : part_of_a) {
-      const Vec3 d = q - p;
-      differences.push_back({in_reach(d.x), in_reach(d.y), in_reach(d.z)});
+      differences.push_back(q - p);
       scale = std::fmax(scale, std::fmax(max_abs(p), max_abs(q)));
     }
   }

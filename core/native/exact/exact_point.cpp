@@ -116,7 +116,7 @@ Determinant rounded_determinant(Vec3 a, Vec3 b, Vec3 c, Known d) {
                   std::fabs(xy) + std::fabs(yx)};
   const double determinant = (yz - zy) * p.x + (zx - xz) * p.y + (xy - yx) * p.z;
   const Vec3 span{std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
-  return {determinant, kSlack * (kDeterminantBound * dot(size, span) + dot(size, d.error))};
+  return {determinant, kSlack * (kDeterminantBound * dot(size, span) + dot(size, d.error)) + kUnderflow};
 }
 
 int filtered_orientation(Vec3 a, Vec3 b, Vec3 c, Known d) {
@@ -199,7 +199,7 @@ int filtered_orientation_2d(Known a, Known b, Known c, int drop_axis) {
   };
   const double bound =
       kSlack * (kDeterminantBound * (std::fabs(left) + std::fabs(right)) +
-                product_error(u[i], eu[i], v[j], ev[j]) + product_error(u[j], eu[j], v[i], ev[i]));
+                product_error(u[i], eu[i], v[j], ev[j]) + product_error(u[j], eu[j], v[i], ev[i])) + kUnderflow;
   return left - right > bound ? 1 : left - right < -bound ? -1 : kOpen;
 }
 

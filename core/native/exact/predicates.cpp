@@ -5,10 +5,14 @@
 // keeps terms nonadjacent through every operation used here (his theorems 12 and 19).
 #include "exact/predicates.hpp"
 
+#include <algorithm>
+#include <initializer_list>
 #include <limits>
+#include <span>
 
 #include "base/lanes.hpp"
 #include "base/work.hpp"
+#include "exact/dyadic.hpp"
 
 namespace satcheck {
 namespace {
@@ -160,6 +164,55 @@ Expansion<192> exact_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Ve
   return sum(sum(x, y), z);
 }
 
+// Two different doubles of at least this size differ by a multiple of 1e-97, so that the terms of an exact product of
+// three differences are multiples of 1e-291, which float64 holds. Expansions are exact for no others.
+constexpr double kSmallestFactor = 1e-80;
+
+bool may_underflow(std::span<const Vec3> points) {
+  const auto is_tiny = [](double c) { return c != 0 && std::fabs(c) < kSmallestFactor; };
+  return std::any_of(points.begin(), points.end(), [&](Vec3 p) { return is_tiny(p.x) || is_tiny(p.y) || is_tiny(p.z); });
+}
+bool may_underflow(std::initializer_list<Vec3> points) { return may_underflow(std::span(points.begin(), points.size())); }
+
+// A difference of points in integers times powers of two, which know no underflow.
+class DyadicRow {
+ public:
+  DyadicRow(Vec3 tail, Vec3 head)
+      : c_{Dyadic(head.x) - Dyadic(tail.x), Dyadic(head.y) - Dyadic(tail.y), Dyadic(head.z) - Dyadic(tail.z)} {}
+
+  const Dyadic& operator[](int axis) const { return c_[axis]; }
+
+ private:
+  Dyadic c_[3];
+};
+
+Dyadic minor(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Dyadic& d) { return a * d - b * c; }
+
+Dyadic dyadic_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
+  const DyadicRow a(p1, q1), b(p2, q2), c(p3, q3);
+  return a[0] * minor(b[1], b[2], c[1], c[2]) + a[1] * minor(b[2], b[0], c[2], c[0]) + a[2] * minor(b[0], b[1], c[0], c[1]);
+}
+
+// Times a power of two that keeps its longest component from underflow; its direction is what is asked for.
+Vec3 normal_of_tiny(Vec3 a, Vec3 b, Vec3 c) {
+  const DyadicRow u(a, b), v(a, c);
+  const Dyadic n[3] = {minor(u[1], u[2], v[1], v[2]), minor(u[2], u[0], v[2], v[0]), minor(u[0], u[1], v[0], v[1])};
+  for (Dyadic unit = 1;; unit = unit * Dyadic(0x1p-1000)) {
+    const Vec3 normal{rounded_ratio(n[0], unit), rounded_ratio(n[1], unit), rounded_ratio(n[2], unit)};
+    if (max_abs(normal) > 1e-150 || (n[0].sign() == 0 && n[1].sign() == 0 && n[2].sign() == 0)) return normal;
+  }
+}
+
+double dyadic_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles) {
+  const Vec3 origin = vertices[triangles[0][0]];
+  Dyadic total;
+  for (const Triangle& t : triangles) {
+    total = total + dyadic_determinant(origin, vertices[t[0]], origin, vertices[t[1]], origin, vertices[t[2]]);
+  }
+  const double volume = rounded_ratio(total, Dyadic(6));
+  return volume == 0 && total.sign() != 0 ? std::copysign(std::numeric_limits<double>::denorm_min(), total.sign()) : volume;
+}
+
 // Is a row or a column of the matrix 0? Rounded differences are 0 only if exact ones are. The usual
 // case of axis-aligned geometry.
 bool has_zero_line(Vec3 a, Vec3 b, Vec3 c) {
@@ -179,10 +232,11 @@ int determinant_sign(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) {
   const double permanent = std::fabs(a.x) * (std::fabs(yz) + std::fabs(zy)) +
                            std::fabs(a.y) * (std::fabs(zx) + std::fabs(xz)) +
                            std::fabs(a.z) * (std::fabs(xy) + std::fabs(yx));
-  const double bound = kDeterminantBound * permanent;
+  const double bound = kDeterminantBound * permanent + kUnderflow;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   if (permanent == 0 && has_zero_line(a, b, c)) return 0;
+  if (may_underflow({p1, q1, p2, q2, p3, q3})) return dyadic_determinant(p1, q1, p2, q2, p3, q3).sign();
   return exact_determinant(p1, q1, p2, q2, p3, q3).sign();
 }
 
@@ -194,10 +248,14 @@ int orientation_2d(Vec3 a, Vec3 b, Vec3 c, int drop_axis) {
   const double left = (b[i] - a[i]) * (c[j] - a[j]);
   const double right = (b[j] - a[j]) * (c[i] - a[i]);
   const double determinant = left - right;
-  const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right));
+  const double bound = kOrientation2dBound * (std::fabs(left) + std::fabs(right)) + kUnderflow;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   if ((b[i] == a[i] || c[j] == a[j]) && (b[j] == a[j] || c[i] == a[i])) return 0;
+  if (may_underflow({a, b, c})) {
+    const DyadicRow u(a, b), v(a, c);
+    return minor(u[i], u[j], v[i], v[j]).sign();
+  }
   return exact_minor(difference(b[i], a[i]), difference(b[j], a[j]), difference(c[i], a[i]),
                      difference(c[j], a[j]))
       .sign();
@@ -207,7 +265,7 @@ bool collinear(Vec3 a, Vec3 b, Vec3 c) {
   // Of most triangles a rounded component of the normal is clearly not 0.
   const Vec3 u = b - a, v = c - a;
   const auto is_clear = [](double left, double right) {
-    return std::fabs(left - right) > kOrientation2dBound * (std::fabs(left) + std::fabs(right));
+    return std::fabs(left - right) > kOrientation2dBound * (std::fabs(left) + std::fabs(right)) + kUnderflow;
   };
   if (is_clear(u.y * v.z, u.z * v.y) || is_clear(u.z * v.x, u.x * v.z) || is_clear(u.x * v.y, u.y * v.x)) return false;
   return orientation_2d(a, b, c, 0) == 0 && orientation_2d(a, b, c, 1) == 0 &&
@@ -220,7 +278,8 @@ Vec3 rounded_normal(Vec3 a, Vec3 b, Vec3 c) {
   // Each component is off by at most kOrientation2dBound times its two products' magnitudes.
   const double products = std::fabs(u.y * v.z) + std::fabs(u.z * v.y) + std::fabs(u.z * v.x) +
                           std::fabs(u.x * v.z) + std::fabs(u.x * v.y) + std::fabs(u.y * v.x);
-  if (kOrientation2dBound * products <= kNormalTolerance * max_abs(normal)) return normal;
+  if (kOrientation2dBound * products + kUnderflow <= kNormalTolerance * max_abs(normal)) return normal;
+  if (may_underflow({a, b, c})) return normal_of_tiny(a, b, c);
   const ExactVector p = exact_difference(b, a), q = exact_difference(c, a);
   return {exact_minor(p.y, p.z, q.y, q.z).rounded(), exact_minor(p.z, p.x, q.z, q.x).rounded(),
           exact_minor(p.x, p.y, q.x, q.y).rounded()};
@@ -263,6 +322,7 @@ double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triang
   for (const Triangle& t : triangles) sum.add(vertices[t[0]], vertices[t[1]], vertices[t[2]]);
   if (const auto volume = sum.volume()) return *volume;
 
+  if (may_underflow(vertices)) return dyadic_volume(vertices, triangles);
   std::vector<double> exact;  // an expansion of unlimited length
   for (const Triangle& t : triangles) {
     const auto term = exact_determinant(origin, vertices[t[0]], origin, vertices[t[1]], origin,

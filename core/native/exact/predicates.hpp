@@ -4,7 +4,8 @@
 // Geometric Predicates" (1997). A float64 filter with a static bound decides the generic case;
 // otherwise the determinant is expanded without rounding, for the sign alone.
 //
-// Range: exact for the coordinates of numeric_range.hpp, which everything that calls them enforces.
+// Range: exact for coordinates of up to 1e45 (numeric_range.hpp), which everything that calls them enforces, however
+// small some of them are: where a product may underflow, neither the filter nor the expansions are asked.
 #pragma once
 
 #include <cmath>
@@ -26,6 +27,10 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 // covers the roundings of the permanent and of the bound.
 inline constexpr double kDeterminantBound = 9 * kUnitRoundoff;
 
+// What underflow can add to that: a product is off by half of the smallest float64, 2.5e-324, and is multiplied once more
+// by a difference of at most 2e45; for a dozen of them, rounded up.
+inline constexpr double kUnderflow = 1e-270;
+
 // The plane of a triangle, for the sides of many points: side(d) == orientation(a, b, c, d).
 class TrianglePlane {
  public:
@@ -42,7 +47,7 @@ class TrianglePlane {
     // As many roundings as in determinant_sign(), with the rows in another order.
     const Vec3 w = d - a;
     const double determinant = dot(normal_, w);
-    const double bound = kDeterminantBound * dot(permanent_, {std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)});
+    const double bound = kDeterminantBound * dot(permanent_, {std::fabs(w.x), std::fabs(w.y), std::fabs(w.z)}) + kUnderflow;
     if (determinant > bound) return 1;
     if (determinant < -bound) return -1;
     return orientation(a, b, c, d);
@@ -76,6 +81,9 @@ double rounded_affine(Vec3 a, Vec3 b, double offset);
 // The same of many points: x, y and z of each by the three rows, in place.
 void round_affine(const Vec3 (&row)[3], Vec3 offset, std::vector<Vec3>& points);
 
+// The same of a sum of up to 2^32 determinants.
+inline constexpr double kManyUnderflows = 1e-260;
+
 // Signed volume enclosed by a closed, consistently wound surface, positive when wound outwards.
 // Rounded, but its sign is exact: 0.0 only when the volume is exactly 0.
 double signed_volume(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles);
@@ -101,7 +109,7 @@ class VolumeSum {
   std::optional<double> volume() const {
     const double six_volumes = total_ + correction_;
     // The determinants' own bound, and as much again for the compensated sum of up to 2^32 terms.
-    if (!(std::fabs(six_volumes) > 2 * kDeterminantBound * permanent_)) return std::nullopt;
+    if (!(std::fabs(six_volumes) > 2 * kDeterminantBound * permanent_ + kManyUnderflows)) return std::nullopt;
     return six_volumes / 6;
   }
 

@@ -28,14 +28,12 @@ std::optional<Interval> along(const std::vector<Vec3>& vertices, Vec3 row, doubl
                       std::fabs(offset);
   const double error = 8 * kUnitRoundoff * size;
   if (!(size <= 0.5 * kLargestCoordinate)) return std::nullopt;
-  const double surely_in_range = error + kSmallestCoordinate;
   Interval plain, exact;
   const auto plain_sum = [&](Vec3 p) { return row.x * p.x + row.y * p.y + row.z * p.z + offset; };
   for (const Vec3& p : vertices) plain.include(plain_sum(p));
   for (const Vec3& p : vertices) {
     const double c = plain_sum(p);
-    const bool may_be_outermost = c <= plain.low + 2 * error || c >= plain.high - 2 * error;
-    if (!may_be_outermost && std::fabs(c) > surely_in_range) continue;
+    if (c > plain.low + 2 * error && c < plain.high - 2 * error) continue;
     const double rounded = rounded_affine(row, p, offset);
     if (!in_range(rounded)) return std::nullopt;
     exact.include(rounded);
