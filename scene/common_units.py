@@ -148,7 +148,8 @@ def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[I
     notes = []
     for (scale, unit), paths in files.items():
         own = unit_in(unit, scale)
-        message = f"{_listed(list(paths))}: converted from {own} to {unit}, times {scale!r}"
+        times = repr(scale).removesuffix(".0")
+        message = f"{_listed(list(paths))}: converted from {own} to {unit}, times {times}"
         notes.append(issue("units-converted", message, file=next(iter(paths))))
     return notes
 

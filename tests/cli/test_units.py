@@ -43,7 +43,7 @@ def test_a_glb_in_metres_and_a_3mf_in_millimetres(tmp_path: Path, order: tuple[s
     assert (bodies["a"]["units"], bodies["a"]["unit_scale"]) == ("mm", 1000)
     assert "unit_scale" not in bodies["b"]
     (note,) = [i for i in ran.document["issues"] if i["code"] == "units-converted"]
-    assert note["message"] == "a.glb: converted from m to mm, times 1000.0"
+    assert note["message"] == "a.glb: converted from m to mm, times 1000"
     (tmp_path / "report.json").write_text(ran.out)
     assert satcheck("verify", "report.json", cwd=tmp_path).code == 0
 
