@@ -76,7 +76,8 @@ def scene_of(count: int, folder: Path, seed: int = 1) -> dict[str, Any]:
         path = Path(os.path.relpath(SAMPLES / mesh, folder.resolve())).as_posix()
         transform = placement(source, mesh, room)
         bodies.append({"id": f"body_{k:06}", "mesh": path, "transform": transform})
-    return {"schema": "satcheck-scene-1", "name": f"{count} bodies, seed {seed}", "bodies": bodies}
+    head = {"schema": "satcheck-scene-1", "name": f"{count} bodies, seed {seed}"}
+    return head | {"units": "m", "bodies": bodies}
 
 
 def write_scene(count: int, out: Path, seed: int = 1) -> None:

@@ -50,8 +50,8 @@ class InOneUnit:
 def in_one_unit(
     bodies: Sequence[Body], inputs: Sequence[Input], rules: Mapping[str, str | None]
 ) -> InOneUnit:
-    """bodies: `units` of each is that of its mesh, None where that states none. Their transforms
-    lead into the unit of their input. rules: files of rules, and what they declare.
+    """bodies: `units` of each is that of its mesh, or of its input where that states none, None
+    where neither does. Their transforms lead into the unit of their input. rules: files of rules, and what they declare.
 
     A scene that states no unit is in that of its meshes, where they all state the same one. Where
     nothing in an input states any, it is in that of the first file of rules that does.
@@ -99,7 +99,7 @@ def _common(inputs: Iterable[Input]) -> str | None:
 
 def _converted(body: Body, own: str | None, common: str | None) -> Body:
     """own: of its input. Without that its lengths stay as they are."""
-    if own is None or common is None:
+    if own is None or common is None or body.units == own == common:
         return body
     scale = ratio(body.units or own, common)
     return replace(
@@ -154,23 +154,24 @@ def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[I
     return notes
 
 
-def _unknown(bodies: Iterable[Body], inputs: Iterable[Input]) -> list[Issue]:
+def _unknown(bodies: Sequence[Body], inputs: Sequence[Input]) -> list[Issue]:
     """A warning where the units of two bodies cannot be compared."""
+    if len({body.units for body in bodies}) < 2:
+        return []
+    owners = {id_: one for one in inputs for id_ in one.ids}
+    unsaid = next((one.path for one in inputs if one.kind == "scene" and one.unit is None), None)
     files: dict[str | None, dict[str, None]] = {}
     for body in bodies:
-        files.setdefault(body.units, {})[body.file.path] = None
-    if len(files) < 2:
-        return []
-    unstated = files.pop(None, {})
+        owner = owners[body.id]
+        path = body.file.path if owner.path == unsaid else owner.path
+        files.setdefault(body.units, {})[path] = None
+    unstated = list(files.pop(None, {})) or [unsaid or ""]
     known = " and ".join(f"{_listed(list(paths))} in {unit}" for unit, paths in files.items())
-    scene = next((one.path for one in inputs if one.kind == "scene" and one.unit is None), None)
-    where = "`units` in the scene" if scene else "--units"
-    if unstated:
-        message = f"{_listed(list(unstated))}: no unit of length is stated, and {known}"
-    else:
-        message = f"{scene}: no unit of length is stated, and it places {known}"
-    message += f": pairs of them are not decided. State the unit: {where}"
-    return [issue(UNITS_UNKNOWN, message, file=next(iter(unstated), scene))]
+    message = (
+        f"{_listed(unstated)}: no unit of length is stated, and {known}: pairs of them are not "
+        f"decided. State the unit: {'`units` in the scene' if unsaid else '--units'}"
+    )
+    return [issue(UNITS_UNKNOWN, message, file=unstated[0])]
 
 
 def _listed(paths: Sequence[str]) -> str:

@@ -213,7 +213,7 @@ class SceneBuilder:
         self._order.append(id_)
         self._inputs[-1].ids.append(id_)
         if isinstance(file, MeshFile):
-            own = stated_unit(units or file.units)
+            own = stated_unit(units or file.units) or self._inputs[-1].unit
             self._bodies.append(
                 Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
             )

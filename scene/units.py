@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import lru_cache
 
 from satcheck.core.frozen import frozen
 
@@ -91,6 +92,7 @@ def unit_in(unit: str, scale: float) -> str:
     return next(name for name in MICROMETRES if ratio(name, unit) == scale)
 
 
+@lru_cache(maxsize=64)  # many bodies, few declarations
 def stated_unit(declared: str | None) -> str | None:
     """The unit that a declaration is, or begins with: "mm", "Metres", "mm (assumed)"."""
     first = (declared or "").partition("(")[0].split()[:1]

@@ -26,6 +26,7 @@ from satcheck.scene import Body, load_scene
 
 SECONDS_PER_MICROSECOND = 1e-6
 PARTS = [rung for rung in RUNGS if rung.threshold is not None]
+UNITS = "m"  # of files that state none: samples pair them with GLB files
 # What is not in the plan of the pair: files into bodies, bodies into the world, findings into JSON.
 READING, PLACING, WRITING = "reading", "placing", "writing"
 
@@ -34,7 +35,7 @@ def measured(case: Case, effort: Effort) -> dict[str, Any]:
     """Raises SatcheckError where the two files give no two bodies."""
     with tempfile.TemporaryDirectory() as scratch:
         inputs = case.inputs(Path(scratch))
-        scene = load_scene(inputs)
+        scene = load_scene(inputs, units=UNITS)
         if len(scene.bodies) != 2:
             raise SatcheckError("no-pair", f"{len(scene.bodies)} readable bodies, not two")
         a, b = scene.bodies
@@ -58,7 +59,7 @@ def measured(case: Case, effort: Effort) -> dict[str, Any]:
 def stages(inputs: list[Path]) -> dict[str, float]:
     """Seconds of each stage of `satcheck A B`, from the files to the report."""
     start = perf_counter()
-    scene = load_scene(inputs)
+    scene = load_scene(inputs, units=UNITS)
     loaded = perf_counter()
     report = check(scene, Settings(depth=True))
     checked = perf_counter()

@@ -12,6 +12,7 @@ from rich.text import Text
 
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.summary import doubts
 from satcheck.cli.report.words import counted, depth, in_motion, issue_line, with_unit
 from satcheck.scene.units import unit_of
 
@@ -77,8 +78,10 @@ def summary_line(found: Samples) -> str:
     overlapping = sum(pair.overlaps > 0 for pair in found.pairs)
     if overlapping:
         verb = "overlaps" if overlapping == 1 else "overlap"
-        return f"{line} {counted(overlapping, 'pair')} {verb}."
-    return f"{line} No collision." if found.verdict == "pass" else line
+        line += f" {counted(overlapping, 'pair')} {verb}."
+    elif found.verdict == "pass":
+        line += " No collision."
+    return " ".join([line, *doubts(found.issues)])
 
 
 def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Table:

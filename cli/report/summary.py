@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from satcheck.audit.report.report import (
@@ -18,7 +19,7 @@ from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import Report
+    from satcheck.audit.report.report import Issue, Report
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
@@ -32,7 +33,7 @@ def summary_line(report: Report) -> str:
         exempts = f"the scene exempts all {counted(pairs.exempt, 'pair')}"
         why = "all are allowed by the scene" if pairs.total else exempts
         line = f"{bodies}, {counted(pairs.total, 'pair')}. No pair was checked: {why}."
-        return " ".join([line, *_errors(report), *_doubts(report)])
+        return " ".join([line, *_errors(report), *doubts(report.issues)])
     found = _found(report)
     if pairs.allowed:
         found.append(f"{pairs.allowed:,} allowed by the scene")
@@ -45,7 +46,7 @@ def summary_line(report: Report) -> str:
             *_left_open(report),
             *_cross_check(report),
             *_errors(report),
-            *_doubts(report),
+            *doubts(report.issues),
         ]
     )
 
@@ -160,9 +161,9 @@ def _cross_check(report: Report) -> list[str]:
     return [f"Cross-check: {', '.join(parts)}."]
 
 
-def _doubts(report: Report) -> list[str]:
+def doubts(issues: Iterable[Issue]) -> list[str]:
     """Warnings under which the counts say little, once more."""
-    said = [issue.message for issue in report.issues if issue.code in _DOUBTS]
+    said = [issue.message for issue in issues if issue.code in _DOUBTS]
     return [f"Warning: {text}{'' if text.endswith('?') else '.'}" for text in said]
 
 

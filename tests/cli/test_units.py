@@ -124,3 +124,10 @@ def test_what_resolve_writes_is_in_the_same_units(tmp_path: Path) -> None:
     assert ran.code == 0
     sizes = [body["unit_scale"] for body in ran.document["bodies"] if "unit_scale" in body]
     assert sizes == [1000, 10]
+
+
+def test_the_last_line_of_poses_repeats_it() -> None:
+    ran = satcheck("arm.urdf", "arm.srdf", "box.obj", "--sample", "2")
+    assert ran.code == 3
+    last = " ".join(ran.out.split())
+    assert "Warning: box.obj: no unit of length is stated, and arm.urdf in m: pairs" in last
