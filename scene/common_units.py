@@ -51,7 +51,8 @@ def in_one_unit(
     bodies: Sequence[Body], inputs: Sequence[Input], rules: Mapping[str, str | None]
 ) -> InOneUnit:
     """bodies: `units` of each is that of its mesh, or of its input where that states none, None
-    where neither does. Their transforms lead into the unit of their input. rules: files of rules, and what they declare.
+    where neither does. Their transforms lead into the unit of their input. rules: files of rules,
+    and what they declare.
 
     A scene that states no unit is in that of its meshes, where they all state the same one. Where
     nothing in an input states any, it is in that of the first file of rules that does.
