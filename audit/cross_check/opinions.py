@@ -16,7 +16,7 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.cross_check.peers import Peers
 from satcheck.audit.ladder.ladder import Contact
-from satcheck.audit.report.report import CROSS_CHECK, OVERLAPS
+from satcheck.audit.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
 
@@ -39,7 +39,7 @@ class Opinion:
 def say(pair: Pair, contact: Contact, peers: Peers, plan: Plan) -> str | None:
     """Records one stage a peer. A disagreement is a warning, and is returned in words."""
     if not contact.proven:
-        plan.record(CROSS_CHECK, "no answer", "the relation is not proven: nothing to hold against")
+        plan.record(CROSS_CHECK, NO_ANSWER, "the relation is not proven: nothing to hold against")
         return None
     against = []
     for opinion in (_by_fcl(pair, contact, peers), _by_manifold(pair, contact, peers)):

@@ -47,6 +47,7 @@ EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
 # The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
 CROSS_CHECK = "cross-check"
+NO_ANSWER = "no answer"
 # The result of an effect that is found on triangles, of a pair with a curved shape.
 NOT_AVAILABLE = "not available"
 ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")

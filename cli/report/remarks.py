@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from satcheck.audit.report.report import NOT_AVAILABLE, ON_TRIANGLES, OVERLAPS
+from satcheck.audit.report.report import (
+    CROSS_CHECK,
+    NO_ANSWER,
+    NOT_AVAILABLE,
+    ON_TRIANGLES,
+    OVERLAPS,
+)
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
     by_surfaces,
@@ -38,7 +44,7 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
             *_moving(finding, unit_of(report.units)),
         )
     ]
-    lines += [Text(line) for line in (*_curved(report), *_of_bodies(report))]
+    lines += [Text(line) for line in (*_curved(report), *_no_opinion(report), *_of_bodies(report))]
     for issue in report.issues:
         if issue.severity != "error":
             lines.append(Text(issue_line(issue), style=_ISSUE_COLOURS[issue.severity]))
@@ -122,6 +128,18 @@ def _curved(report: Report) -> Iterator[str]:
     for effect, count in pairs.items():
         where = counted(count, "pair")
         yield f"{effect}: not known of {where} with a curved shape, which has no triangles"
+
+
+def _no_opinion(report: Report) -> Iterator[str]:
+    """A line for each reason why another library gave no answer, on all of its pairs."""
+    pairs = Counter(
+        stage.detail
+        for finding in report.findings
+        for stage in finding.plan
+        if stage.stage == CROSS_CHECK and stage.result == NO_ANSWER
+    )
+    for why, count in pairs.items():
+        yield f"cross-check: no answer on {counted(count, 'pair')}: {why}"
 
 
 def _of_bodies(report: Report) -> Iterator[str]:

@@ -8,7 +8,7 @@ import pytest
 
 from satcheck.audit import Contacts
 from satcheck.audit.asked.settings import LISTED_PAIRS
-from satcheck.audit.report.report import INTERNAL_ERROR, Issue
+from satcheck.audit.report.report import INTERNAL_ERROR, Issue, Stage
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import render
@@ -270,6 +270,14 @@ def test_an_internal_error_is_no_unusable_input() -> None:
     made = replace(made, issues=(fault, reports.MISSING))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     assert text.endswith("1 input could not be used. 1 pair failed by an internal error.\n")
+
+
+def test_opinions_that_could_not_be_had_are_told_once() -> None:
+    silent = Stage("cross-check", "no answer", 1.0, "python-fcl: it did not answer in 30 s")
+    pairs = [replace(PENETRATING, id=str(k), plan=(*PENETRATING.plan, silent)) for k in range(2)]
+    text = shown(*pairs)
+    assert text.count("python-fcl") == 1
+    assert "cross-check: no answer on 2 pairs: python-fcl: it did not answer in 30 s\n" in text
 
 
 def test_no_pair_checked_is_no_verdict() -> None:
