@@ -13,6 +13,7 @@ import numpy as np
 
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.boundary import boundary_point, contacts_if_apart
+from satcheck.verify.cover import depth_is_at_least
 from satcheck.verify.curved import Curved
 from satcheck.verify.curved_pair import CurvedPair
 from satcheck.verify.distances import check_distance, hulls_are_apart, spanned, squared_gap
@@ -78,13 +79,14 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     )
     mtv = _check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair)
+    covered = _check_cover(finding, certificate, pair)
     rounding = rounding_of(a, b)
     if pair.convex:
         distance = directed = spanned(finding, rounding, hulls_are_apart(pair))
     else:
         distance = check_distance(finding, certificate, pair, rounding)
         directed = mtv or shows_direction(finding, a, b)
-    proven = Proven(depth, mtv, distance or _is_zero(finding), directed or mtv)
+    proven = Proven(depth or (covered and mtv), mtv, distance or _is_zero(finding), directed or mtv)
     if relation != exact:
         _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
     if exact not in OVERLAPS:
@@ -292,6 +294,17 @@ def _check_depth(finding: dict[str, Any], certificate: dict[str, Any], pair: Pai
     inner_radius_exceeds(member(proof, "lower"), pair.a, pair.b, low)
     if not depth_at_most(axis(member(proof, "upper")), pair, high):
         raise Rejected("along the axis the bodies overlap by more than the depth")
+    return True
+
+
+def _check_cover(finding: dict[str, Any], certificate: dict[str, Any], pair: Pair) -> bool:
+    """The lower end of the depth of bodies that are not both convex, where it is certified."""
+    if "cover" not in certificate:
+        return False
+    bounds = _bounds_of_depth(finding)
+    if bounds is None:
+        raise Rejected("a cover, and no depth")
+    depth_is_at_least(certificate["cover"], pair.a, pair.b, bounds[0])
     return True
 
 

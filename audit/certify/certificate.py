@@ -10,6 +10,7 @@ from typing import Any
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
+from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.report.report import OVERLAPS, Finding
 from satcheck.audit.report.report_values import plain
@@ -81,6 +82,10 @@ class _Maker:
             depth = self._depth(Fraction(finding.depth_bounds[0]), finding.depth_bounds[1])
             if depth is not None:
                 certificate["depth"] = depth
+        elif finding.depth_bounds is not None:
+            covered = cover(self.placed, Fraction(finding.depth_bounds[0]))
+            if covered is not None:
+                certificate["cover"] = covered
         if finding.mtv_verified and finding.mtv is not None:
             certificate["mtv"] = self._free(finding.mtv)
         if finding.relation != finding.exact_relation:

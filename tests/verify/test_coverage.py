@@ -61,7 +61,7 @@ def test_what_is_listed_has_a_name() -> None:
 
 
 def test_what_is_not_proven_is_named() -> None:
-    document = report_of("box-in-arm", depth=True)
+    document = report_of("sheet-in-wall", depth=True)
     left = {one.field: one.findings for one in verified(document).uncovered}
     assert left["findings[].depth_bounds"] == 1
     assert "findings[].mtv" not in left

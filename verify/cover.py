@@ -1,0 +1,137 @@
+"""The least depth of two solids: a cover of all shorter translations, each shown to overlap.
+
+Moved by t, a triangle S of A passes through a triangle U of B where t lies inside U - S, a convex
+polytope. Where the planes of the two are not parallel, and beside every inner point of either is
+its solid on one side and nothing of it on the other, the solids then have a common interior. Cubes
+inside such polytopes cover the ball: an octree around the origin, with a pair of triangles for each
+leaf. Cubes outside of the ball need none, and of the others what lies outside of it does not count.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil
+from typing import Any
+
+from satcheck.verify.cells import UNIT_CELL, look, own_partners
+from satcheck.verify.evidence import index, member
+from satcheck.verify.exact import Rejected, Vector, cross, dot, sub
+from satcheck.verify.surfaces import common
+from satcheck.verify.world import Corners, Exact
+
+LEVELS = 12  # a cube is halved so often at most
+MOST_CUBES = 50_000
+SPLIT = -1
+HalfSpace = tuple[Vector, int]  # n . t < h, on the lattice
+Cube = tuple[Vector, int]  # its middle and half its edge, in 2**-LEVELS of the lattice
+
+
+def depth_is_at_least(certificate: Any, a: Exact, b: Exact, depth: Fraction) -> None:
+    """Rejects a cover that does not show that every translation of A shorter than this, world
+    units, leaves a common interior.
+
+    {"pairs": [[triangle of A, of B], ...], "cubes": [k, ...]}: from the root on, a cube that meets
+    the ball is a pair, or -1 and its eight children; x changes first.
+    """
+    pairs, cubes = member(certificate, "pairs"), member(certificate, "cubes")
+    if not (a.world.solid and b.world.solid):
+        raise Rejected("a cover proves something about solids only")
+    if len(cubes) > MOST_CUBES:
+        raise Rejected(f"a cover has at most {MOST_CUBES:,} cubes")
+    named = [(index(s, len(a.world.triangles)), index(t, len(b.world.triangles))) for s, t in pairs]
+    for body, triangles in ((a, {s for s, _ in named}), (b, {t for _, t in named})):
+        if not_plain(body, sorted(triangles)):
+            raise Rejected("a triangle of the cover is no plain part of the boundary of its solid")
+    squared = (depth * (1 << a.k)) ** 2
+    regions = [
+        [
+            (n, h)
+            for n, h in half_spaces(a.corners(s), b.corners(t))
+            if not _holds_ball(n, h, squared)
+        ]
+        for s, t in named
+    ]
+    ball = ceil((depth * (1 << a.k + LEVELS)) ** 2)
+    pending = [root(depth, a.k)]
+    for leaf in cubes:
+        while pending and is_outside(pending[-1], ball):
+            pending.pop()
+        if not pending:
+            raise Rejected("a cover has more cubes than the ball needs")
+        cube = pending.pop()
+        if leaf == SPLIT:
+            pending += reversed(children(cube))
+        elif not 0 <= leaf < len(regions) or not _holds(regions[leaf], cube):
+            raise Rejected("a cube of translations is not shown to overlap")
+    if not all(is_outside(cube, ball) for cube in pending):
+        raise Rejected("the cover leaves out a part of the ball")
+
+
+def root(depth: Fraction, k: int) -> Cube:
+    """A cube around the ball, with an edge that is a power of two."""
+    size = ceil(depth * (1 << k))
+    return (0, 0, 0), 1 << (size - 1).bit_length() + LEVELS
+
+
+def children(cube: Cube) -> list[Cube]:
+    (x, y, z), size = cube
+    if size & 1:
+        raise Rejected("a cube is halved too often")
+    h = size >> 1
+    return [((x + i, y + j, z + k), h) for k in (-h, h) for j in (-h, h) for i in (-h, h)]
+
+
+def is_outside(cube: Cube, squared: int) -> bool:
+    """Whether no point of it is closer to the origin than the root of that."""
+    middle, size = cube
+    steps = [max(abs(c) - size, 0) for c in middle]
+    return dot(steps, steps) >= squared  # type: ignore[no-any-return]
+
+
+def _holds_ball(n: Vector, h: int, squared: Fraction) -> bool:
+    """Whether the half-space n . t < h holds the open ball; squared: its radius."""
+    return h > 0 and h * h >= squared * dot(n, n)
+
+
+def _holds(region: list[HalfSpace], cube: Cube) -> bool:
+    middle, size = cube
+    return all(dot(n, middle) + size * sum(map(abs, n)) < h << LEVELS for n, h in region)
+
+
+def half_spaces(s: Corners, t: Corners) -> list[HalfSpace]:
+    """The inside of T - S. Its facets are parallel to one of them, or to an edge of each."""
+    edges = [[sub(c[(k + 1) % 3], c[k]) for k in range(3)] for c in (s, t)]
+    faces = [cross(e[0], e[1]) for e in edges]
+    if not any(cross(*faces)):
+        raise Rejected("two parallel triangles show no overlap")
+    found = []
+    for n in (*faces, *(cross(e, f) for e in edges[0] for f in edges[1])):
+        if not any(n):
+            continue
+        on_s, on_t = [dot(n, p) for p in s], [dot(n, p) for p in t]
+        found.append((n, max(on_t) - min(on_s)))
+        found.append(((-n[0], -n[1], -n[2]), max(on_s) - min(on_t)))
+    return found
+
+
+def not_plain(body: Exact, triangles: list[int]) -> list[int]:
+    """Those through whose inside another triangle of the surface passes, those without area, and
+    those that have the solid on both sides, or on none."""
+    partners = own_partners(body, triangles)
+    return [t for t in triangles if not _is_plain(body, t, partners.get(t, []))]
+
+
+def _is_plain(body: Exact, t: int, partners: list[int]) -> bool:
+    corners = body.corners(t)
+    normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+    if not any(normal):
+        return False
+    inward = [cross(normal, sub(corners[(k + 1) % 3], corners[k])) for k in range(3)]
+    for u in partners:
+        shared = common(corners, body.corners(u))
+        # Of a convex set that enters the triangle the middle does so, too.
+        middle = [sum((p[k] for p in shared), Fraction()) / len(shared) for k in range(3)]
+        if all(dot(n, middle) > dot(n, c) for n, c in zip(inward, corners, strict=True)):
+            return False
+    _, [(front, back)] = look(corners, normal, UNIT_CELL, [body])
+    return front != back
