@@ -58,6 +58,8 @@ _READ = frozenset(
         "KHR_mesh_quantization",
     }
 )
+# Extensions that move all of the geometry even where they are optional.
+_MOVING = frozenset({"CESIUM_RTC"})
 
 
 def read_gltf(
@@ -117,6 +119,9 @@ def _check_extensions(document: dict[str, Any]) -> None:
     for name in items(document, "extensionsRequired"):
         if name not in _READ and not str(name).startswith(_HARMLESS_PREFIXES):
             raise MeshFileError("unsupported-feature", f"the file requires extension {name!r}")
+    for name in items(document, "extensionsUsed"):
+        if name in _MOVING:
+            raise MeshFileError("unsupported-feature", f"extension {name!r} is not read")
 
 
 class _Scene:

@@ -162,6 +162,7 @@ REFUSED = {
         "unsupported-feature",
         "EXT_unheard_of",
     ),
+    "moved.glb": (with_document(extensionsUsed=["CESIUM_RTC"]), "unsupported-feature", "RTC"),
     "sparse.glb": (with_document(accessors__0__sparse={}), "bad-record", "sparse"),
     "types.glb": (with_document(nodes={"0": 1}), "bad-record", "list"),
     "scale.glb": (

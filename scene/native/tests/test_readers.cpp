@@ -67,6 +67,13 @@ const Sample samples[] = {
      "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
      "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
     {read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+    {read_off, "STCnOFF3 3 1\n0 0 0 1 0 0\n1 0\n0\n0 1 0\n3 0 1\n2\n"},
+    {read_ply,
+     "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\nelement tristrips 1\n"
+     "property list float int64 vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n8 0 1 2 3 3 -1 2 1\n"},
+    {read_obj, "f 5 4 3 2 1 6 7\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 1 0\nf 1 2 3 4 5\n"},
+    {read_stl,
+     "solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 end loop x\nendfacet 1 2\nend solid a\n"},
 };
 
 // Every index names a vertex, every coordinate is there: what callers rely on.
