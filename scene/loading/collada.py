@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from satcheck.scene._readers import ReadError, cut_polygons
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.collada_nodes import IDENTITY, Floats, mirrors, placed, walk
 from satcheck.scene.loading.collada_outline import read_outline
@@ -87,12 +88,25 @@ def _primitives(geometry: Any) -> Iterator[tuple[Floats, Triangles]]:
     from collada.triangleset import TriangleSet
 
     for primitive in geometry.primitives:
-        fans = primitive.triangleset() if isinstance(primitive, Polylist) else primitive
-        if not isinstance(fans, TriangleSet) or fans.vertex_index is None:
+        if not isinstance(primitive, Polylist | TriangleSet) or primitive.vertex_index is None:
             continue
-        points = np.asarray(fans.vertex, dtype=np.float64)
-        triangles = np.asarray(fans.vertex_index, dtype=np.int64).reshape(-1, 3)
-        if triangles.size and (triangles.min() < 0 or triangles.max() >= len(points)):
+        points = np.asarray(primitive.vertex, dtype=np.float64)
+        corners = np.asarray(primitive.vertex_index, dtype=np.int64).ravel()
+        if corners.size and (corners.min() < 0 or corners.max() >= len(points)):
             name = geometry.id
             raise MeshFileError("index-out-of-range", f"geometry {name!r}: index out of range")
-        yield points, triangles
+        if isinstance(primitive, Polylist):
+            corners = _cut(points, corners, np.asarray(primitive.vcounts))
+        yield points, corners.reshape(-1, 3)
+
+
+def _cut(points: Floats, corners: Triangles, lengths: Triangles) -> Triangles:
+    """The triangles of polygons of these lengths."""
+    triangles = cut_polygons(
+        points.astype("<f8").tobytes(),
+        corners.astype("<u4").tobytes(),
+        lengths.astype("<u4").tobytes(),
+    )
+    if isinstance(triangles, ReadError):
+        raise MeshFileError(triangles.code, triangles.message)
+    return np.frombuffer(triangles, "<u4").astype(np.int64)

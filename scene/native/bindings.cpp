@@ -18,9 +18,11 @@
 #endif
 
 #include "base/large_pages.hpp"
+#include "builder.hpp"
 #include "json_document.hpp"
 #include "meshopt.hpp"
 #include "placement.hpp"
+#include "polygons.hpp"
 #include "readers.hpp"
 #include "typed_arrays.hpp"
 
@@ -119,6 +121,36 @@ std::variant<nb::bytes, ReadError> unpack_buffer_view(const nb::bytes& stream, c
   }
 }
 
+template <class T>
+std::vector<T> to_vector(const nb::bytes& bytes) {
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::copy_n(bytes.c_str(), values.size() * sizeof(T), reinterpret_cast<char*>(values.data()));
+  return values;
+}
+
+std::variant<nb::bytes, ReadError> cut_polygons(const nb::bytes& vertices, const nb::bytes& corners, const nb::bytes& lengths) {
+  MeshData mesh;
+  mesh.vertices = to_vector<double>(vertices);
+  const std::vector<std::uint32_t> all = to_vector<std::uint32_t>(corners);
+  Polygons polygons;
+  std::size_t at = 0;
+  try {
+    for (const std::uint32_t length : to_vector<std::uint32_t>(lengths)) {
+      const std::size_t end = std::min(at + length, all.size());
+      const std::vector<std::uint32_t> polygon(all.begin() + static_cast<std::ptrdiff_t>(at),
+                                               all.begin() + static_cast<std::ptrdiff_t>(end));
+      for (const std::uint32_t corner : polygon) {
+        if (corner >= mesh.vertices.size() / 3) fail(code::index_out_of_range, "index out of range: " + std::to_string(corner));
+      }
+      polygons.add(polygon, nowhere, mesh);
+      at = end;
+    }
+  } catch (ReadError& error) {
+    return std::move(error);
+  }
+  return to_bytes(mesh.triangles);
+}
+
 const char* precision_name(const MeshData& mesh) {
   switch (mesh.precision) {
     case Precision::written_digits: return "written-digits";
@@ -192,6 +224,9 @@ NB_MODULE(_readers, m) {
   m.def("read_ply", &read<read_ply>, nb::arg("data"), "PLY 1.0, ASCII or binary.");
   m.def("read_off", &read<read_off>, nb::arg("data"), "ASCII OFF.");
 
+  m.def("cut_polygons", &cut_polygons, nb::arg("vertices"), nb::arg("corners"), nb::arg("lengths"),
+        "The triangles of polygons, as those of OBJ are cut: little-endian float64 vertices, and uint32 corners of one polygon after "
+        "the other, `lengths` of them each.");
   m.def("unpack_meshopt", &unpack_buffer_view, nb::arg("stream"), nb::arg("mode"), nb::arg("count"), nb::arg("stride"),
         nb::arg("filter"),
         "The `count` elements of `stride` bytes of a glTF buffer view that meshopt packed. mode: \"ATTRIBUTES\", \"TRIANGLES\" or "

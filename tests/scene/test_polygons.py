@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from satcheck.audit import check
-from satcheck.scene import _readers
+from satcheck.scene import _readers, load_scene
 from tests.scene import files
 
 U = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
@@ -75,6 +75,17 @@ def test_a_rod_through_the_notch_of_a_sheet_is_apart(tmp_path, shift):
     (tmp_path / "rod.obj").write_bytes(files.obj(rod))
     (pair,) = check([tmp_path / "sheet.obj", tmp_path / "rod.obj"]).findings
     assert pair.relation == "separated"
+
+
+@pytest.mark.parametrize("shift", range(len(U)))
+def test_those_of_collada_are_cut_alike(tmp_path, shift):
+    sheet = [(x, y, 0) for x, y in U[shift:] + U[:shift]]
+    content = files.collada(points=sheet, faces=[range(len(sheet))])
+    (tmp_path / "sheet.dae").write_bytes(content)
+    (body,) = load_scene([tmp_path / "sheet.dae"]).bodies
+    mesh = body.file.mesh
+    cut = [[(x, y) for x, y, _ in mesh.corners(k)] for k in range(mesh.triangle_count)]
+    assert sum(abs(area(triangle)) for triangle in cut) == abs(area(U))
 
 
 def test_a_polygon_that_crosses_itself_keeps_all_its_corners():
