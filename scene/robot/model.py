@@ -26,7 +26,8 @@ class MeshReference:
 
 @frozen
 class RefusedShape:
-    """Geometry that cannot be used, and why. code: of `codes.CODES`."""
+    """Geometry that cannot be used, and why. code: of `codes.CODES`. reason: without the line, so
+    that bodies that are refused for one reason are told together."""
 
     code: str
     reason: str
@@ -37,7 +38,8 @@ Geometry = MeshReference | Primitive | RefusedShape
 
 @frozen
 class Collision:
-    """One <collision> of a link. origin: its pose in the link's frame. line: in the URDF."""
+    """One <collision> of a link. origin: its pose in the link's frame. line: in the URDF; of what
+    cannot be used the element to blame."""
 
     name: str | None
     origin: Transform

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import NoReturn, get_args
 
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.errors import SceneFileError
 from satcheck.scene.issue import Issue
 from satcheck.scene.primitives import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.robot.joint_tree import in_order
@@ -34,7 +33,7 @@ from satcheck.scene.robot.model import (
     Vector,
 )
 from satcheck.scene.robot.slips import Slips
-from satcheck.scene.robot.xml_tree import Element, read_tree
+from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
 
 _KINDS: tuple[JointKind, ...] = get_args(JointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the axis where none is given
@@ -111,8 +110,8 @@ class _Reader:
                 self._slips.note("no-shape", shape, f"a <{shape.tag}> of size 0: no body")
                 return None
             return Collision(name, _origin(element), _geometry(shape), element.line)
-        except SceneFileError as error:
-            return Collision(name, IDENTITY, RefusedShape(error.code, error.message), element.line)
+        except RefusedElement as error:
+            return Collision(name, IDENTITY, RefusedShape(error.code, error.reason), error.at)
 
     def _joint(self, element: Element, names: Sequence[str]) -> Joint:
         name = element.text("name")

@@ -28,6 +28,15 @@ _PLACES_NOTHING = frozenset(("visual", "inertial", "gazebo", "transmission", "ma
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
 
 
+class RefusedElement(SceneFileError):
+    """at: the line of the element; reason: what is wrong with it."""
+
+    def __init__(self, code: str, at: int, reason: str, file: str) -> None:
+        super().__init__(code, f"line {at}: {reason}", file=file)
+        self.at = at
+        self.reason = reason
+
+
 @dataclass(slots=True)
 class Element:
     """file: the document's path as given. line: where the element starts."""
@@ -93,7 +102,7 @@ class Element:
                     self.refuse(f"unknown attribute {name!r}{hint}")
 
     def refuse(self, message: str, code: str = "bad-robot") -> NoReturn:
-        raise SceneFileError(code, f"line {self.line}: <{self.tag}>: {message}", file=self.file)
+        raise RefusedElement(code, self.line, f"<{self.tag}>: {message}", self.file)
 
     def _number(self, attribute: str, word: str) -> float:
         value = float(word) if _NUMBER.fullmatch(word) else math.nan

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, SceneFileError, load_scene
-from satcheck.scene.robot import pose_of_states, posed
+from satcheck.scene.robot import joint_samples, pose_of_states, posed
 from tests.scene.files import obj
 from tests.scene.robot.robots import BOX, SAMPLES, joint, link, robot_of
 
@@ -166,3 +167,52 @@ def test_two_robots_have_ids_of_their_own() -> None:
     scene = load_scene([*ARM, ARM[0]])
     assert len(set(scene.order)) == 14
     assert "fore/palm-2" in scene.order
+
+
+def collision(inside: str) -> str:
+    return f"<collision><geometry>{inside}</geometry></collision>"
+
+
+@pytest.mark.parametrize(
+    ("shape", "said"),
+    [
+        ('<mesh filename="package://gone/{}.stl"/>', "(package://gone/0.stl): package 'gone' is"),
+        ('<mesh filename="meshes/{}.stl"/>', "(meshes/0.stl): there is no folder"),
+        ('<mesh filename="{}.stl"/>', "(0.stl): the file is not in"),
+        ('<box size="{} -1 1"/>', "in line 2: <box>: size should be positive and finite"),
+        ("<plane/>", "in line 2: <plane>: no geometry that is read"),
+    ],
+)
+def test_one_cause_has_one_message(tmp_path: Path, shape: str, said: str) -> None:
+    links = [link(f"l{k}", collision(shape.format(k))) for k in range(5)]
+    joints = [joint(f"j{k}", "l0", f"l{k}") for k in range(1, 5)]
+    scene = load(tmp_path, *links, *joints)
+    assert len(scene.unreadable) == 5
+    (found,) = [issue for issue in scene.issues if issue.severity == "error"]
+    assert found.body is None
+    assert found.file is not None
+    assert "5 bodies, the first in line 2" in found.message
+    assert said in found.message
+
+
+def test_a_broken_mesh_of_many_bodies_is_told_once(tmp_path: Path) -> None:
+    (tmp_path / "wheel.obj").write_text("v 0 0 0\n")
+    mesh = collision('<mesh filename="wheel.obj"/>')
+    joints = [joint(f"j{k}", "l0", f"l{k}") for k in range(1, 4)]
+    scene = load(tmp_path, *(link(f"l{k}", mesh) for k in range(4)), *joints)
+    assert len(scene.unreadable) == 4
+    (found,) = [issue for issue in scene.issues if issue.severity == "error"]
+    assert "wheel.obj" in found.message
+
+
+def test_without_limits_a_joint_that_slides_stays_and_one_that_turns_is_sampled(
+    tmp_path: Path,
+) -> None:
+    joints = [joint("j", "a", "b", "prismatic"), joint("k", "b", "c", "revolute")]
+    scene = load(tmp_path, *map(link, "abc"), *joints)
+    poses = joint_samples([robot.robot for robot in scene.robots], 20, seed=1)
+    assert {pose["j"] for pose in poses} == {(0.0,)}
+    turns = [pose["k"][0] for pose in poses]
+    assert min(turns) < -1.0
+    assert max(turns) > 1.0
+    assert all(-math.pi <= turn <= math.pi for turn in turns)

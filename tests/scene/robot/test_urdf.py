@@ -69,7 +69,8 @@ def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Pat
     shape = robot.links["a"].collisions[0].geometry
     assert isinstance(shape, RefusedShape)
     assert shape.code == "unsupported-feature"
-    assert shape.reason.startswith("line 2: <plane>")
+    assert shape.reason.startswith("<plane>: ")
+    assert robot.links["a"].collisions[0].line == 2
 
 
 @pytest.mark.parametrize(
@@ -98,7 +99,7 @@ def test_a_wrong_shape_costs_its_body_only(tmp_path: Path, shape: str, said: str
     assert isinstance(robot.links["b"].collisions[0].geometry, Box)
     found = robot.links["a"].collisions[0].geometry
     assert isinstance(found, RefusedShape)
-    assert found.reason.startswith("line 3: <")
+    assert robot.links["a"].collisions[0].line == 3
     assert said in found.reason
 
 
