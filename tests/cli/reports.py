@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from satcheck.audit import Settings
 from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
 from satcheck.audit.report.motion_report import Sweep
 from satcheck.audit.report.report import (
@@ -184,12 +185,7 @@ def report(
     return Report(
         tool=Tool("satcheck", "0.1.0"),
         units=units,
-        settings={
-            "depth": True,
-            "clearance": None,
-            "tolerance": "input-precision",
-            "accuracy": "exact",
-        },
+        settings=Settings().to_dict() | {"depth": True},
         summary=Summary(
             verdict="fail" if found else "incomplete" if warned else "pass",
             pairs=PairCounts(len(findings), 0, len(findings) - undecided, 0, undecided),
