@@ -27,7 +27,7 @@ from satcheck.core.conventions import axis_across
 
 # Steps of the search in a second of `depth_budget`: what a slow machine of today gets done, so that
 # the budget is not exceeded there. A number and not a clock: the same input, the same answer.
-WORK_PER_SECOND = 500_000_000
+WORK_PER_SECOND = 400_000_000
 # An interval on both sides of a limit is narrowed again, each time by this factor.
 NARROWER = 8
 

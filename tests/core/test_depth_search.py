@@ -218,6 +218,23 @@ def test_bars_among_bars_converge(seed: int) -> None:
             assert not is_free(rods, surface, along(way, share * found.lower))
 
 
+def test_a_crossing_in_the_last_digit_hides_no_overlap() -> None:
+    """A corner of one ring on a corner of the other, up to rounding: no set can be grown there, and
+    the rings overlap elsewhere."""
+    overlaps = 0
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        a, b = turned(torus(9, 6), seed), turned(torus(7, 5, radius=1.5), seed + 1000)
+        i, k = rng.integers(len(a.vertices)), rng.integers(len(b.vertices))
+        a = a.translated(tuple((b.vertices[k] - a.vertices[i]).tolist()))
+        surface = Surface(b, True)
+        if any(is_free(a, surface, along(way, 1e-9)) for way in directions(50)):
+            continue
+        overlaps += 1
+        assert search(a, b, upper=8.0).stop == "narrow"
+    assert overlaps > 10
+
+
 FAR = 1e9
 
 

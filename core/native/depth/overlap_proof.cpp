@@ -30,7 +30,10 @@ class Proof {
   // Of the sets that two metrics a side give, the one that holds t the deepest.
   void by_regions(const Surface& moved, const MeshRelation& relation, Overlaps overlaps) {
     if (!a_.solid || !b_.solid) return;
-    if (const auto common = overlaps == Overlaps::first ? common_point(moved, b_, relation) : deepest_common_point(moved, relation)) {
+    // Beside a crossing in a last digit no common point may be found, and yet the bodies overlap elsewhere.
+    std::optional<CommonPoint> common = common_point(moved, b_, relation);
+    if (!common || overlaps == Overlaps::thickest) common = thickest(common, moved, relation);
+    if (common) {
       const std::vector<InnerRegion> in_a = regions(a_, common->point - t_);
       const std::vector<InnerRegion> in_b = regions(b_, common->point);
       for (const InnerRegion& p : in_a) {
@@ -47,9 +50,9 @@ class Proof {
   }
 
  private:
-  // Where A and B have the thickest of some overlaps in common: the one of the relation, and those at more crossings.
-  std::optional<CommonPoint> deepest_common_point(const Surface& moved, const MeshRelation& relation) const {
-    std::optional<CommonPoint> deepest = common_point(moved, b_, relation);
+  // The deepest common point of some: the one that the relation led to, and those beside more crossings.
+  std::optional<CommonPoint> thickest(std::optional<CommonPoint> deepest, const Surface& moved,
+                                      const MeshRelation& relation) const {
     if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return deepest;
     std::vector<CommonPoint> tried;
     if (deepest) tried.push_back(*deepest);

@@ -14,7 +14,7 @@ double half_area(const Aabb& box) {
 }
 
 // Steps of a pair of boxes, of a pair of triangles, and of one that meets: measured.
-constexpr std::uint64_t kBoxWork = 10, kTriangleWork = 15, kContactWork = 150;
+constexpr std::uint64_t kBoxWork = 10, kTriangleWork = 20, kContactWork = 150;
 
 class Traversal {
  public:
