@@ -50,8 +50,8 @@ COVERAGE: dict[str, Cover] = {
     "pose": _stated("poses"),
     "motions": _not("motions"),
     # The body: its file is read again and placed again.
-    "bodies[].id": _stated("ids and names"),
-    "bodies[].name": _stated("ids and names"),
+    "bodies[].id": _stated("which bodies there are"),
+    "bodies[].name": _stated("which bodies there are"),
     "bodies[].file": PROVEN,
     "bodies[].sha256": PROVEN,
     "bodies[].path": PROVEN,

@@ -108,6 +108,11 @@ def _check_gap(finding: Json, rounding: Rounding) -> None:
     there = [key for key in DEPTH_FIGURES if key != "normal" and finding[key] is not None]
     if there:
         raise Rejected(f"bodies without a common interior have no {there[0]!r}")
+    contacts = finding["contacts"]
+    if finding["exact_relation"] == "separated" and contacts is not None:
+        lists = [contacts[key] for key in ("curves", "patches", "points", "triangle_pairs")]
+        if any(lists) or any(contacts["totals"].values()):
+            raise Rejected("bodies that are apart have no contacts")
     distance = finding["distance"]
     if distance is None:
         if finding["normal"] is not None or finding["witness"] is not None:

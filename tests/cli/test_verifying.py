@@ -12,7 +12,7 @@ import pytest
 from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satcheck
 
 NOT_COVERED = (
-    "Taken as stated: settings, ids and names.\n"
+    "Taken as stated: settings, which bodies there are.\n"
     "Not covered: the version of satcheck, who asked for what, on how many pairs an effect ran, "
     "times, plans.\n"
 )

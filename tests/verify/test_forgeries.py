@@ -190,3 +190,38 @@ def test_each_field_is_forged_in_some_report() -> None:
     lied_about = {name_of(path) for name in HONEST for path, _ in lies_about(name)}
     for field in FIELDS:
         assert any(speaks_of(field, at) or speaks_of(at, field) for at in lied_about), field
+
+
+def keeps_its_clearance(made: Json) -> None:
+    made["findings"][0].update(severity="note", rule=None)
+    made["summary"]["verdict"] = "pass"
+
+
+def is_deep(made: Json) -> None:
+    low, _ = made["findings"][0]["depth_bounds"]
+    made["findings"][0].update(depth=1e9, depth_bounds=[low, 1e9], quality="bounded")
+
+
+def is_shallow(made: Json) -> None:
+    made["findings"][0].update(depth=0.25, depth_bounds=[0.25, 0.25], quality="exact")
+
+
+def meets(made: Json) -> None:
+    contacts = honest("touching")["findings"][0]["contacts"]
+    made["findings"][0].update(contacts=contacts)
+
+
+TOGETHER = {
+    "a gap below the clearance is a note": ("a gap in the touch band", keeps_its_clearance),
+    "a depth far beyond the way out": ("concave", is_deep),
+    "a depth below the way out": ("concave", is_shallow),
+    "contacts of bodies that are apart": ("apart", meets),
+}
+
+
+@pytest.mark.parametrize("lie", TOGETHER)
+def test_lies_that_fit_each_other_are_rejected(lie: str) -> None:
+    name, forge = TOGETHER[lie]
+    made = honest(name)
+    forge(made)
+    assert [one.outcome for one in verified(made).findings] == ["rejected"]
