@@ -128,7 +128,10 @@ REFUSED: dict[str, tuple[bytes, str]] = {
     "not a number": (files.obj([(float("nan"), 0, 0), *CUBE[1:]]), "non-finite"),
     "infinite": (files.obj([(float("inf"), 0, 0), *CUBE[1:]]), "non-finite"),
     "too large": (files.obj([(1e60, 0, 0), *CUBE[1:]]), "out-of-range"),
-    "too small": (files.obj([(1e-90, 0, 0), *CUBE[1:]]), "out-of-range"),
+    "too small": (
+        files.obj([(x * 1e-60, y * 1e-60, z * 1e-60) for x, y, z in CUBE]),
+        "out-of-range",
+    ),
     "a face too many": (files.obj(CUBE, [*FACES, (0, 1, 8)]), "index-out-of-range"),
     "cut short": (files.binary_stl()[:-7], "truncated"),
 }

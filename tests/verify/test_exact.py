@@ -12,7 +12,7 @@ from satcheck.verify.exact import dot, integers, lattice, nearest_to_origin
 
 SMALL = st.integers(-3, 3)
 POINTS = st.lists(st.tuples(SMALL, SMALL, SMALL), min_size=1, max_size=6)
-FLOATS = st.floats(-1e45, 1e45).filter(lambda x: x == 0 or abs(x) > 1e-80)
+FLOATS = st.floats(-1e45, 1e45)
 
 
 @given(st.lists(st.tuples(FLOATS, FLOATS, FLOATS), min_size=1, max_size=5))
