@@ -148,7 +148,7 @@ def _refuse_macros(document: Element) -> None:
     )
     found = list(_macros(document, (*prefixes, "xacro:")))
     if found:
-        more = f", and {len(found) - 1} more elements are" if len(found) > 1 else ""
+        more = f"; {len(found) - 1} more elements are macros" if len(found) > 1 else ""
         found[0].refuse(f"{EXPAND}{more}", "xacro")
 
 
