@@ -68,7 +68,7 @@ class ObjReader {
       fail_at_line(code::unsupported_feature, "a free-form surface is not read", line);
     } else if (contains(other_files, keyword)) {
       fail_at_line(code::unsupported_feature, "what another file or a command adds is not read", line);
-    } else if (is_whole_number(keyword) && words.none_left()) {
+    } else if (is_whole_number(keyword) && (words.none_left() || is_header(words))) {
       if (counts_++ == 0) first_count_ = quoted(keyword) + " in line " + std::to_string(line);
     } else if (mesh_.vertices.empty() && mesh_.triangles.empty()) {
       fail_at_line(code::not_this_format, "not an OBJ file: unknown statement " + quoted(keyword), line);
@@ -79,6 +79,13 @@ class ObjReader {
 
   static bool is_whole_number(std::string_view word) {
     return word.find_first_not_of("0123456789") == std::string_view::npos;
+  }
+
+  // Counts of vertices and faces before all statements, `6540 2180`: two numbers make no face.
+  bool is_header(Words words) const {
+    std::string_view word;
+    const bool first = mesh_.vertices.empty() && mesh_.triangles.empty();
+    return first && words.next(word) && is_whole_number(word) && words.none_left();
   }
 
   // A weight or a colour may follow; another word could be the next statement.
@@ -145,7 +152,7 @@ class ObjReader {
     }
     if (counts_ > 0) {
       mesh_.warnings.push_back({code::unknown_statement, std::to_string(counts_) + (counts_ == 1 ? " line" : " lines") +
-                                                             " of one number ignored (first: " + first_count_ + ")"});
+                                                             " of counts ignored (first: " + first_count_ + ")"});
     }
     require_triangles(mesh_);
   }

@@ -63,6 +63,15 @@ def test_a_name_that_ends_with_a_backslash_swallows_no_face(tmp_path):
     assert "takes in 'f'" in message
 
 
+def test_counts_before_all_statements_are_a_warning(tmp_path):
+    file = loaded(tmp_path, "a.obj", b"8 12\n" + CUBE)
+    assert set(warnings(file)) == {"unknown-statement"}
+    assert file.health.volume == 1.0
+    for head in (b"1 2 3\n", b"8 -12\n"):
+        code, _ = refusal(tmp_path, "a.obj", head + CUBE)
+        assert code == "not-this-format"
+
+
 def test_two_vertices_in_a_line_are_an_error(tmp_path):
     code, message = refusal(tmp_path, "a.obj", CUBE.replace(b"v 0 0 0\n", b"v 0 0 0 v 1 2 3\n"))
     assert code == "bad-record"
