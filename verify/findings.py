@@ -104,6 +104,11 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
         )
 
     most = proven_depth(finding, depth, mtv)
+    slack = rounding.of(tolerance)
+    if relation == "near":
+        _prove_apart(certificate, pair, max(tolerance - slack, Fraction(0)))
+    if relation in OVERLAPS and most is not None and most + slack < tolerance:
+        raise Rejected("the overlap is within the tolerance: the bodies touch")
     check_severity(finding, asked, Known(unseen, most, keeps, EXACT_WIDTH))
     return proven
 

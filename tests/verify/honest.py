@@ -108,6 +108,7 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "touching at a corner": meshes(unit_box(), unit_box(1.0, 1.0, 1.0), contacts=True),
     "a gap in the touch band": meshes(unit_box(), unit_box(1.0 + 1e-12), clearance=1e-3),
     "an overlap in the touch band": meshes(unit_box(), unit_box(0.9), tolerance=0.2),
+    "a way out in the touch band": meshes(unit_box(), unit_box(0.9), tolerance=0.2, depth=True),
     "inside": meshes(unit_box(1.0, 1.0, 1.0), unit_box(edge=4.0), depth=True),
     "open": meshes(open_box(), unit_box(1.0, 1.0, 1.0)),
     "a sheet across": meshes(unit_box(), moved(sheet(), 0.5, 0.25, 0.5), depth=True),

@@ -211,7 +211,18 @@ def meets(made: Json) -> None:
     made["findings"][0].update(contacts=contacts)
 
 
+def is_called_deep(made: Json) -> None:
+    made["findings"][0].update(relation="penetrating", severity="error")
+    made["summary"].update(verdict="fail")
+
+
+def is_called_near(made: Json) -> None:
+    made["findings"][0].update(relation="near")
+
+
 TOGETHER = {
+    "a touch that is called an overlap": ("a way out in the touch band", is_called_deep),
+    "a touch that is called near": ("a gap in the touch band", is_called_near),
     "a gap below the clearance is a note": ("a gap in the touch band", keeps_its_clearance),
     "a depth far beyond the way out": ("concave", is_deep),
     "a depth below the way out": ("concave", is_shallow),
