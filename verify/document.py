@@ -17,6 +17,7 @@ from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
 from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import Departure, departures
+from satcheck.verify.relations import OVERLAPS
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
 
 SCHEMA = "satcheck.report/1"
@@ -327,7 +328,7 @@ class _Report:
 
 def _left(finding: dict[str, Any], proven: Proven) -> tuple[str, ...]:
     """What an accepted finding says and is not proven."""
-    bounds = finding["depth_bounds"]
+    bounds, overlap = finding["depth_bounds"], finding["exact_relation"] in OVERLAPS
     is_left = {
         "undecided": finding["undecided"] == "limit",
         "distance": finding["distance"] is not None and not proven.distance,
@@ -335,8 +336,8 @@ def _left(finding: dict[str, Any], proven: Proven) -> tuple[str, ...]:
         "depth_bounds": bounds is not None and bounds[0] > 0 and not proven.depth,
         "normal": finding["normal"] is not None and not proven.normal,
         "mtv": finding["mtv"] is not None and not proven.mtv,
-        "volume": bool(finding["volume"]),
-        "volume_error": bool(finding["volume_error"]),
+        "volume": overlap and finding["volume"] is not None,
+        "volume_error": overlap and finding["volume_error"] is not None,
         "contacts": finding["contacts"] is not None and not proven.contacts,
     }
     return tuple(f"findings[].{key}" for key, left in is_left.items() if left)

@@ -7,6 +7,7 @@ from typing import Any
 
 from satcheck.verify.coverage import COVERAGE, uncovered
 from satcheck.verify.published import schema
+from tests.verify.honest import honest
 from tests.verify.reports import report_of, verified
 
 
@@ -70,3 +71,10 @@ def test_what_is_not_proven_is_named() -> None:
     assert "bodies[].transform" not in left
     document["bodies"][0]["transform"] = [float(k % 5 == 0) for k in range(16)]
     assert "bodies[].transform" in {one.field for one in uncovered(document, [])}
+
+
+def test_a_volume_of_nothing_is_named_where_bodies_overlap() -> None:
+    document = honest("concave")
+    document["findings"][0].update(volume=0.0, volume_error=0.0)
+    left = {one.field for one in verified(document).uncovered}
+    assert {"findings[].volume", "findings[].volume_error"} <= left
