@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -30,9 +30,9 @@ def proven(pair: Record) -> bool:
 
 
 def _files(records: Sequence[Record]) -> str:
-    rows: dict[str, Counter[str]] = {}
+    rows: defaultdict[str, Counter[str]] = defaultdict(Counter)
     for record in _of(records, "file"):
-        row = rows.setdefault(Path(record["file"]).suffix.lower(), Counter())
+        row = rows[Path(record["file"]).suffix.lower()]
         row["files"] += 1
         row[_exit(record)] += 1
     for record in _of(records, "look"):
