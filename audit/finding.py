@@ -12,7 +12,6 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.gap import Gap, compare_convex, measure_gap
 from satcheck.audit.figures.touch_band import Band, band_of, estimate_is_within, touch_band
-from satcheck.audit.figures.unseen import unseen_inside, unseen_way_out
 from satcheck.audit.ladder.ladder import Contact, boxes_apart, settle
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
@@ -42,20 +41,18 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     if contact.relation == "indeterminate":
         return indeterminate(pair.a.id, pair.b.id, contact.reason or "undecided", plan)
     gap: tuple[float, float, bool | None] = (0.0, 0.0, None)
-    unseen = None
     if contact.relation in OVERLAPS:
         overlap = _overlapping(pair, contact, plan)
         if overlap is None:
             reason = f"undecided: rounding hides whether the overlap is within {pair.tolerance:.9g}"
             return indeterminate(pair.a.id, pair.b.id, reason, plan)
         known = overlap
-        unseen = _unseen_way_out(known, pair, plan)
     else:
-        measured, unseen = measure_gap(pair, contact, plan), unseen_inside(pair, contact)
+        measured = measure_gap(pair, contact, plan)
         gap = measured.lower, measured.upper, measured.kept
-        known = _apart(pair, contact, measured, unseen, plan)
+        known = _apart(pair, contact, measured)
     contradiction = _add_extras(known, pair, contact, plan)
-    found = judged(known, pair, gap, unseen is not None)
+    found = judged(known, pair, gap)
     if contradiction is not None:
         found = disputed(found, contradiction)
     known["reason"] = known["reason"] or found.reason
@@ -65,19 +62,6 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
         found.undecided,
     )
     return _finding(pair.a.id, pair.b.id, plan, known)
-
-
-def _unseen_way_out(known: dict[str, Any], pair: Pair, plan: Plan) -> str | None:
-    """Why the way out of an overlap that is let pass as short may be none out of the body: then the
-    reason of the finding, too."""
-    overlaps = known["relation"] in OVERLAPS
-    if overlaps and not pair.asked.limited:
-        return None
-    unseen = unseen_way_out(pair, (known.get("depth") or 0.0) if overlaps else pair.tolerance)
-    if unseen is not None:
-        plan.record("containment", "not checked", unseen)
-        known["reason"] = unseen
-    return unseen
 
 
 def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan) -> str | None:
@@ -139,11 +123,7 @@ def _weakness(pair: Pair, contact: Contact) -> str | None:
         return contact.reason
     if not contact.proven:
         return _unproven(pair) if not pair.may("exact") else "a degenerate contact was sampled"
-    if contact.gap_lower > 0 or pair.both_solid:
-        return None
-    hollow = [body.id for body in (pair.a, pair.b) if not body.solid]
-    verb = "is no solid" if len(hollow) == 1 else "are no solids"
-    return f"surfaces only: {' and '.join(hollow)} {verb}, so containment is not defined"
+    return None
 
 
 def _unproven(pair: Pair) -> str:
@@ -225,12 +205,12 @@ def _depth_quality(contact: Contact, depth: Depth | None) -> Quality:
     return "bounded"
 
 
-def _apart(
-    pair: Pair, contact: Contact, gap: Gap, unseen: str | None, plan: Plan
-) -> dict[str, Any]:
+def _apart(pair: Pair, contact: Contact, gap: Gap) -> dict[str, Any]:
     relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
     if gap.within:
         relation = "touching"
+        # The band is proven, whichever side of a touch the bodies are on.
+        proven = proven or _overlaps_within(contact, pair.tolerance)
     elif relation == "separated":
         guess = gap.kept is None and gap.distance is None
         if gap.kept is False or guess:
@@ -239,9 +219,6 @@ def _apart(
             reason = reason or OPEN_BAND
         if guess:
             proven, reason = False, _open_gap(pair)
-    if unseen is not None:
-        reason = unseen
-        plan.record("containment", "not checked", unseen)
     figures: dict[str, Any] = {}
     if pair.asked.clearance is not None and gap.distance is not None:
         figures = {"distance": gap.distance, "normal": gap.normal, "witness": gap.witness}
@@ -255,10 +232,16 @@ def _apart(
     }
 
 
+def _overlaps_within(contact: Contact, tolerance: float) -> bool:
+    """Whether two convex bodies are proven to overlap by no more than that, if they do."""
+    lower = None if contact.convex is None else contact.convex.lower
+    return lower is not None and lower >= -tolerance
+
+
 def _open_gap(pair: Pair) -> str:
     if not pair.may("exact"):
         return f"the gap is {_unproven(pair)}"
-    return "the gap may be wider: the nearest wall has no thickness and may be no part of the body"
+    return "the gap may be less: what fills a hole may be nearer than the surface"
 
 
 def _finding(a: str, b: str, plan: Plan, known: dict[str, Any]) -> Finding:

@@ -64,19 +64,20 @@ def of_clearance(
 
 
 def judged(
-    known: Mapping[str, Any], pair: Pair, gap: tuple[float, float, bool | None], unseen: bool
+    known: Mapping[str, Any], pair: Pair, gap: tuple[float, float, bool | None]
 ) -> Judgement:
     """Of a finding, by what is known of it: its fields by name.
 
     gap: proven bounds of the distance of bodies without a common interior, and whether it keeps the
-    clearance.
-    unseen: one body may lie in the other, which has no inside to check, or come to lie there by the
-    way out that an overlap is let pass for.
+    clearance. A relation that is not proven passes only where --accuracy or --allow-open asks for
+    less.
     """
-    asked, found = pair.asked, _found(known, pair.asked, gap)
-    unseen &= known["relation"] not in OVERLAPS or found.passes
-    found = by_rule(found, asked)
-    return _left_open(found, pair.settings.allow_open) if unseen else found
+    found = by_rule(_found(known, pair.asked, gap), pair.asked)
+    guessed = known["quality"] == "estimate" and found.passes
+    settings = pair.settings
+    if guessed and settings.accuracy == "exact" and not settings.allow_open:
+        return _warned(found, "relation")
+    return found
 
 
 def by_rule(found: Judgement, asked: Asked) -> Judgement:
@@ -96,12 +97,6 @@ def _found(
     if relation == "near":
         return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
     return of_clearance(asked, *gap) or (_TOUCH if relation == "touching" else _NOTHING)
-
-
-def _left_open(found: Judgement, allow_open: bool) -> Judgement:
-    if allow_open:
-        return found if _is_at_least(found, "note") else replace(found, severity="note")
-    return _warned(found, "inside")
 
 
 def disputed(found: Judgement, reason: str) -> Judgement:

@@ -23,6 +23,7 @@ from satcheck.core._native import (
     MeshRelation,
     MotionAnswer,
     Moving,
+    OpenHole,
     PairResult,
     PairResults,
     PlacedGeometry,
@@ -64,6 +65,7 @@ from satcheck.core._native import (
     search_depth,
     sha256,
     surface_intersection,
+    with_cracks_closed,
 )
 from satcheck.core.conventions import OUTCOMES
 
@@ -88,6 +90,7 @@ __all__ = [
     "MeshRelation",
     "MotionAnswer",
     "Moving",
+    "OpenHole",
     "PairResult",
     "PairResults",
     "PlacedGeometry",
@@ -129,4 +132,5 @@ __all__ = [
     "search_depth",
     "sha256",
     "surface_intersection",
+    "with_cracks_closed",
 ]

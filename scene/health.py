@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes
+import math
+from collections.abc import Callable
+
+from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes, with_cracks_closed
 from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 
@@ -11,11 +14,14 @@ from satcheck.scene.errors import MeshFileError
 class MeshHealth:
     """The mesh as read, welded. Edges are counted where triangles meet.
 
-    closed: every edge has an even number of triangles. manifold: exactly two. oriented: all
-    triangles agreed on which side is outside. volume: signed, file units cubed, 0.0 unless closed
-    and oriented. inside_out: parts faced inward and were turned. double_sided: each face exists in
-    both orientations. flat: all vertices in one plane. solid: after repair, inside and outside are
-    defined.
+    closed: every edge has an even number of triangles, once cracks are closed. manifold: exactly
+    two. oriented: all triangles agreed on which side is outside. cracks: places where neighbouring
+    faces miss each other by no more than the precision of the file; they are closed. holes: loops
+    of the boundary that are left after the repair, but for those of flat parts, which are sheets;
+    largest_hole: how far the largest one reaches, file units, 0.0 without holes. volume: signed,
+    file units cubed, 0.0 unless closed and oriented. inside_out: parts faced inward and were
+    turned. double_sided: each face exists in both orientations. flat: all vertices in one plane.
+    solid: after repair, inside and outside are defined, and some of it is inside.
     """
 
     vertices: int
@@ -26,6 +32,9 @@ class MeshHealth:
     misoriented_edges: int
     degenerate_triangles: int
     duplicate_triangles: int
+    cracks: int
+    holes: int
+    largest_hole: float
     closed: bool
     manifold: bool
     oriented: bool
@@ -49,18 +58,38 @@ class Examined:
     warnings: tuple[tuple[str, str], ...]
 
 
-def examine(mesh: Mesh, *, orient: bool = True) -> Examined:
+# Two copies of a point, each coordinate of both off by no more than the precision of the file, are
+# no farther apart than this many times that precision.
+CRACK_WIDTH = 2 * math.sqrt(3)
+Resolution = Callable[[Mesh], float]
+
+
+def _exact(_: Mesh) -> float:
+    return 0.0
+
+
+def examine(mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact) -> Examined:
     """Welds, inspects and, unless its winding is known to be meant, orients a mesh.
 
     Its vertices and triangles come in an order of their own, so that no answer depends on the
-    order in the file. Raises MeshFileError (without a file name) when no triangle has an area.
+    order in the file. resolution: how finely coordinates of the mesh are known; it is asked only of
+    a mesh with a boundary. Raises MeshFileError (without a file name) when no triangle has an area.
     """
-    return _judged(inspect(mesh, orient))
+    return _judged(_sealed(inspect(mesh, orient), orient, resolution))
 
 
-def examine_bytes(vertices: bytes | memoryview, triangles: bytes | memoryview) -> Examined:
+def examine_bytes(
+    vertices: bytes | memoryview, triangles: bytes | memoryview, resolution: Resolution = _exact
+) -> Examined:
     """examine(Mesh.from_bytes(vertices, triangles)), without the mesh between."""
-    return _judged(inspect_bytes(vertices, triangles, True))
+    return _judged(_sealed(inspect_bytes(vertices, triangles, True), True, resolution))
+
+
+def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Inspection:
+    after = inspection.repaired
+    if after.closed and after.oriented:
+        return inspection
+    return with_cracks_closed(inspection, orient, CRACK_WIDTH * resolution(inspection.mesh))
 
 
 def _judged(found: Inspection) -> Examined:
@@ -83,10 +112,13 @@ def _judged(found: Inspection) -> Examined:
         misoriented_edges=topology.misoriented_edges,
         degenerate_triangles=topology.degenerate_triangles,
         duplicate_triangles=topology.duplicate_triangles,
-        closed=topology.closed,
+        cracks=found.cracks,
+        holes=found.hole_count,
+        largest_hole=found.largest_hole[1] if found.largest_hole else 0.0,
+        closed=after.closed if found.cracks else topology.closed,
         manifold=topology.manifold,
         oriented=topology.oriented,
-        volume=topology.volume,
+        volume=after.volume if found.cracks else topology.volume,
         inside_out=turned and topology.oriented,
         double_sided=double_sided,
         flat=not after.solid and found.mesh.is_flat(),
@@ -97,14 +129,19 @@ def _judged(found: Inspection) -> Examined:
 
 def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
     warnings = []
-    surface_only = "only its surface is checked, not what lies inside"
-    if health.boundary_edges:
+    sheet = "a sheet, which has no inside"
+    if health.cracks:
+        cracks = _count(health.cracks, "crack")
+        warnings.append(("cracks", f"{cracks} no wider than the precision of the file: closed"))
+    if health.holes:
+        holes, size = _count(health.holes, "hole"), f"{health.largest_hole:.3g}"
+        extent = f"{size} across" if health.holes == 1 else f"the largest {size} across"
+        warnings.append(("not-closed", f"{holes}, {extent}: there, nothing is inside or outside"))
+    elif health.boundary_edges and not health.closed:
         edges = _count(health.boundary_edges, "boundary edge")
-        warnings.append(("not-closed", f"not closed ({edges}): {surface_only}"))
+        warnings.append(("not-closed", f"{edges}, all of flat parts: sheets, which have no inside"))
     if health.double_sided:
-        warnings.append(
-            ("double-sided", f"every face exists in both orientations, not a solid: {surface_only}")
-        )
+        warnings.append(("double-sided", f"every face exists in both orientations: {sheet}"))
     elif health.nonmanifold_edges:
         edges = _count(health.nonmanifold_edges, "edge")
         verb = "has" if health.nonmanifold_edges == 1 else "have"
@@ -117,9 +154,9 @@ def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
         what = "the mesh" if health.components == 1 else "at least one part of the mesh"
         warnings.append(("inside-out", f"{what} faced inward (volume {health.volume:g}): turned"))
     if health.flat:
-        warnings.append(("flat", f"all triangles lie in one plane, no volume: {surface_only}"))
+        warnings.append(("flat", f"all triangles lie in one plane: {sheet}"))
     elif health.closed and not health.solid and not health.double_sided:
-        warnings.append(("no-volume", f"closed, but not the boundary of a solid: {surface_only}"))
+        warnings.append(("no-volume", f"closed, with no volume: {sheet}"))
     if health.degenerate_triangles:
         triangles = _count(health.degenerate_triangles, "triangle")
         warnings.append(("degenerate-triangles", f"{triangles} of area 0"))

@@ -14,7 +14,7 @@ def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
     sha256 is that of the mesh, so that nothing known about the file's own is taken for this one.
     Raises MeshFileError when no triangle has an area.
     """
-    examined = examine(mesh)
+    examined = examine(mesh, resolution=lambda _: file.resolution)
     return replace(
         file,
         sha256=sha256(b"".join(mesh.to_bytes())),

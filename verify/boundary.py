@@ -1,9 +1,10 @@
-"""Where a solid ends: what of its surface has material on one side and none on the other.
+"""Where a body ends: what of its surface has no material on one side at least.
 
-A solid is the points that its surface runs around, with a winding number other than 0. So a wall
-of no thickness (outside on both sides) and a face within the material (inside on both) are no
-boundary. Cut along all that it shares with others of its surface, a triangle falls into cells that
-are boundary all over or nowhere. Of a surface that is not solid all points count.
+The solid part of a body is the points that its surface runs around, with a winding number other
+than 0. A wall of no thickness (outside on both sides) is a sheet, and belongs to the boundary; a
+face within the material (inside on both) does not. Cut along all that it shares with others of its
+surface, a triangle falls into cells that are boundary all over or nowhere. Of a surface that is not
+solid all points count.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class Boundary:
         found: list[Piece] = []
         for cell in cells_of(corners, normal, others):
             _, [(front, back)] = look(corners, normal, cell, [body])
-            if front != back:
+            if not (front and back):
                 polygon = [in_space(corners, p) for p in cell]
                 found += [(polygon[0], p, q) for p, q in pairwise(polygon[1:])]
         return found
@@ -67,7 +68,7 @@ def boundary_point(value: Any, body: Exact, *, of_hull: bool) -> Point:
     """The point of the evidence, which must be one where the body ends; or of a convex body any."""
     p = on_body(value, body, of_hull=of_hull)
     if not of_hull and not Boundary(body).holds(p):
-        raise Rejected("a point lies on a wall of no thickness, or within the material")
+        raise Rejected("a point lies within the material")
     return p
 
 

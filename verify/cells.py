@@ -116,6 +116,26 @@ def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
     return found
 
 
+def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set[int]:
+    """Those of the triangles in contact, on this side of each pair, of which a part has no material
+    on either side."""
+    triangles = sorted({pair[side] for pair in contacts})
+    if not body.world.solid:
+        return set(triangles)
+    found = set()
+    for t, own in _with_own_partners(body, triangles):
+        corners = body.corners(t)
+        normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
+        if not own or not any(normal):
+            continue  # only where it meets its own surface has a triangle the same on both sides
+        for cell in cells_of(corners, normal, [body.corners(u) for u in own]):
+            _, [sides] = look(corners, normal, cell, [body])
+            if sides == (False, False):
+                found.add(t)
+                break
+    return found
+
+
 def _with_own_partners(a: Exact, chosen: list[int]) -> Iterator[tuple[int, list[int]]]:
     """In blocks, because most falsehoods are found out by the first few triangles."""
     for start in range(0, len(chosen), BLOCK):

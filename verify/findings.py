@@ -371,11 +371,8 @@ def _check_band(
 
 
 def _may_hide(a: World, b: World, margin: float) -> bool:
-    """Whether one body, moved by no more than the margin, may lie inside the other, which has no
-    inside to check."""
-    for outer, inner in ((a, b), (b, a)):
-        (low, high), (inner_low, inner_high) = outer.bounds, inner.bounds
-        nested = bool((low - margin <= inner_low).all() and (inner_high <= high + margin).all())
-        if nested and not outer.solid and not outer.is_flat:
-            return True
-    return False
+    """Whether one body, moved by no more than the margin, may lie in a hole of the other: their
+    boxes meet, and one of them is open. What fills a hole is not judged here."""
+    (a_low, a_high), (b_low, b_high) = a.bounds, b.bounds
+    meet = bool((a_low - margin <= b_high).all() and (b_low - margin <= a_high).all())
+    return meet and not all(body.is_closed or body.is_flat for body in (a, b))

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from satcheck.verify.boundary import boundary_point, contacts_if_apart
-from satcheck.verify.cells import Sides, sides_of
+from satcheck.verify.cells import Sides, sheets_among, sides_of
 from satcheck.verify.evidence import (
     axis,
     exceeds,
@@ -19,7 +19,7 @@ from satcheck.verify.evidence import (
     triangle_of,
     vector,
 )
-from satcheck.verify.exact import Rejected, cross, dot, sub
+from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.sheets import no_crossing
 from satcheck.verify.surfaces import common, meeting
@@ -108,10 +108,9 @@ def _touching_by_surfaces(certificate: Any, pair: Pair) -> None:
 
 def _no_overlap(pair: Pair) -> None:
     contacts = meeting(pair.a, pair.b)
-    if pair.a.world.solid or pair.b.world.solid:
-        _nowhere({BOTH}, pair, contacts)
-    else:
-        no_crossing(pair.a, pair.b, contacts)
+    _nowhere({BOTH}, pair, contacts)
+    of_a, of_b = (sheets_among(body, contacts, k) for k, body in enumerate((pair.a, pair.b)))
+    no_crossing(pair.a, pair.b, [(s, t) for s, t in contacts if s in of_a and t in of_b])
 
 
 def _nowhere(ways: set[Way], pair: Pair, contacts: list[tuple[int, int]]) -> None:
@@ -133,10 +132,11 @@ def _nowhere(ways: set[Way], pair: Pair, contacts: list[tuple[int, int]]) -> Non
 
 
 def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
-    if solid:
-        return {sides.front, sides.back}
+    ways = {sides.front, sides.back} if solid else set()
+    if solid and (sides.front[0] or sides.back[0]):
+        return ways
     # A sheet within the boundary of a solid is neither inside nor outside of it.
-    return {(True, inside) for inside in (sides.front[1],) if inside == sides.back[1]}
+    return ways | {(True, inside) for inside in (sides.front[1],) if inside == sides.back[1]}
 
 
 def _contains(certificate: Any, pair: Pair) -> None:
@@ -202,9 +202,7 @@ def _solid_at(value: Any, sheet: Exact, pair: Pair) -> Way:
 
 
 def _crossing(certificate: Any, pair: Pair) -> None:
-    """Two triangles of which each passes through the other's inside."""
-    if pair.a.world.solid or pair.b.world.solid:
-        raise Rejected("crossing triangles prove nothing about the inside of a solid")
+    """Two triangles of which each passes through the other's inside, one of them of a sheet."""
     named = member(certificate, "triangles")
     if not isinstance(named, list) or len(named) != 2:
         raise Rejected("a crossing names two triangles")
@@ -223,6 +221,19 @@ def _crossing(certificate: Any, pair: Pair) -> None:
             inward = cross(normal, sub(c[(k + 1) % 3], c[k]))
             if dot(inward, middle) <= dot(inward, c[k]):
                 raise Rejected("the triangles meet at an edge only")
+    sides = [_sides(body, middle, n) for body, n in zip((pair.a, pair.b), normals, strict=True)]
+    if (True, True) in sides or (False, False) not in sides:
+        raise Rejected("no triangle of the crossing is of a sheet, or one lies within material")
+
+
+def _sides(body: Exact, p: Point, normal: Vector) -> tuple[bool, bool]:
+    """Whether there is material in front of a triangle of the body and behind it, next to p."""
+    if not body.world.solid:
+        return False, False
+    found = body.beside(p, normal)
+    if found is None:
+        raise Rejected("where the triangles cross another one lies")
+    return found[0] != 0, found[1] != 0
 
 
 def _hulls_overlap(certificate: Any, pair: Pair) -> None:

@@ -57,12 +57,11 @@ def check_severity(finding: Json, asked: Asked, known: Known) -> None:
     if found.severity == "error" and asked.severity is not None:
         severity = "silenced" if asked.severity == "none" else asked.severity
         found = replace(found, severity=severity, rule=asked.name("severity"))
-    if unseen:
-        least = "note" if asked.allow_open else "warning"
+    if unseen and not asked.allow_open:
         found = replace(
             found,
-            severity=max(found.severity, least, key=SEVERITIES.index),
-            undecided=found.undecided if asked.allow_open else "inside",
+            severity=max(found.severity, "warning", key=SEVERITIES.index),
+            undecided="inside",
         )
     if _is_disputed(finding):
         found = replace(

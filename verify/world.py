@@ -75,6 +75,10 @@ class World:
             if (label == before).all():
                 return label
 
+    @cached_property
+    def is_closed(self) -> bool:
+        return self.solid or is_balanced(self.vertices, self.triangles)
+
     @property
     def is_flat(self) -> bool:
         """Whether all vertices in use lie in one plane."""

@@ -86,7 +86,9 @@ class SharedMesh:
         self.file = file
         self.triangles = file.mesh.triangle_count
         self.largest = largest_coordinate(bounds or file.mesh.bounds)
-        self.geometry = core.Geometry(file.mesh, file.health.solid, file.topology.plain_solid)
+        self.geometry = core.Geometry(
+            file.mesh, file.health.solid, file.topology.plain_solid, settings.allow_open
+        )
         self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))
         self.shape = Once(self._shape)

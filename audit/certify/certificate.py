@@ -105,11 +105,12 @@ class _Maker:
             proof = {"kind": "same"} if exact == "coincident" else SURFACES
             both = overlaps.inside_both(placed) if solids else None
             return proof if both is None else {**proof, "both": both}
+        hint = self._hint()
         if solids == 2:
-            return self._hulls_overlap() or overlaps.overlap(
-                placed, self._hint(), across=self.across
-            )
-        return (overlaps.sheet_overlap if solids else overlaps.crossing)(placed, self._hint())
+            found = self._hulls_overlap() or overlaps.overlap(placed, hint, across=self.across)
+        else:
+            found = overlaps.sheet_overlap(placed, hint) if solids else None
+        return found or overlaps.crossing(placed, hint)
 
     def _hint(self) -> tuple[int, int] | None:
         found = core.mesh_relation(self.pair.a.surface(), self.pair.b.surface())

@@ -276,7 +276,7 @@ def _of_sheet(pair: Pair, inside: bool) -> Json | None:
 
 
 def crossing(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
-    """For open surfaces: two triangles that pass through each other."""
+    """For sheets: two triangles that pass through each other."""
     from satcheck.verify import Rejected
     from satcheck.verify.relations import prove
 

@@ -54,8 +54,7 @@ def say(pair: Pair, contact: Contact, peers: Peers, plan: Plan) -> str | None:
 
 def _by_fcl(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
     name = "python-fcl"
-    exact = core.mesh_relation(*(core.Surface(body.mesh, False) for body in (pair.a, pair.b)))
-    if exact.relation not in ("separated", "penetrating") or not exact.proven:
+    if not _tells_whether_surfaces_meet(pair, contact):
         return Opinion(name, "no answer", "not asked: the surfaces touch without crossing")
     try:
         theirs = peers.surfaces_meet(pair.a.mesh, pair.b.mesh)
@@ -65,10 +64,19 @@ def _by_fcl(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
     return _compared(name, theirs, ours, ("surfaces that meet", "surfaces that are apart"))
 
 
+def _tells_whether_surfaces_meet(pair: Pair, contact: Contact) -> bool:
+    """A body within another one may still touch faces inside its material."""
+    if contact.relation in ("contains", "inside"):
+        return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance > 0
+    return contact.relation in ("separated", "penetrating")
+
+
 def _by_manifold(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
     name = "manifold3d"
     if not pair.both_solid:
         return Opinion(name, "no answer", "not asked: a mesh is no solid")
+    if any(body.body.file.health.duplicate_triangles for body in (pair.a, pair.b)):
+        return Opinion(name, "no answer", "not asked: a mesh may hold sheets, which have no volume")
     if not all(body.shared.covers_once() for body in (pair.a, pair.b)):
         return Opinion(name, "no answer", "not asked: a mesh may overlap itself")
     try:

@@ -9,12 +9,13 @@ from satcheck.audit.bodies.boxes import holds as box_holds
 from satcheck.audit.curved.contact import CLOSE_CONTACT, PROOF, STAGE, TOO_CLOSE
 from satcheck.audit.curved.nesting import holds
 from satcheck.audit.curved.signed import ORIGIN, Signed
-from satcheck.audit.curved.triangles import Nearest, against_triangles, cancelling
+from satcheck.audit.curved.triangles import Nearest, against_triangles
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, scaled
 
 if TYPE_CHECKING:
+    from satcheck import core
     from satcheck.audit.asked.plan import Plan
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.bodies.placed_body import PlacedBody
@@ -32,18 +33,21 @@ _TRIED: tuple[Vector, ...] = (
 
 def settle_mesh(pair: Pair, plan: Plan) -> Contact:
     curved, mesh, sign = _sides(pair)
-    seen = _seen(curved, mesh, pair.asked_gap)
+    seen = against_triangles(curved, mesh.mesh, pair.asked_gap)
     if seen.refined:
         detail = f"{seen.refined} triangles that bounds leave open"
         plan.record(PROOF, seen.nearest.outcome if seen.nearest else "undecided", detail)
     crossed = _ends(mesh, seen)
     if crossed:
         return _crossing(pair, plan, len(crossed))
-    winding = _winding_within(curved, mesh)
+    hole = _hole_in_the_way(curved, mesh, _outcome(seen))
+    winding = 0 if hole is not None else _winding_within(curved, mesh)
     if winding:
         return _within(plan, mesh, seen, sign)
-    if winding is None or seen.undecided or len(seen.crossed):
-        reason = _open(seen)
+    if len(seen.crossed):
+        return _crossing(pair, plan, len(seen.crossed))
+    if winding is None or seen.undecided or hole is not None:
+        reason = hole or _open(seen)
         plan.record(STAGE, "undecided", reason)
         return Contact("indeterminate", False, reason=f"undecided: {reason}")
     return _apart(pair, plan, seen, sign)
@@ -53,16 +57,22 @@ def frees_mesh(pair: Pair, move: Vector) -> bool:
     """Whether A, moved, provably has no common interior with B."""
     curved, mesh, sign = _sides(pair)
     moved = (sign * move[0], sign * move[1], sign * move[2])
-    seen = _seen(curved, mesh, 0.0, moved)
+    seen = against_triangles(curved, mesh.mesh, 0.0, moved)
     apart = seen.nearest is None or seen.nearest.outcome == "separated" or seen.nearest.lower >= 0
-    return apart and not seen.undecided and _winding_within(curved, mesh, moved) == 0
+    if (
+        not apart
+        or seen.undecided
+        or _hole_in_the_way(curved, mesh, _outcome(seen), moved) is not None
+    ):
+        return False
+    return _winding_within(curved, mesh, moved) == 0
 
 
 def move_off(pair: Pair, most: float) -> Vector | None:
     """A translation of A, no longer than that, that provably frees it: off the triangle that the
     shape is deepest in. None: that does not do, as a rule because it stands in several."""
     curved, mesh, sign = _sides(pair)
-    nearest = _seen(curved, mesh, 0.0).nearest
+    nearest = against_triangles(curved, mesh.mesh, 0.0).nearest
     if nearest is None or nearest.normal is None:
         return None
     for longer in (0.0, rounding_pad(pair.largest_coordinate)):
@@ -73,38 +83,50 @@ def move_off(pair: Pair, most: float) -> Vector | None:
     return None
 
 
-def _seen(curved: CurvedShape, mesh: PlacedBody, reach: float, move: Vector = ORIGIN) -> Nearest:
-    """The triangles of a solid that cancel each other, as those of a wall without thickness may,
-    are no part of it: where no other one is crossed, they are left out."""
-    seen = against_triangles(curved, mesh.mesh, reach, move)
-    if not mesh.solid or not len(seen.crossed) or _ends(mesh, seen):
-        return seen
-    without = cancelling(mesh.mesh, seen.crossed.tolist())
-    if not len(without):
-        return seen
-    return against_triangles(curved, mesh.mesh, reach, move, without)
-
-
 def _ends(mesh: PlacedBody, seen: Nearest) -> list[int]:
-    """Of the triangles that the inside of the shape meets those on which the body ends; a body
-    without an inside is its triangles."""
+    """Of the triangles that the inside of the shape meets those on which the body ends; of an open
+    body all count."""
     crossed: list[int] = seen.crossed.tolist()
-    return [k for k in crossed if not mesh.solid or mesh.surface().is_boundary(k)]
-
-
-def _touched(mesh: PlacedBody, seen: Nearest) -> int | None:
-    """A triangle on which the body ends that the shape provably touches, while it enters none."""
-    if seen.undecided or seen.nearest is None or not seen.nearest.exact:
-        return None
     surface = mesh.surface()
-    ends = (k for k in seen.touched if not mesh.solid or surface.is_boundary(k))
-    return next(ends, None)
+    return [k for k in crossed if not surface.solid or surface.is_boundary(k)]
+
+
+def _touched(seen: Nearest) -> tuple[int, ...]:
+    """The triangles that the shape provably touches, while it enters none."""
+    if seen.undecided or seen.nearest is None or not seen.nearest.exact:
+        return ()
+    return seen.touched
+
+
+def _outcome(seen: Nearest) -> str:
+    return "separated" if seen.nearest is None else seen.nearest.outcome
+
+
+def _hole_in_the_way(
+    curved: CurvedShape, mesh: PlacedBody, outcome: str, move: Vector = ORIGIN
+) -> str | None:
+    """Why what fills a hole of the mesh may overlap the shape, moved, or touch one that does not
+    touch the mesh; None where it cannot. outcome: of the triangles of the mesh."""
+    _, hulls = mesh.surface().closed()
+    for number, hull in enumerate(hulls):
+        seen = against_triangles(curved, hull.mesh, 0.0, move)
+        harmless = _outcome(seen) in ("separated", "touching" if outcome == "touching" else "")
+        if seen.undecided or not harmless or _is_held(curved, hull, move):
+            which = "the hole" if len(hulls) == 1 else f"hole {number + 1} of {len(hulls)}"
+            return f"{which} of {mesh.id} is where the curved shape is: what fills it decides"
+    return None
+
+
+def _is_held(curved: CurvedShape, hull: core.Surface, move: Vector) -> bool:
+    """Whether the middle of the shape, moved, lies in the hull."""
+    return hull.winding_number(added(curved.centre, move)) != 0
 
 
 def _within(plan: Plan, mesh: PlacedBody, seen: Nearest, sign: float) -> Contact:
     """A point inside the shape is known to lie within the mesh: they overlap."""
     nearest = seen.nearest
-    touched = _touched(mesh, seen)
+    surface = mesh.surface()
+    touched = next((k for k in _touched(seen) if surface.is_boundary(k)), None)
     if touched is not None:
         plan.record(STAGE, "penetrating", f"within, and touches triangle {touched}")
         return Contact("penetrating", True)
@@ -117,8 +139,6 @@ def _within(plan: Plan, mesh: PlacedBody, seen: Nearest, sign: float) -> Contact
 
 
 def _open(seen: Nearest) -> str:
-    if len(seen.crossed):
-        return "a curved shape meets only faces that bound no material"
     if seen.undecided:
         return "the bounds of a curved shape and a triangle did not close"
     return "no point of a curved shape could be told to lie within the mesh or not"
@@ -136,20 +156,17 @@ def _crossing(pair: Pair, plan: Plan, triangles: int) -> Contact:
 
 
 def _apart(pair: Pair, plan: Plan, seen: Nearest, sign: float) -> Contact:
-    solid = _sides(pair)[1].solid  # the gap to a surface alone rules no containment out
     if seen.nearest is None:
         plan.record(STAGE, "separated", "no triangle is near the shape")
-        gap = math.nextafter(pair.asked_gap, math.inf) if solid else 0.0
-        return Contact("separated", True, gap)
+        return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
     nearest: Signed = seen.nearest if sign > 0 else seen.nearest.swapped()
     plan.record(STAGE, nearest.outcome, f"nearest is triangle {seen.triangle}")
     relation: Relation = "separated" if nearest.outcome == "separated" else "touching"
     exact = nearest.exact
     if relation == "touching":
-        exact = _touched(_sides(pair)[1], seen) is not None
+        exact = bool(_touched(seen))
     reason = None if exact else CLOSE_CONTACT
-    gap = max(nearest.lower, 0.0) if solid else 0.0
-    return Contact(relation, exact, gap, nearest, reason=reason)
+    return Contact(relation, exact, max(nearest.lower, 0.0), nearest, reason=reason)
 
 
 def _sides(pair: Pair) -> tuple[CurvedShape, PlacedBody, float]:
@@ -163,14 +180,13 @@ def _sides(pair: Pair) -> tuple[CurvedShape, PlacedBody, float]:
 
 
 def _winding_within(curved: CurvedShape, mesh: PlacedBody, move: Vector = ORIGIN) -> int | None:
-    """The winding number of the mesh about a point inside the shape, moved; 0 for a body without
-    an inside: it has nothing within it. None where those that were tried lie on its surface."""
-    if not mesh.solid:
-        return 0
+    """The winding number of the mesh, closed, about a point inside the shape, moved. None where
+    those that were tried lie on its surface."""
+    closed, _ = mesh.surface().closed()
     x, y, z = added(curved.centre, move)
     step = 0.5 * curved.inner_radius
     for u, v, w in _TRIED:
-        found = mesh.surface().winding_number((x + step * u, y + step * v, z + step * w))
+        found = closed.winding_number((x + step * u, y + step * v, z + step * w))
         if found is not None:
             return found
     return None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -14,7 +13,6 @@ from satcheck.audit.curved.signed import AT_ORIGIN, ORIGIN, Outcome, Signed, Vec
 from satcheck.core.frozen import frozen, replace
 
 Indices = npt.NDArray[np.int64]
-NONE: Indices = np.empty(0, dtype=np.int64)
 # The graver first.
 _OUTCOMES: tuple[Outcome, ...] = ("penetrating", "touching", "separated")
 
@@ -42,15 +40,13 @@ def against_triangles(
     mesh: core.Mesh,
     reach: float,
     move: Vector = ORIGIN,
-    without: Indices = NONE,
 ) -> Nearest:
-    """The shape, moved, and every triangle whose box is within reach of the shape's, but for those
-    that are left out."""
+    """The shape, moved, and every triangle whose box is within reach of the shape's."""
     vertices, triangles = np.asarray(mesh.vertices), np.asarray(mesh.triangles)
     corners = vertices[triangles]
     low, high = (np.array(end) + np.array(move) for end in curved.bounds())
     gaps = np.maximum(low - corners.max(axis=1), corners.min(axis=1) - high)
-    close = np.setdiff1d(np.flatnonzero(gaps.max(axis=1) <= reach), without)
+    close = np.flatnonzero(gaps.max(axis=1) <= reach)
     if not len(close):
         return Nearest(None, -1, close, (), False)
     placed = replace(curved, pose=curved.moved(move))
@@ -100,20 +96,6 @@ def _is_exact(outcome: Outcome, known: Sequence[Signed]) -> bool:
     if outcome != "touching":
         return all(one.exact for one in those)
     return any(one.exact for one in those) and all(one.lower >= 0 for one in those)
-
-
-def cancelling(mesh: core.Mesh, chosen: Sequence[int]) -> Indices:
-    """Those of the triangles that lie in each other, corner on corner, as often one way round as
-    the other: no winding number changes across them, and no material ends there."""
-    vertices = np.asarray(mesh.vertices)
-    keys: dict[int, tuple[tuple[float, ...], ...]] = {}
-    turns: Counter[tuple[tuple[float, ...], ...]] = Counter()
-    for index in chosen:
-        corners = [tuple(c + 0.0 for c in p) for p in vertices[mesh.triangles[index]].tolist()]
-        order = sorted(range(3), key=lambda k: corners[k])
-        keys[index] = tuple(corners[k] for k in order)
-        turns[keys[index]] += 1 if order in ([0, 1, 2], [1, 2, 0], [2, 0, 1]) else -1
-    return np.array([index for index in chosen if turns[keys[index]] == 0], dtype=np.int64)
 
 
 def _ask(shapes: list[core.Shape], curved: CurvedShape) -> core.PairResults:

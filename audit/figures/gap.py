@@ -12,7 +12,7 @@ from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector, Witness
 from satcheck.audit.severity import keeps
 from satcheck.audit.tolerances import rounding_pad
-from satcheck.core.frozen import frozen, replace
+from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -67,23 +67,20 @@ def _surface_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     assert contact.climb is not None
     assert contact.climb.gap is not None
     found, cost = contact.climb.gap, contact.climb.band_nanoseconds
+    of_holes = contact.climb.gap_of_holes
     if math.isinf(found.distance):
         plan.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
-        return _at_least(pair, math.nextafter(limit, math.inf))
-    rounding = rounding_pad(pair.largest_coordinate)
-    lower = max(found.distance - rounding, 0.0)
-
-    def compare(length: float) -> int:
-        return core.compare_gap(pair.a.surface(), pair.b.surface(), length)
-
-    if contact.climb.gap_is_void:
-        # From the outside no face within the material can be nearest.
-        plan.add(stage, "lower bound", "to a wall without thickness: no part of the body", cost)
-        gap = _at_least(pair, lower)
-        is_near = gap.within is None and compare(pair.tolerance) <= 0  # another wall
-        return replace(gap, within=True) if is_near else gap
+        return _at_least(pair, of_holes or math.nextafter(limit, math.inf))
     plan.add(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}", cost)
-    upper = found.distance + rounding
+    rounding = rounding_pad(pair.largest_coordinate)
+    nearest = found.distance if of_holes is None else of_holes
+    lower, upper = max(nearest - rounding, 0.0), found.distance + rounding
+
+    def compare(length: float) -> int | None:
+        """What fills a hole can only be nearer than the surface."""
+        side = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
+        return side if side <= 0 or of_holes is None else None
+
     return Gap(
         lower,
         upper,

@@ -96,7 +96,7 @@ def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
 def _proven(pair: Pair, found: core.Climb) -> Contact | None:
     """What the rung that the climb ended with says above the world boxes; None: not everything."""
     if found.triangles is not None:
-        return _triangles(found, found.triangles)
+        return _triangles(pair, found, found.triangles)
     if found.boxes == "apart":
         return _apart_beyond(pair)
     if found.hulls is None:
@@ -158,7 +158,9 @@ def _hulls(found: core.Climb, result: core.PairResult) -> Contact | None:
     return Contact("separated", True, found.proven_gap, climb=found)
 
 
-def _triangles(found: core.Climb, surfaces: core.MeshRelation) -> Contact:
+def _triangles(pair: Pair, found: core.Climb, surfaces: core.MeshRelation) -> Contact:
+    if surfaces.hole is not None:
+        return Contact("indeterminate", False, reason=_open(pair, surfaces.hole), climb=found)
     in_a, in_b = surfaces.triangle_a, surfaces.triangle_b
     return Contact(
         RELATION_NAMED[surfaces.relation],
@@ -166,4 +168,14 @@ def _triangles(found: core.Climb, surfaces: core.MeshRelation) -> Contact:
         crossing=(in_a, in_b) if in_a >= 0 and in_b >= 0 else None,
         point=surfaces.point,
         climb=found,
+    )
+
+
+def _open(pair: Pair, hole: core.OpenHole) -> str:
+    body, other = (pair.a, pair.b) if hole.of_a else (pair.b, pair.a)
+    at = ", ".join(f"{c:.4g}" for c in hole.centre)
+    which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
+    return (
+        f"{which} of {body.id}, {hole.diameter:.3g} across at ({at}), is where {other.id} is: "
+        "what fills it decides"
     )

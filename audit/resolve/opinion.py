@@ -17,13 +17,13 @@ from satcheck.core.frozen import frozen
 class Opinion:
     """What a pair says where it is.
 
-    unseen: a body that was moved may lie in another one, which has no inside to check. push: of an
-    overlap, of a gap below the clearance, out of an inside that nobody can see: a translation of
-    the first body that ends it; None: none was found. excused: nobody objects to what they do where
+    open: a hole of one body leaves open whether they overlap. push: of an overlap, of a gap below
+    the clearance, away from a hole: a translation of the first body that ends it; None: none was
+    found. excused: nobody objects to what they do where
     the scene has them, overlap within the touch band, for instance.
     """
 
-    kind: Literal["free", "overlap", "near", "unseen", "undecided"]
+    kind: Literal["free", "overlap", "near", "open", "undecided"]
     push: Vector | None = None
     excused: bool = False
 
@@ -41,10 +41,10 @@ def opinion_of(pair: Pair, found: Finding) -> Opinion:
     """found: what was found where the bodies are."""
     clearance = pair.asked.clearance or 0.0
     if found.relation == "indeterminate":
-        return Opinion("undecided")
+        push = None if pair.both_solid or pair.curved else way_outside(pair)
+        return Opinion("undecided" if push is None else "open", push)
     if not is_objected(found, pair.settings.fail_on):
-        push = way_outside(pair) if found.undecided == "inside" else None
-        return Opinion("free" if push is None else "unseen", push)
+        return Opinion("free")
     if found.relation in OVERLAPS:
         return Opinion("overlap", found.mtv and longer(found.mtv, clearance - may_overlap(pair)))
     if found.normal is None:

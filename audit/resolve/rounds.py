@@ -102,7 +102,7 @@ class Rounds:
                 if pair not in self.left and not crowd.movable.isdisjoint(pair)
             ]
         )
-        asking = ("overlap", "near", "unseen")
+        asking = ("overlap", "near", "open")
         return {pair: said for pair, said in found.items() if said.kind in asking}
 
     def _push_apart(self, overlaps: dict[BodyPair, Opinion]) -> None:

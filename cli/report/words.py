@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 # A lower bound below this share of the upper one is left out: it tells a person nothing.
 NEGLIGIBLE = 1e-3
 # The result of the step "containment", and of no other, where a body has no inside to check.
-UNSEEN = "not checked"
 
 
 def counted(count: int, one: str, many: str | None = None) -> str:
@@ -60,12 +59,9 @@ def contacts(finding: Finding) -> str:
 
 
 def by_surfaces(finding: Finding) -> bool:
-    """Whether one body may lie inside the other, or come to lie there, which has no inside to
-    check."""
+    """Whether one body may come, on the way, to lie inside the other, which is open."""
     swept = finding.motion
-    if swept is not None and swept.relation != "indeterminate" and swept.reason is not None:
-        return True
-    return UNSEEN in [stage.result for stage in finding.plan]
+    return swept is not None and swept.relation != "indeterminate" and swept.reason is not None
 
 
 def is_hit(finding: Finding) -> bool:

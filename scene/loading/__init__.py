@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from satcheck.core import Mesh
@@ -128,18 +129,20 @@ def mesh_file(
     """
     path = source.path
     try:
-        examined = examine(mesh) if mesh else examine_bytes(raw.vertices, raw.triangles)
+        resolution = partial(_resolution, raw)
+        if mesh:
+            examined = examine(mesh, resolution=resolution)
+        else:
+            examined = examine_bytes(raw.vertices, raw.triangles, resolution)
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from error.__cause__
     except (MemoryError, OverflowError, ValueError) as error:
         raise _refusal(source, error) from error
-    low, high = examined.mesh.bounds
-    largest = max(map(abs, (*low, *high)))
     return MeshFile(
         path=path,
         sha256=source.sha256,
         format=source.format,
-        resolution=file_resolution(raw, largest),
+        resolution=_resolution(raw, examined.mesh),
         units=raw.units,
         mesh=examined.mesh,
         topology=examined.topology,
@@ -150,6 +153,12 @@ def mesh_file(
         part=part,
         placement_step=placement_step(raw, by_file=placed),
     )
+
+
+def _resolution(raw: RawMesh, mesh: Mesh) -> float:
+    """How finely the coordinates of the mesh are known, in file units."""
+    low, high = mesh.bounds
+    return file_resolution(raw, max(map(abs, (*low, *high))))
 
 
 def _refusal(source: Source, error: Exception) -> MeshFileError:

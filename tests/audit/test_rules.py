@@ -202,9 +202,9 @@ def test_severity_and_what_fails(tmp_path, fail_on, severity, verdict):
 @pytest.mark.parametrize("severity", ["none", "note", "error"])
 @pytest.mark.parametrize("fail_on", ["error", "warning", "note"])
 def test_what_cannot_be_decided_stays_a_warning(tmp_path, severity, fail_on):
-    scene = scene_of(tmp_path, a=open_box(), b=unit_box(1, 1, 1))
+    scene = scene_of(tmp_path, a=open_box(), b=unit_box(1, 1, 3.5))
     report = check(ruled(scene, rule(severity=severity)), Settings(fail_on=fail_on))
-    assert judgement(report) == ("warning", None, "inside", "incomplete")
+    assert judgement(report) == ("warning", None, "relation", "incomplete")
 
 
 def test_what_is_allowed_is_not_looked_at(tmp_path):

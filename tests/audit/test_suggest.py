@@ -56,7 +56,7 @@ def test_too_deep_for_its_rule_is_suggested(tmp_path):
 
 
 def test_what_could_not_be_decided_is_counted_and_not_suggested(tmp_path):
-    found = suggest(scene_of(tmp_path, a=open_box(), b=unit_box(1, 1, 1)))
+    found = suggest(scene_of(tmp_path, a=open_box(), b=unit_box(1, 1, 3.5)))
     assert (found.pairs, found.undecided) == ((), 1)
 
 

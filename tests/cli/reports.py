@@ -93,15 +93,6 @@ UNDECIDED = replace(
     quality=None,
     reason="the time limit was reached",
 )
-SURFACES = replace(
-    SEPARATED,
-    id="far|soup",
-    a="far",
-    b="soup",
-    severity="warning",
-    reason="the inside of soup was not checked: it is not closed",
-    plan=(Stage("containment", "not checked", 0.5, "the inside of soup was not checked"),),
-)
 ESTIMATE = replace(
     PENETRATING,
     id="block|perhaps",

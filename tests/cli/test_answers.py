@@ -97,14 +97,24 @@ def test_tolerance_widens_the_touch_band() -> None:
 
 
 def test_a_body_within_an_open_mesh_is_no_pass() -> None:
-    last = "No collision found, but 1 pair was checked by surfaces only."
     ran = satcheck("open_box.off", "cube.off")
-    assert ran.code == 3
-    assert "open_box is not closed: 1 pair was checked by surfaces only" in ran.out
-    assert ran.out.splitlines()[-1].endswith(last)
+    assert ran.code == 1
+    assert "contains" in ran.out
     allowed = satcheck("--allow-open", "open_box.off", "cube.off")
     assert allowed.code == 0
-    assert allowed.out.splitlines()[-1].endswith(last)
+    assert allowed.out.splitlines()[-1].endswith("No collision.")
+
+
+def test_a_body_in_a_hole_is_no_pass(tmp_path: Path) -> None:
+    part, shell = tmp_path / "part.obj", str(SAMPLES / "open_box.off")
+    points = [(x, y, z) for z in (3, 5) for y in (0, 1) for x in (2, 3)]
+    quads = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+    lines = [f"v {x} {y} {z}" for x, y, z in points] + [f"f {' '.join(map(str, q))}" for q in quads]
+    part.write_text("\n".join(lines) + "\n")
+    ran = satcheck(shell, str(part))
+    assert ran.code == 3
+    assert "the hole of open_box" in ran.out
+    assert satcheck("--allow-open", shell, str(part)).code == 0
 
 
 def test_nothing_checked_is_no_pass(tmp_path: Path) -> None:

@@ -32,9 +32,9 @@ position = [0, 0, 1.75]
 """
 
 
-def tetrahedron(size: int) -> str:
-    """Its corners in OBJ, with the base in the plane z = 0 around the origin."""
-    corners = ((-size, -size, 0), (size, -size, 0), (0, size, 0), (0, 0, size))
+def tetrahedron(size: int, z: float = 0) -> str:
+    """Its corners in OBJ, with the base around the z axis at this height."""
+    corners = ((-size, -size, z), (size, -size, z), (0, size, z), (0, 0, z + size))
     return "".join(f"v {x} {y} {z}\n" for x, y, z in corners)
 
 
@@ -235,9 +235,11 @@ def test_an_unreadable_body_is_an_error(tmp_path: Path) -> None:
 
 
 def test_what_is_undecided_makes_it_incomplete(tmp_path: Path) -> None:
-    """A tetrahedron under a tent that has no floor."""
+    """A tetrahedron in the hole where a tent has no floor."""
     (tmp_path / "tent.obj").write_text(tetrahedron(9) + "f 1 2 4\nf 2 3 4\nf 3 1 4\n")
-    (tmp_path / "seed.obj").write_text(tetrahedron(1) + "f 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n")
+    (tmp_path / "seed.obj").write_text(
+        tetrahedron(1, -0.5) + "f 1 2 4\nf 2 3 4\nf 3 1 4\nf 1 3 2\n"
+    )
     ran = satcheck("suggest", *(str(tmp_path / name) for name in ("tent.obj", "seed.obj")))
     assert ran.code == 3
     assert "Of 1 pair something could not be decided" in ran.err

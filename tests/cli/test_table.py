@@ -21,7 +21,6 @@ from tests.cli.reports import (
     ESTIMATE,
     PENETRATING,
     SEPARATED,
-    SURFACES,
     SWEPT,
     TOUCHING,
     UNDECIDED,
@@ -232,16 +231,6 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             "2 bodies, 1 pair: 1 indeterminate. No collision found, but 1 pair is indeterminate.",
         ),
         (
-            (SEPARATED, SURFACES),
-            "2 bodies, 2 pairs: 2 separated. "
-            "No collision found, but 1 pair was checked by surfaces only.",
-        ),
-        (
-            (PENETRATING, SURFACES),
-            "2 bodies, 2 pairs: 1 separated, 1 penetrating. Depth 1. "
-            "1 pair was checked by surfaces only.",
-        ),
-        (
             (SWEPT, replace(SWEPT, motion=replace(SWEPT.motion, reason="surfaces only: ..."))),
             "2 bodies, 2 pairs: 2 separated. "
             "No collision found, but 1 pair was checked by surfaces only.",
@@ -289,8 +278,9 @@ def test_no_pair_checked_is_no_verdict() -> None:
 
 
 def test_one_line_a_body_that_is_no_solid() -> None:
-    text = shown(*(replace(SURFACES, a=f"far{i}") for i in range(3)))
-    assert text.count("surfaces only") == 2
+    hollow = replace(SWEPT.motion, reason="surfaces only: ...")
+    text = shown(*(replace(SWEPT, a=f"far{i}", b="soup", motion=hollow) for i in range(3)))
+    assert text.count("checked by surfaces only") == 2
     assert "soup is not closed: 3 pairs were checked by surfaces only\n" in text
 
 

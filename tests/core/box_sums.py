@@ -2,8 +2,7 @@
 
 A solid is a sum of lattice boxes with a sign: the winding number of a cell is the sum of the signs
 of the boxes that hold it, and the solid is where that is not 0. Its mesh is the boxes' faces, one
-after another: faces inside the material, walls of no thickness and pockets behind them come about
-by themselves.
+after another: faces inside the material, sheets and pockets behind them come about by themselves.
 """
 
 from __future__ import annotations
@@ -13,7 +12,17 @@ from collections import Counter
 from dataclasses import dataclass
 
 from satcheck.core import Mesh
-from tests.core.voxel_solids import FACES, IDENTITY, Cell, Matrix, Point, apply, mesh_of_soup
+from tests.core.voxel_solids import (
+    FACES,
+    IDENTITY,
+    Cell,
+    Matrix,
+    Point,
+    Square,
+    apply,
+    beside,
+    mesh_of_soup,
+)
 
 # Three times a rotation, in integers: nothing stays parallel to an axis.
 TURN: Matrix = ((2, -1, 2), (2, 2, -1), (-1, 2, 2))
@@ -73,6 +82,20 @@ class BoxSum:
             for cell in box.cells():
                 winding[cell] += box.sign
         return frozenset(cell for cell, number in winding.items() if number)
+
+    def sheets(self) -> frozenset[Square]:
+        """The unit squares of all faces that have no filled cell on either side."""
+        filled = self.unit_cells()
+        squares: set[Square] = set()
+        for box in self.boxes:
+            cells = set(box.cells())
+            for cell in cells:
+                for step, _ in FACES:
+                    i, j, k = (c + s for c, s in zip(cell, step, strict=True))
+                    axis = [s != 0 for s in step].index(True)
+                    if (i, j, k) not in cells:
+                        squares.add((cell if sum(step) < 0 else (i, j, k), axis))
+        return frozenset(s for s in squares if filled.isdisjoint(beside(s)))
 
     def surface_points(self) -> frozenset[Cell]:
         """The lattice points of the unit squares between filled and empty cells."""

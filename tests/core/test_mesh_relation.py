@@ -111,14 +111,17 @@ SHELLS = boxes(((0, 0, 0), (4, 4, 4), 1), ((2, 0, 0), (6, 4, 4), 1))
 CROSSED = boxes(((0, 0, 0), (4, 4, 4), 1), ((1, 1, 1), (6, 3, 3), 1))
 NESTED = boxes(((0, 0, 0), (6, 6, 6), 1), ((2, 2, 2), (4, 4, 4), 1))
 FIN = boxes(((0, 0, 0), (2, 2, 2), 1), ((3, 0, 0), (4, 2, 2), 1), ((3, 0, 0), (4, 2, 2), -1))
+# Its sheets cross those of FIN along edges of both.
+TALL_FIN = boxes(((3, 0, 3), (4, 2, 4), 1), ((3, 1, -1), (4, 3, 1), 1), ((3, 1, -1), (4, 3, 1), -1))
 SPLIT_CUBE = boxes(((0, 0, 0), (2, 4, 4), 1), ((2, 0, 0), (4, 4, 4), 1))
 
 SELF_MEETING: dict[str, tuple[Cells, Cells, str]] = {
-    "through the lid of a pocket": (POCKET, box((2, 2, 3), (3, 3, 7)), "separated"),
-    "on the floor of a pocket": (POCKET, box((2, 2, 2), (3, 3, 7)), "touching"),
+    "through the lid of a pocket": (POCKET, box((2, 2, 3), (3, 3, 7)), "penetrating"),
+    "on the floor of a pocket": (POCKET, box((2, 2, 2), (3, 3, 5)), "touching"),
     "into the floor of a pocket": (POCKET, box((2, 2, 1), (3, 3, 7)), "penetrating"),
     "fills a pocket": (POCKET, box((1, 1, 2), (4, 4, 5)), "touching"),
-    "rests on the lid of a pocket": (POCKET, box((2, 2, 5), (3, 3, 7)), "separated"),
+    "below the lid of a pocket": (POCKET, box((2, 2, 3), (3, 3, 4)), "separated"),
+    "rests on the lid of a pocket": (POCKET, box((2, 2, 5), (3, 3, 7)), "touching"),
     "rests on the lid and the rim": (POCKET, box((0, 2, 5), (3, 3, 7)), "touching"),
     "across a face inside the material": (SHELLS, box((1, 1, 1), (5, 3, 3)), "contains"),
     "across a face inside, and out": (SHELLS, box((1, 1, 1), (7, 3, 3)), "penetrating"),
@@ -126,7 +129,11 @@ SELF_MEETING: dict[str, tuple[Cells, Cells, str]] = {
     "around the bar of a crossed pair": (CROSSED, box((4, 0, 0), (5, 5, 1)), "touching"),
     "on the edge where shells cross": (CROSSED, box((4, 3, 1), (5, 4, 3)), "touching"),
     "inside a nested shell": (NESTED, box((1, 1, 1), (5, 5, 5)), "contains"),
-    "in place of a shell that cancels": (FIN, box((3, 0, 0), (4, 2, 2)), "separated"),
+    "within a shell that cancels": (FIN, box((3, 0, 0), (4, 2, 2)), "touching"),
+    "through a shell that cancels": (FIN, box((3, 0, 0), (5, 1, 2)), "penetrating"),
+    "around a shell that cancels": (box((-1, -1, -1), (5, 3, 3)), FIN, "contains"),
+    "a shell that cancels sticks out": (box((0, 0, 0), (3, 2, 2)), FIN, "penetrating"),
+    "shells that cancel, crossed": (FIN, TALL_FIN, "penetrating"),
     "a cube in two halves": (SPLIT_CUBE, CUBE, "coincident"),
     "a cube and a cube with a shell in it": (NESTED, box((0, 0, 0), (6, 6, 6)), "coincident"),
 }
@@ -193,14 +200,16 @@ def test_identical_geometry_is_coincident_in_any_order() -> None:
     assert relate(mesh, Mesh.from_bytes(vertices, turned)).relation == "coincident"
 
 
-def test_open_surfaces_have_no_inside() -> None:
+def test_holes_are_filled_somehow_unless_they_are_meant() -> None:
     ball = CUBE.mesh()
     triangle = [(1.0, 1.0, 1.0), (2.0, 1.0, 1.0), (1.0, 2.0, 1.0)]
     inside = mesh_of_soup(triangle)
     assert relate(ball, inside).relation == "contains"
     vertices, triangles = ball.to_bytes()
     open_box = Mesh.from_bytes(vertices, triangles[:-24])
-    assert relate(open_box, inside).relation == "separated"
+    assert relate(open_box, inside).relation == "contains"
+    sheet = Surface(open_box, False, sheets=True)
+    assert mesh_relation(sheet, Surface(inside, False, sheets=True)).relation == "separated"
     piercing = mesh_of_soup([(1.0, 1.5, -1.0), (2.0, 1.5, -1.0), (1.5, 1.25, 1.0)])
     assert relate(open_box, piercing).relation == "penetrating"
 

@@ -18,6 +18,8 @@ from satcheck.core import Mesh
 Cell = tuple[int, int, int]
 Point = tuple[float, float, float]
 Quad = tuple[Cell, Cell, Cell, Cell]
+# A unit square: the cell above it, and the axis across it.
+Square = tuple[Cell, int]
 Matrix = tuple[tuple[int, int, int], tuple[int, int, int], tuple[int, int, int]]
 
 IDENTITY: Matrix = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
@@ -78,6 +80,9 @@ class VoxelSolid:
             soup += (a, b, c, a, c, d) if rng.random() < 0.5 else (a, b, d, b, c, d)
         return mesh_of_soup(apply(matrix, p) for p in soup)
 
+    def sheets(self) -> frozenset[Square]:
+        return frozenset()
+
     def surface_points(self) -> frozenset[Cell]:
         """All lattice points on the boundary: unit squares meet where they share one of these."""
         points: set[Cell] = set()
@@ -120,23 +125,71 @@ def box(low: Cell, high: Cell) -> VoxelSolid:
 
 
 class Cells(Protocol):
-    """A union of unit cells; ``surface_points`` are the lattice points on its boundary."""
+    """A union of unit cells, and sheets: unit squares of its mesh with no cell on either side.
+
+    ``surface_points`` are the lattice points on the boundary of the cells.
+    """
 
     def unit_cells(self) -> frozenset[Cell]: ...
     def surface_points(self) -> frozenset[Cell]: ...
+    def sheets(self) -> frozenset[Square]: ...
     def mesh(self, matrix: Matrix = ..., seed: int = ...) -> Mesh: ...
 
 
 def true_relation(a: Cells, b: Cells) -> str:
     """The relation by set operations."""
-    cells_a, cells_b = a.unit_cells(), b.unit_cells()
-    if cells_a == cells_b:
+    cells_a, cells_b, sheets_a, sheets_b = a.unit_cells(), b.unit_cells(), a.sheets(), b.sheets()
+    if (cells_a, sheets_a) == (cells_b, sheets_b):
         return "coincident"
-    contact = not a.surface_points().isdisjoint(b.surface_points())
-    if cells_a.isdisjoint(cells_b):
+    points_a = a.surface_points().union(*map(corners_of, sheets_a))
+    points_b = b.surface_points().union(*map(corners_of, sheets_b))
+    contact = not points_a.isdisjoint(points_b)
+    common = (
+        not cells_a.isdisjoint(cells_b)
+        or any(cells_b.issuperset(beside(square)) for square in sheets_a)
+        or any(cells_a.issuperset(beside(square)) for square in sheets_b)
+        or sheets_cross(sheets_a, sheets_b)
+    )
+    if not common:
         return "touching" if contact else "separated"
-    if contact:
+    a_alone, b_alone = is_alone(a, b), is_alone(b, a)
+    if not (a_alone or b_alone):
+        return "coincident"
+    if contact or (a_alone and b_alone):
         return "penetrating"
-    if cells_b < cells_a:
-        return "contains"
-    return "inside" if cells_a < cells_b else "penetrating"
+    return "contains" if a_alone else "inside"
+
+
+def beside(square: Square) -> tuple[Cell, Cell]:
+    """The cells on both sides of a unit square."""
+    above, axis = square
+    i, j, k = (c - (m == axis) for m, c in enumerate(above))
+    return above, (i, j, k)
+
+
+def corners_of(square: Square) -> list[Cell]:
+    (i, j, k), axis = square
+    spans = [(0, 1) if m != axis else (0,) for m in range(3)]
+    return [(i + x, j + y, k + z) for x in spans[0] for y in spans[1] for z in spans[2]]
+
+
+def is_alone(x: Cells, y: Cells) -> bool:
+    """Whether a cell or a sheet of x lies outside of y."""
+    cells, sheets = y.unit_cells(), y.sheets()
+    outside = (s for s in x.sheets() if s not in sheets and cells.isdisjoint(beside(s)))
+    return not x.unit_cells() <= cells or next(outside, None) is not None
+
+
+def sheets_cross(sheets_a: frozenset[Square], sheets_b: frozenset[Square]) -> bool:
+    """Whether sheets pass through each other along an edge of the lattice: both go on beyond it."""
+    for (i, j, k), axis in sheets_a:
+        for along in {0, 1, 2} - {axis}:
+            across = 3 - axis - along  # from the square to the next one in its plane
+            next_one = (i - (across == 0), j - (across == 1), k - (across == 2))
+            if (next_one, axis) not in sheets_a:
+                continue
+            # The edge runs along `along` from the corner (i, j, k).
+            down = (i - (axis == 0), j - (axis == 1), k - (axis == 2))
+            if ((i, j, k), across) in sheets_b and (down, across) in sheets_b:
+                return True
+    return False

@@ -12,7 +12,7 @@ from typing import Any
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
 from satcheck.verify import Rejected, Verification, verify
-from tests.audit.shapes import Mesh, bracket, moved, open_box, unit_box, write
+from tests.audit.shapes import Mesh, bracket, moved, unit_box, write
 
 Json = dict[str, Any]
 
@@ -84,13 +84,19 @@ PAIRS: dict[str, tuple[str, str, Mesh, Mesh]] = {
         unit_box(edge=4.0),
         pieces(unit_box(1.0, 1.0, 1.0), unit_box(8.0)),
     ),
-    # Walls of no thickness and faces within the material: no boundary of a body.
-    "wall-at-box": ("separated", "surfaces", pieces(wall(0, 0, 0), unit_box(5.0)), unit_box()),
-    "wall-in-box": (
+    # Walls of no thickness are sheets; faces within the material are no boundary of a body.
+    "wall-at-box": ("touching", "surfaces", pieces(wall(0, 0, 0), unit_box(5.0)), unit_box()),
+    "box-in-wall": (
         "separated",
         "surfaces",
-        pieces(wall(1, 1, 1), unit_box(9.0)),
+        pieces(wall(0, 0, 0), unit_box(5.0)),
+        unit_box(0.25, 0.25, 0.25, edge=0.5),
+    ),
+    "wall-in-box": (
+        "contains",
+        "surfaces",
         unit_box(edge=4.0),
+        pieces(wall(1, 1, 1), unit_box(2, 2, 1)),
     ),
     "wall-and-touch": (
         "touching",
@@ -99,8 +105,8 @@ PAIRS: dict[str, tuple[str, str, Mesh, Mesh]] = {
         pieces(unit_box(), unit_box(6.0)),
     ),
     "wall-sticks-out": (
-        "contains",
-        "surfaces",
+        "penetrating",
+        "overlap",
         unit_box(edge=4.0),
         pieces(unit_box(1.0, 1.0, 1.0), wall(3.5, 1.0, 1.0)),
     ),
@@ -139,7 +145,12 @@ PAIRS: dict[str, tuple[str, str, Mesh, Mesh]] = {
     "sheet-in-wall": ("penetrating", "overlap", unit_box(), moved(sheet(), 0.5, 0.25, 0.5)),
     "sheet-on-wall": ("touching", "surfaces", bracket(), moved(sheet(), 2.0, 2.0, 4.0)),
     "sheet-in-box": ("contains", "surfaces", unit_box(edge=4.0), moved(sheet(), 1.0, 1.0, 1.0)),
-    "open-box": ("separated", "surfaces", open_box(), unit_box(1.0, 1.0, 1.0)),
+    "wall-across": (
+        "penetrating",
+        "crossing",
+        pieces(wall(0, 0, 0), unit_box(5.0)),
+        unit_box(0.5, 0.25, 0.25, edge=0.625),
+    ),
 }
 
 

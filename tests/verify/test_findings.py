@@ -12,7 +12,7 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.verify import Checked
-from tests.audit.shapes import Mesh, unit_box, write
+from tests.audit.shapes import Mesh, open_box, unit_box, write
 from tests.audit.shapes import moved as placed
 from tests.verify.reports import Json, channel, forged, pieces, report_of, upright, verified
 
@@ -145,7 +145,11 @@ def test_a_proven_way_out_makes_a_touch_by_its_own_length(tmp_path: Path) -> Non
     assert verified(document).findings[0].outcome == "rejected"
 
 
-def test_what_was_not_seen_is_no_pass() -> None:
-    """Inside an open box nobody looked: the finding has to say so."""
-    hidden = forged("open-box", lambda f: f.update(severity="none"))
-    assert hidden.findings[0].outcome == "rejected"
+def test_open_parts_are_sheets_only_where_the_settings_say_so(tmp_path: Path) -> None:
+    a, b = open_box(), unit_box(1.0, 1.0, 1.0)
+    files = write(tmp_path, a=a, b=b)
+    report = check(files, Settings(certificate=True, allow_open=True)).to_dict()
+    document = json.loads(json.dumps(report))
+    assert verified(document).findings[0].outcome == "accepted"
+    document["settings"]["allow_open"] = False
+    assert verified(document).findings[0].outcome == "rejected"

@@ -52,8 +52,13 @@ ClimbRequest request_from(const PairTuple& pair, bool alone = false) {
 void bind_geometry(nb::module_& m) {
   nb::class_<Geometry>(m, "Geometry", R"(What all bodies of one mesh share, in file coordinates, made when asked for. solid: the mesh is closed and
 consistently wound; surfaces raise ValueError where it is not. plain: the mesh is that of an Inspection whose topology
-is a plain solid; that is not proven again.)")
-      .def(nb::init<std::shared_ptr<Mesh>, bool, bool>(), "mesh"_a, "solid"_a, "plain"_a = false)
+is a plain solid; that is not proven again. sheets: where the mesh is open, it has no inside; else every hole is
+filled somehow.)")
+      .def("__init__",
+           [](Geometry* self, std::shared_ptr<Mesh> mesh, bool solid, bool plain, bool sheets) {
+             new (self) Geometry(std::move(mesh), solid, plain, sheets ? OpenParts::sheets : OpenParts::filled);
+           },
+           "mesh"_a, "solid"_a, "plain"_a = false, "sheets"_a = false)
       .def_prop_ro("convex", &Geometry::convex, ReleaseGil(), R"(Closed, consistently outward, and exactly convex. An affine map keeps that, up to the one rounding of each
 world coordinate: the body is then taken as the hull of its world vertices.)")
       .def_prop_ro("known_convex", &Geometry::known_convex, "None where nobody has asked yet.")
@@ -145,7 +150,7 @@ triangles     the relation of the meshes.
 least_depth   of an overlap that triangles decided, where the touch band is not 0: a proven lower bound of its depth.
 way_within    out of the touch band, of such an overlap that least_depth leaves open.
 proven_gap    a proven lower bound of the distance by boxes and hulls, 0.0 where they know none.
-gap           of surfaces apart; gap_is_void: it may be that of a wall that bounds no material.
+gap           of surfaces apart. gap_of_holes: what fills a hole may be as near as this, and nearer than gap.
 band_nanoseconds  what the touch band or the gap took. stages() says what the rungs did.)")
       .def_ro("box_gap", &Climb::box_gap)
       .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); })
@@ -158,7 +163,7 @@ band_nanoseconds  what the touch band or the gap took. stages() says what the ru
       .def_ro("least_depth", &Climb::least_depth)
       .def_prop_ro("way_within", [](const Climb& c) { return if_known(c.way_within); }, nb::rv_policy::reference_internal)
       .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal)
-      .def_ro("gap_is_void", &Climb::gap_is_void)
+      .def_ro("gap_of_holes", &Climb::gap_of_holes)
       .def_prop_ro("proven_gap", &proven_gap)
       .def("stages", &stages, "make"_a, R"(What the rungs that ran found, in words: make(rung, result, microseconds, detail) of each.)")
       .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });

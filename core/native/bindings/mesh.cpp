@@ -18,6 +18,7 @@
 #include "convex/polytope.hpp"
 #include "mesh/convexity.hpp"
 #include "mesh/hull_points.hpp"
+#include "mesh/closing.hpp"
 #include "mesh/inspection.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/surface.hpp"
@@ -227,16 +228,29 @@ oriented and wound outward, so that inspect() leaves its winding alone.)")
       .def_ro("volume", &Topology::volume)
       .def_prop_ro("plain_solid", &Topology::is_plain_solid)
       .def_ro("solid", &Topology::solid);
-  nb::class_<Inspection>(m, "Inspection", R"(What inspect() found. mesh: welded, vertices and triangles in an order that depends on their coordinates alone;
-turned: whether orienting it then changed anything; topology: before that, repaired: of `mesh`.)")
+  nb::class_<Inspection>(m, "Inspection", R"(What inspect() found. mesh: welded, vertices and triangles in an order that depends on their coordinates alone,
+oriented. turned: whether orienting it changed anything; cracks: how many were closed; topology: before that,
+repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), file units, or None.)")
       .def_ro("mesh", &Inspection::mesh)
       .def_ro("turned", &Inspection::turned)
+      .def_ro("cracks", &Inspection::cracks)
+      .def_prop_ro("hole_count", [](const Inspection& found) { return found.holes.size(); })
+      .def_prop_ro("largest_hole",
+                   [](const Inspection& found) {
+                     using Largest = std::optional<std::tuple<Tuple3, double>>;
+                     if (found.holes.empty()) return Largest();
+                     const Hole& hole = found.holes[0];
+                     return Largest({to_tuple(hole.centre()), hole.diameter()});
+                   })
       .def_ro("topology", &Inspection::topology)
       .def_ro("repaired", &Inspection::repaired);
-  m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient); }, "mesh"_a, "orient"_a, ReleaseGil(), R"(mesh.welded().sorted(), its topology, and, where it is closed and `orient` says so, oriented(), for less than these
-one after another.)");
+  m.def("inspect", [](const Mesh& mesh, bool orient) { return inspect(mesh, orient); }, "mesh"_a, "orient"_a, ReleaseGil(),
+        "mesh.welded().sorted(), its topology, and, where `orient` says so, oriented().");
   m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a, ReleaseGil(),
         "inspect(Mesh.from_bytes(vertices, triangles), orient), for less than the two.");
+  m.def("with_cracks_closed", &with_cracks_closed, "inspection"_a, "orient"_a, "width"_a, ReleaseGil(),
+        R"(The same with its cracks closed: places where neighbouring faces miss each other by no more than the width, file
+units. Triangles are added, none is changed.)");
 }
 
 void bind_polytope(nb::module_& m) {
@@ -265,14 +279,24 @@ void bind_polytope(nb::module_& m) {
 void bind_surface(nb::module_& m) {
   nb::class_<Surface>(m, "Surface", "A mesh with its tree: built once, immutable, shared by threads.")
       .def("__init__",
-           [](Surface* self, const Mesh& mesh, bool solid) {
+           [](Surface* self, const Mesh& mesh, bool solid, bool sheets) {
              new (self) Surface(make_surface(mesh, solid));
+             if (sheets) self->open_parts = OpenParts::sheets;
            },
-           "mesh"_a, "solid"_a, ReleaseGil())
+           "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: claimed to be closed; ValueError where it is not. sheets: what is open has no inside; else every hole is
+filled somehow.)")
       .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
                    nb::rv_policy::reference_internal)
       .def_ro("solid", &Surface::solid)
       .def_ro("refitted", &Surface::refitted, "Whether the tree has the form of another surface's.")
+      .def("closed",
+           [](const Surface& s) {
+             if (s.solid) return std::make_tuple(s, std::vector<Surface>{});
+             const auto closing = closing_of(s, s.open_parts);
+             return std::make_tuple(*closing->surface, closing->hulls);
+           },
+           ReleaseGil(), R"((surface, hulls): the surface closed, and for each of its holes a surface that every fill of it lies within. Away
+from these its winding numbers do not depend on the fill.)")
       .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of this mesh with its vertices elsewhere, `mesh`: the tree is fitted again in linear time. Made anew
 where the triangles are others, or where rounding has put two vertices into one place.)")
       .def("winding_number",
@@ -286,14 +310,8 @@ where the triangles are others, or where rounding has put two vertices into one 
              if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
              return is_plain_boundary(s, static_cast<std::uint32_t>(triangle));
            },
-           "triangle"_a, ReleaseGil(), R"(Whether the body ends on all of the triangle: it is no wall without thickness, no face inside the material, and
-meets no other triangle of the surface but at shared corners and edges.)")
-      .def("has_void",
-           [](const Surface& s, std::size_t triangle) {
-             if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
-             return has_void(s, static_cast<std::uint32_t>(triangle));
-           },
-           "triangle"_a, ReleaseGil(), "Whether a part of the triangle is a wall without thickness: outside of the body on both sides.")
+           "triangle"_a, ReleaseGil(), R"(Whether the closed body ends on all of the triangle: it is no face inside the material, and meets no other
+triangle of the surface but at shared corners and edges.)")
       .def("nearest",
            [](const Surface& s, const Tuple3& point) {
              const NearestPoint nearest = nearest_point(s, finite_point(point));
@@ -307,9 +325,18 @@ std::int64_t triangle_number(std::uint32_t triangle) {
 }
 
 void bind_mesh_relation(nb::module_& m) {
-  nb::class_<MeshRelation>(m, "MeshRelation")
+  nb::class_<OpenHole>(m, "OpenHole", R"(A hole that leaves a relation open, world units. of_a: whether the first body has it; number: from 0 on, the
+largest hole of the body first; count: of its holes.)")
+      .def_ro("of_a", &OpenHole::of_a)
+      .def_ro("number", &OpenHole::number)
+      .def_ro("count", &OpenHole::count)
+      .def_prop_ro("centre", [](const OpenHole& hole) { return to_tuple(hole.centre); })
+      .def_ro("diameter", &OpenHole::diameter);
+  nb::class_<MeshRelation>(m, "MeshRelation", R"(proven: False where a degenerate contact was decided by samples, or where `hole` is the hole that leaves the
+relation open; the relation is then that of the surfaces as they are.)")
       .def_prop_ro("relation", [](const MeshRelation& r) { return name_of(r.relation); })
       .def_ro("proven", &MeshRelation::proven)
+      .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal)
       .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
       .def_prop_ro("point",
@@ -320,9 +347,9 @@ void bind_mesh_relation(nb::module_& m) {
       .def_ro("triangle_tests", &MeshRelation::triangle_tests);
   m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
         R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
-"touching", "penetrating" (interiors overlap, or surfaces cross where a side is not solid), "contains" (b strictly
-inside a), "inside" (a strictly inside b), "coincident" (the same solid, however triangulated). A solid is where its
-winding number is not 0: the inside of a hollow one is no material, nor is a wall without thickness.)");
+"touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),
+"inside" (a strictly inside b), "coincident" (the same body, however triangulated). A body is the points of winding
+number other than 0, and its sheets: walls of no thickness, in which nothing can be, and which nothing can cross.)");
 }
 
 void bind_mesh_distance(nb::module_& m) {

@@ -1,15 +1,17 @@
 // Two solids: convex regions inside both, grown about a common point. Any two bodies: a pair of triangles that
-// cross and on all of which the bodies end, for beside such a crossing both have material.
+// cross, for every triangle is a boundary of material, or within it, or a sheet; or a triangle of one and a region
+// inside the other. Of an open body only what is material whatever fills its holes is asked.
 #include "depth/overlap_proof.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "depth/inner_region.hpp"
 #include "exact/triangle_pair.hpp"
-#include "mesh_pair/boundary_contact.hpp"
+#include "mesh/closing.hpp"
 #include "mesh_pair/common_point.hpp"
 #include "mesh_pair/traversal.hpp"
 
@@ -21,45 +23,82 @@ constexpr std::size_t kPockets = 8;
 // A crossing this near to a common point, in its depths, is taken to belong to the same overlap.
 constexpr double kNear = 2;
 
+// A surface that may be open, closed.
+class Body {
+ public:
+  explicit Body(const Surface& surface)
+      : surface_(surface), closing_(surface.solid ? nullptr : closing_of(surface, surface.open_parts)) {}
+
+  const Surface& closed() const { return closing_ ? *closing_->surface : surface_; }
+  const Surface& walled() const { return closing_ ? *walled_surface(surface_, surface_.open_parts) : surface_; }
+
+  // Is the point outside of the hulls of all holes?
+  bool is_certain_at(Vec3 p) const {
+    if (!closing_) return true;
+    return std::all_of(closing_->hulls.begin(), closing_->hulls.end(),
+                       [&](const Surface& hull) { return winding_number(hull, p) == 0; });
+  }
+
+ private:
+  const Surface& surface_;
+  std::shared_ptr<const Closing> closing_;
+};
+
 class Proof {
  public:
   Proof(const Surface& a, const Surface& b, Vec3 t) : a_(a), b_(b), t_(t) {}
 
+  bool empty() const { return set_.empty(); }
   ForbiddenSet take() { return std::move(set_); }
 
   // Of the sets that two metrics a side give, the one that holds t the deepest.
   void by_regions(const Surface& moved, const MeshRelation& relation, Overlaps overlaps) {
-    if (!a_.solid || !b_.solid) return;
+    const Body a(a_), b(b_), moved_a(moved);
+    const Surface &closed_a = moved_a.closed(), &closed_b = b.closed();
     // Beside a crossing in a last digit no common point may be found, and yet the bodies overlap elsewhere.
-    std::optional<CommonPoint> common = common_point(moved, b_, relation);
-    if (!common || overlaps == Overlaps::thickest) common = thickest(common, moved, relation);
-    if (common) {
-      const std::vector<InnerRegion> in_a = regions(a_, common->point - t_);
-      const std::vector<InnerRegion> in_b = regions(b_, common->point);
+    std::optional<CommonPoint> common = common_point(closed_a, closed_b, relation);
+    if (!common || overlaps == Overlaps::thickest) common = thickest(common, closed_a, closed_b, relation);
+    if (common && a.is_certain_at(common->point - t_) && b.is_certain_at(common->point)) {
+      const std::vector<InnerRegion> in_a = regions(a.walled(), common->point - t_);
+      const std::vector<InnerRegion> in_b = regions(b.walled(), common->point);
       for (const InnerRegion& p : in_a) {
         for (const InnerRegion& q : in_b) keep_deepest(p.vertices, q.vertices);
       }
     }
   }
 
+  // A triangle of one body in the inside of the other, which is all there is of a sheet.
+  void by_triangle_within(const MeshRelation& relation) {
+    if ((relation.triangle_a == kNoTriangle) == (relation.triangle_b == kNoTriangle)) return;
+    const bool is_of_a = relation.triangle_a != kNoTriangle;
+    const Corners c = is_of_a ? corners(a_.mesh, relation.triangle_a) : corners(b_.mesh, relation.triangle_b);
+    const std::vector<Vec3> triangle(c.begin(), c.end());
+    const Vec3 middle = (c[0] + c[1] + c[2]) * (1.0 / 3);
+    const Vec3 seed = is_of_a ? middle + t_ : middle - t_;
+    const Body other(is_of_a ? b_ : a_);
+    if (!other.is_certain_at(seed)) return;
+    for (const InnerRegion& region : regions(other.walled(), seed)) {
+      is_of_a ? keep_deepest(triangle, region.vertices) : keep_deepest(region.vertices, triangle);
+    }
+  }
+
   void by_triangles(const MeshRelation& relation) {
     if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return;
-    if (!is_plain_boundary(a_, relation.triangle_a) || !is_plain_boundary(b_, relation.triangle_b)) return;
     const Corners p = corners(a_.mesh, relation.triangle_a), q = corners(b_.mesh, relation.triangle_b);
     keep_deepest({p.begin(), p.end()}, {q.begin(), q.end()});
   }
 
  private:
   // The deepest common point of some: the one that the relation led to, and those beside more crossings.
-  std::optional<CommonPoint> thickest(std::optional<CommonPoint> deepest, const Surface& moved,
-                                      const MeshRelation& relation) const {
+  static std::optional<CommonPoint> thickest(std::optional<CommonPoint> deepest, const Surface& moved, const Surface& b,
+                                             const MeshRelation& relation) {
     if (relation.triangle_a == kNoTriangle || relation.triangle_b == kNoTriangle) return deepest;
     std::vector<CommonPoint> tried;
     if (deepest) tried.push_back(*deepest);
-    const std::vector<ContactPair> contacts = find_contacts(moved, b_, AtCrossing::go_on).contacts;
+    const std::vector<ContactPair> contacts = find_contacts(moved, b, AtCrossing::go_on).contacts;
     const std::size_t stride = std::max<std::size_t>(1, contacts.size() / kPockets);
     for (std::size_t k = 0; k < contacts.size(); k += stride) {
-      const Corners p = corners(moved.mesh, contacts[k].a), q = corners(b_.mesh, contacts[k].b);
+      const Corners p = corners(moved.mesh, contacts[k].a), q = corners(b.mesh, contacts[k].b);
       if (classify(p, q) != TriangleContact::crossing) continue;
       MeshRelation here;
       here.relation = Relation::penetrating;
@@ -68,7 +107,7 @@ class Proof {
       here.point = crossing_point(p, q);
       const auto is_known = [&](const CommonPoint& c) { return norm(c.point - *here.point) <= kNear * c.depth; };
       if (std::any_of(tried.begin(), tried.end(), is_known)) continue;
-      const auto common = common_point(moved, b_, here);
+      const auto common = common_point(moved, b, here);
       if (!common) continue;
       tried.push_back(*common);
       if (!deepest || common->depth > deepest->depth) deepest = common;
@@ -108,6 +147,7 @@ ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface
   Proof proof(a, b, t);
   proof.by_regions(moved, relation, overlaps);
   proof.by_triangles(relation);
+  if (proof.empty()) proof.by_triangle_within(relation);
   return proof.take();
 }
 

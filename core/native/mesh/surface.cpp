@@ -10,6 +10,7 @@
 #include "base/edge_table.hpp"
 #include "base/parallel.hpp"
 #include "base/patches.hpp"
+#include "mesh/closing.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/winding.hpp"
 
@@ -19,14 +20,14 @@ namespace {
 constexpr std::size_t kFewTriangles = 8192;  // that are not worth a second thread
 
 // Does every edge run equally often in both directions?
-bool has_inside(const Mesh& welded) {
+bool is_closed(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   for (std::size_t e = 0; e < edges.size(); ++e) {
     int balance = 0;
     for (const std::uint32_t h : edges.half_edges(e)) balance += edges.ascends(h) ? 1 : -1;
     if (balance != 0) return false;
   }
-  return edges.size() > 0;
+  return true;
 }
 
 std::vector<std::uint32_t> find_parts(const Mesh& welded) {
@@ -61,15 +62,13 @@ bool has_triangles_of(const Mesh& a, const Mesh& b) {
 
 Surface make_surface(const Mesh& mesh, bool solid) {
   Surface surface(std::make_shared<const Mesh>(weld(mesh)));
-  surface.solid = solid;
-  bool proven = true;
   // The tree first, which takes longest.
   const std::function<void()> tasks[] = {[&] { surface.bvh = build_bvh(surface.mesh); },
-                                         [&] { proven = !solid || has_inside(surface.mesh); },
+                                         [&] { surface.solid = is_closed(surface.mesh); },
                                          [&] { surface.parts = find_parts(surface.mesh); }};
   const unsigned threads = surface.mesh.triangles.size() < kFewTriangles ? 1 : 0;
   parallel_for(std::size(tasks), threads, [&](std::size_t i) { tasks[i](); });
-  if (!proven) throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
+  if (solid && !surface.solid) throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
   return surface;
 }
 
@@ -82,15 +81,41 @@ Surface make_plain_surface(std::shared_ptr<const Mesh> inspected, const Aabb* re
 }
 
 Surface refitted_surface(const Surface& like, Mesh mesh) {
-  if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) return make_surface(mesh, like.solid);
+  if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) {
+    Surface anew = make_surface(mesh, like.solid);
+    anew.open_parts = like.open_parts;
+    return anew;
+  }
   for (Vec3& p : mesh.vertices) p = p + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
   Surface surface(std::make_shared<const Mesh>(std::move(mesh)));
   surface.bvh = {like.bvh.nodes, like.bvh.order, {}};
   refit(surface.bvh, surface.mesh);
   surface.parts = like.parts;
   surface.solid = like.solid;
+  surface.open_parts = like.open_parts;
   surface.refitted = true;
   return surface;
+}
+
+std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts) {
+  const std::lock_guard<std::mutex> lock(open.closings->mutex);
+  auto& closing = open.closings->made[static_cast<std::size_t>(parts)];
+  if (!closing) closing = std::make_shared<const Closing>(close_surface(open.mesh, parts));
+  return closing;
+}
+
+std::shared_ptr<const Surface> walled_surface(const Surface& open, OpenParts parts) {
+  const auto closing = closing_of(open, parts);
+  const std::lock_guard<std::mutex> lock(open.closings->mutex);
+  auto& walled = open.closings->walled[static_cast<std::size_t>(parts)];
+  if (walled) return walled;
+  Mesh mesh = closing->surface->mesh;
+  for (const Surface& hull : closing->hulls) {
+    const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), hull.mesh.vertices.begin(), hull.mesh.vertices.end());
+    for (const Triangle& t : hull.mesh.triangles) mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  }
+  return walled = std::make_shared<const Surface>(make_surface(mesh, true));
 }
 
 std::optional<int> winding_number(const Surface& surface, Vec3 point) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,6 +13,20 @@
 
 namespace satcheck {
 
+struct Closing;
+struct Surface;
+
+// Two ways to read an open surface. filled: each hole is filled somehow. sheets: what is open is meant to be open,
+// and has no inside.
+enum class OpenParts : std::uint8_t { filled, sheets };
+
+// How an open surface is closed, either way; made when it is first asked for, by whichever thread.
+struct LazyClosings {
+  std::mutex mutex;
+  std::shared_ptr<const Closing> made[2];
+  std::shared_ptr<const Surface> walled[2];
+};
+
 struct Surface {
   // welded: as it stays; others may hold it too.
   explicit Surface(std::shared_ptr<const Mesh> welded) : owned(std::move(welded)), mesh(*owned) {}
@@ -20,13 +35,21 @@ struct Surface {
   const Mesh& mesh;
   Bvh bvh;
   std::vector<std::uint32_t> parts;  // a triangle of each part that is connected through common vertices
-  // Closed and consistently wound: winding numbers say what is inside.
+  // Closed: every edge is run as often in one direction as in the other, so every point has a winding number.
   bool solid = false;
   bool refitted = false;  // the tree has the form of another surface's
+  OpenParts open_parts = OpenParts::filled;
+  std::shared_ptr<LazyClosings> closings = std::make_shared<LazyClosings>();
 };
 
-// Throws std::invalid_argument when `solid` is claimed of a surface that is not closed and
-// consistently wound, for then it has no inside.
+// How the open surface is closed (mesh/closing.hpp). Made once.
+std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts);
+
+// The open surface closed, with the hulls of its holes as further walls. What these do not part from a point
+// outside of all hulls is inside or outside as that point is, whatever fills the holes. Made once.
+std::shared_ptr<const Surface> walled_surface(const Surface& open, OpenParts parts);
+
+// Throws std::invalid_argument when `solid` is claimed of a surface that is not closed.
 Surface make_surface(const Mesh& mesh, bool solid);
 
 // The same of a mesh as inspect() left it, whose topology was that of a plain solid: nothing is proven again.

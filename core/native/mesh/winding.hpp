@@ -116,8 +116,10 @@ struct Beside {
   int front = 0, back = 0;
   bool on_surface = false;  // the point lies on the mesh itself
 
-  // Does the solid, {winding number != 0}, end here?
-  bool is_boundary() const { return on_surface && (front == 0) != (back == 0); }
+  // Does the body end here: is there no material on one side at least?
+  bool is_boundary() const { return on_surface && (front == 0 || back == 0); }
+  // A wall of no thickness: no material on either side.
+  bool is_sheet() const { return on_surface && front == 0 && back == 0; }
 };
 
 // Of a mesh, just beside the point p of the triangle a, b, c, which need not belong to it. Nothing when p

@@ -39,7 +39,6 @@ class Boundary {
  private:
   // Does a boundary piece of triangle t end at its point x?
   bool reaches(std::uint32_t t, const ExactPoint& x) const {
-    if (!surface_.solid) return true;
     const Corners c = corners(surface_.mesh, t);
     const auto partners = irregular_partners(surface_, t);
     auto cuts = find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::kept);
@@ -67,26 +66,9 @@ class Boundary {
 bool is_plain_boundary(const Surface& surface, std::uint32_t t) {
   const Corners c = corners(surface.mesh, t);
   if (is_collinear(c)) return false;
-  if (!surface.solid) return true;
   if (has_irregular_partners(surface, t)) return false;
   const auto sides = beside_inner(surface, lazy_centroid(c), t);
   return sides && sides->is_boundary();
-}
-
-bool has_void(const Surface& surface, std::uint32_t t) {
-  const Corners c = corners(surface.mesh, t);
-  if (!surface.solid || is_collinear(c)) return false;
-  const auto partners = irregular_partners(surface, t);
-  const auto cuts = find_cuts(surface.mesh, t, surface.mesh, partners, Touching::left_out);
-  return !visit_pieces(c, cuts, Touching::left_out, [&](const Piece& piece) {
-    bool material = false;
-    sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
-      const auto sides = beside(surface, p, c);
-      material = sides && (sides->front != 0 || sides->back != 0);
-      return sides.has_value();
-    });
-    return material;
-  });
 }
 
 void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
@@ -107,13 +89,13 @@ void find_any_contact(const Surface& a, const Surface& b, const std::vector<Cont
   for (const auto& [t, partners] : partners_of) {
     const Corners c = corners(a.mesh, t);
     if (is_collinear(c)) continue;
-    const auto own = a.solid ? irregular_partners(a, t) : std::vector<std::uint32_t>{};
+    const auto own = irregular_partners(a, t);
     auto cuts = find_cuts(a.mesh, t, b.mesh, partners, Touching::kept);
     const auto own_cuts = find_cuts(a.mesh, t, a.mesh, own, Touching::kept);
     cuts.insert(cuts.end(), own_cuts.begin(), own_cuts.end());
     const bool none = visit_pieces(c, cuts, Touching::kept, [&](const Piece& piece) {
-      bool boundary = !a.solid;
-      const bool known = boundary || sample_piece(piece, own.size() + partners.size(), [&](const ExactPoint& p) {
+      bool boundary = false;
+      const bool known = sample_piece(piece, own.size() + partners.size(), [&](const ExactPoint& p) {
         const auto sides = beside(a, p, c);
         boundary = sides && sides->is_boundary();
         return sides.has_value();

@@ -8,12 +8,8 @@
 
 namespace satcheck {
 
-// Does the body end everywhere on triangle t? False also where that takes more than one sample to tell.
+// Does the closed body end everywhere on triangle t? False also where that takes more than one sample to tell.
 bool is_plain_boundary(const Surface& surface, std::uint32_t t);
-
-// Is a part of triangle t a wall without thickness, with the outside of the body on both sides? True also
-// where that could not be told.
-bool has_void(const Surface& surface, std::uint32_t t);
 
 // By two triangles that meet and are boundary all over. Finds one as a rule, but not always.
 void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,

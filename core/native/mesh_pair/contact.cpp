@@ -1,6 +1,6 @@
 // The planes of all triangles cut space into cells; in each both winding numbers are constant, and the
-// relation of two solids depends on which combinations of (in A?, in B?) occur, and on whether the
-// boundaries meet. A cell is bounded by pieces of triangles, so the combinations beside one exact
+// relation of two bodies depends on which combinations of (in A?, in B?) occur, on whether the
+// boundaries meet, and on how their sheets lie. A cell is bounded by pieces of triangles, so the combinations beside one exact
 // generic point of every piece tell all of them. Not every piece needs a look:
 //
 // * Triangles without contact: each region of them lies on one side of the other surface, so one
@@ -10,7 +10,9 @@
 //   piece tells, with the winding numbers of both meshes on both sides.
 // * When the pieces of one surface, S, are known, triangles of the other that do not meet their own mesh
 //   need no cuts by S: from one cell of the other solid, or of its outside, to the next the way leads
-//   past no piece of S, or past one that has already shown both combinations.
+//   past no piece of S, or past one that has already shown both combinations. A sheet meets its own
+//   mesh, so it is always cut.
+// * Two sheets can cross along edges alone, where winding numbers show nothing: that is asked by itself.
 #include "mesh_pair/contact.hpp"
 
 #include <algorithm>
@@ -22,6 +24,7 @@
 #include "mesh/self_contact.hpp"
 #include "mesh_pair/boundary_contact.hpp"
 #include "mesh_pair/free_regions.hpp"
+#include "mesh_pair/sheet_contact.hpp"
 
 namespace satcheck {
 namespace {
@@ -63,7 +66,7 @@ class ContactSide {
       return collinear(t[0], t[1], t[2]);
     });
     for (ContactTriangle& c : contacts_) {
-      if (side_.self.solid) c.own = irregular_partners(side_.self, c.triangle);
+      c.own = irregular_partners(side_.self, c.triangle);
       c.cuts = find_cuts(mesh, c.triangle, side_.other.mesh, c.partners, Touching::left_out);
       const auto own_cuts = find_cuts(mesh, c.triangle, mesh, c.own, Touching::left_out);
       c.cuts.insert(c.cuts.end(), own_cuts.begin(), own_cuts.end());
@@ -95,19 +98,26 @@ class ContactSide {
   std::vector<ContactTriangle> contacts_;
 };
 
-// A generic point of a crossing: each body has one winding number on either side of its triangle.
+// A generic point of a crossing: each body has one winding number on either side of its triangle, and the
+// triangle of the other body passes from one side to the other.
 bool note_crossing(const Surface& a, const Surface& b, ContactPair crossing, const LazyPoint& p, Samples& samples) {
-  const Beside sheet{1, 1, true};
-  const auto of_a = a.solid ? beside_inner(a, p, crossing.a) : sheet;
-  const auto of_b = b.solid ? beside_inner(b, p, crossing.b) : sheet;
+  const auto of_a = beside_inner(a, p, crossing.a), of_b = beside_inner(b, p, crossing.b);
   if (!of_a || !of_b) return false;
   const Evidence where{crossing.a, crossing.b, p.rounded};
   const Side side{a, b, true};
+  if (of_a->is_sheet() && of_b->is_sheet()) {
+    samples.note_sheets_cross(where);
+    return true;
+  }
   for (const int in_a : {of_a->front, of_a->back}) {
+    const Beside beside_b{in_a, in_a};  // next to the triangle of B, on this side of that of A
+    if (of_b->is_sheet()) samples.note_sheet(side, false, beside_b, where);
     for (const int in_b : {of_b->front, of_b->back}) samples.note(side, in_a, in_b, where);
   }
-  const bool ends_a = !a.solid || of_a->is_boundary(), ends_b = !b.solid || of_b->is_boundary();
-  if (ends_a && ends_b) samples.note_contact(where);
+  for (const int in_b : {of_b->front, of_b->back}) {
+    if (of_a->is_sheet()) samples.note_sheet(side, true, {in_b, in_b}, where);
+  }
+  if (of_a->is_boundary() && of_b->is_boundary()) samples.note_contact(where);
   return true;
 }
 
@@ -123,7 +133,7 @@ PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair cros
   const auto [first, last] = crossing_ends(corners(a.mesh, crossing.a), corners(b.mesh, crossing.b));
   const LazyPoint from = lazy_meeting_point(first.plane, first.p, first.q);
   const LazyPoint to = lazy_meeting_point(last.plane, last.p, last.q);
-  Samples samples(a, b);
+  Samples samples;
   for (int k = 1; k <= kCrossingSamples; ++k) {
     if (note_crossing(a, b, crossing, lazy_between(from, to, 1, k), samples)) break;
   }
@@ -137,24 +147,16 @@ PairFacts judge_contact(const Surface& a, const Surface& b, const std::vector<Co
     from_b.emplace_back(c.b, c.a);
   }
   ContactSide side_a({a, b, true}, std::move(from_a)), side_b({b, a, false}, std::move(from_b));
-  Samples samples(a, b);
-  std::vector<FreeRegions> free;
-  if (b.solid) free.push_back(side_a.free_regions());
-  if (a.solid) free.push_back(side_b.free_regions());
-  const bool apart = contacts.empty() && std::none_of(free.begin(), free.end(), [](const FreeRegions& f) { return f.any_inside(); });
+  Samples samples;
+  const FreeRegions free[] = {side_a.free_regions(), side_b.free_regions()};
+  const bool apart = contacts.empty() && std::none_of(std::begin(free), std::end(free), [](const FreeRegions& f) { return f.any_inside(); });
   if (apart) return samples.facts();
   find_plain_contact(a, b, contacts, samples);
-  for (const FreeRegions& f : free) {
-    if (!samples.settled()) f.sample(samples);
-  }
+  for (const FreeRegions& f : free) f.sample_first(samples);
+  for (const FreeRegions& f : free) f.sample_rest(samples);
   if (samples.settled()) return samples.facts();
-  if (a.solid && b.solid) {
-    sample_pieces(side_a, side_b, samples);
-  } else {
-    ContactSide& sheet = a.solid ? side_b : side_a;
-    sheet.prepare_cuts();
-    sheet.sample(ContactSide::Cut::all, samples);
-  }
+  sample_pieces(side_a, side_b, samples);
+  if (!samples.facts().common) find_sheet_crossing(a, b, contacts, samples);
   if (wanted == Wanted::relation && samples.contact_matters()) find_any_contact(a, b, contacts, samples);
   return samples.facts();
 }

@@ -1,4 +1,4 @@
-// The relation of two surfaces, at least one of them a solid, from the pairs of triangles that meet.
+// The relation of two closed surfaces from the pairs of triangles that meet.
 #pragma once
 
 #include <vector>

@@ -56,28 +56,27 @@ bool FreeRegions::any_inside() const {
   return std::any_of(regions_.begin(), regions_.end(), [](const Region& r) { return r.theirs != 0; });
 }
 
-void FreeRegions::sample(Samples& samples) const {
+void FreeRegions::sample_first(Samples& samples) const {
   if (!known_) samples.fail();
-  bool open = false;
   for (const Region& region : regions_) {
-    if (samples.may_learn(side_, region.theirs)) sample_first(samples, region);
-    open = open || samples.may_learn(side_, region.theirs);
+    if (samples.may_learn(side_, region.theirs)) sample_first_of(region, samples);
   }
-  if (open && side_.self.solid) sample_every_piece(samples);
 }
 
-void FreeRegions::sample_first(Samples& samples, const Region& region) const {
+void FreeRegions::sample_rest(Samples& samples) const {
+  const auto may_learn = [&](const Region& region) { return samples.may_learn(side_, region.theirs); };
+  if (std::any_of(regions_.begin(), regions_.end(), may_learn)) sample_every_piece(samples);
+}
+
+void FreeRegions::sample_first_of(const Region& region, Samples& samples) const {
   const Corners c = corners(side_.self.mesh, region.triangle);
-  if (!side_.self.solid) {
-    samples.note_free(side_, region.triangle, make_exact_point(c[0]), region.theirs);
-  } else if (!collinear(c[0], c[1], c[2])) {
+  if (!collinear(c[0], c[1], c[2])) {
     visit_pieces(c, {}, Touching::left_out, [&](const Piece& piece) {
       return samples.note_free(side_, region.triangle, piece.sample(0), region.theirs);
     });
   }
 }
 
-// Where one sample a region did not show what that of a clean surface does.
 void FreeRegions::sample_every_piece(Samples& samples) const {
   const Mesh& mesh = side_.self.mesh;
   DisjointSets sets = connect_corners(mesh, [&](std::uint32_t t) { return is_free(t); });

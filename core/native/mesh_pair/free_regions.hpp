@@ -17,8 +17,10 @@ class FreeRegions {
   // Is any of them inside the other solid?
   bool any_inside() const;
 
+  // What one sample a region tells, which is all of a clean surface.
+  void sample_first(Samples& samples) const;
   // Completes what they can tell.
-  void sample(Samples& samples) const;
+  void sample_rest(Samples& samples) const;
 
  private:
   struct Region {
@@ -28,7 +30,7 @@ class FreeRegions {
 
   bool is_free(std::uint32_t t) const { return in_contact_.empty() || !in_contact_[t]; }
   void add(std::uint32_t triangle);
-  void sample_first(Samples& samples, const Region& region) const;
+  void sample_first_of(const Region& region, Samples& samples) const;
   void sample_every_piece(Samples& samples) const;
 
   Side side_;

@@ -7,7 +7,7 @@
 #include "base/tolerances.hpp"
 #include "convex/exact_reach.hpp"
 #include "exact/double_double.hpp"
-#include "mesh_pair/boundary_contact.hpp"
+#include "exact/triangle_pair.hpp"
 
 namespace satcheck {
 namespace {
@@ -50,7 +50,7 @@ class GapComparison {
     const Corners of_a = corners(a_.mesh, t), of_b = corners(b_.mesh, u);
     if (least_ < 0 || compare_along_axes(box_of(of_a), box_of(of_b), length_) >= least_) return;
     const int sign = compare_distance(hull_of(of_a), hull_of(of_b), length_);
-    if (sign < least_ && !has_void(a_, t) && !has_void(b_, u)) least_ = sign;
+    least_ = std::min(least_, sign);
   }
 
   static Polytope hull_of(const Corners& t) { return convex_hull({t.begin(), t.end()}); }

@@ -5,8 +5,7 @@
 
 namespace satcheck {
 
-// Sign of distance - length, of surfaces without a common point. Triangles of a wall that bounds no material, even
-// in part, do not count.
+// Sign of distance - length, of surfaces without a common point.
 int compare_gap(const Surface& a, const Surface& b, double length);
 
 }  // namespace satcheck

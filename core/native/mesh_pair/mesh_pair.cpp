@@ -6,7 +6,7 @@
 #include "exact/triangle_pair.hpp"
 #include "mesh/surface_order.hpp"
 #include "mesh_pair/contact.hpp"
-#include "mesh_pair/sheet_contact.hpp"
+#include "mesh_pair/open_surfaces.hpp"
 #include "mesh_pair/traversal.hpp"
 
 namespace satcheck {
@@ -66,6 +66,11 @@ MeshRelation crossing_relation(const Surface& a, const Surface& b, ContactPair c
 MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
                              Wanted wanted) {
   MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted));
+  if (result.relation == Relation::separated && !contacts.empty()) {
+    // Triangles without area bound nothing, and are part of the surface all the same.
+    const Vec3 point = contact_point(corners(a.mesh, contacts[0].a), corners(b.mesh, contacts[0].b));
+    result = make_relation(Relation::touching, Evidence{contacts[0].a, contacts[0].b, point});
+  }
   result.judged = contacts.size();
   return result;
 }
@@ -79,21 +84,41 @@ std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& 
   return judged_relation(a, b, {}, Wanted::relation);
 }
 
-MeshRelation relation_of_solids(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
+MeshRelation relation_of_closed(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
   if (const auto simple = simple_relation_of(a, b, found)) return *simple;
   if (!found.crossing) return judged_relation(a, b, found.contacts, wanted);
   return judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts, wanted);
 }
 
-MeshRelation relation_of_sheets(const Surface& a, const Surface& b, const SurfaceContacts& found) {
+// Of two closed surfaces, whatever their triangles.
+MeshRelation relation_of_points(const Surface& a, const Surface& b, Wanted wanted) {
+  return relation_of_closed(a, b, find_contacts(a, b, AtCrossing::stop), wanted);
+}
+
+bool overlaps(const MeshRelation& found) {
+  return found.relation != Relation::separated && found.relation != Relation::touching;
+}
+
+// Where surfaces cross they do so however they are closed. Else the closed surfaces tell, as far as that does not
+// depend on what fills a hole; and as sheets open surfaces tell of an overlap that no fill undoes.
+MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
   if (found.crossing) return crossing_relation(a, b, *found.crossing);
-  if (found.contacts.empty()) return {};
-  const ContactPair& first = found.contacts[0];
-  const ContactVerdict verdict = judge_sheet_contact(a, b, found.contacts);
-  const Vec3 point = contact_point(corners(a.mesh, first.a), corners(b.mesh, first.b));
-  MeshRelation result = verdict.crossing ? make_relation(Relation::penetrating, verdict.crossing)
-                                         : make_relation(Relation::touching, Evidence{first.a, first.b, point});
-  result.proven = verdict.proven;
+  const bool as_sheets = are_read_as_sheets(a, b);
+  const ClosedPair filled(a, b, OpenParts::filled);
+  const Holes holes = as_sheets ? Holes{} : holes_between(filled);
+  MeshRelation result;
+  if (as_sheets || holes.in_the_way) {
+    const ClosedPair sheets(a, b, OpenParts::sheets);
+    result = relation_of_points(sheets.a(), sheets.b(), wanted);
+    if (!overlaps(result)) result.hole = holes.in_the_way;
+  } else {
+    result = relation_of_points(filled.a(), filled.b(), wanted);
+    const bool by_the_surfaces = result.relation == Relation::touching && !found.contacts.empty();
+    if (!overlaps(result) && !by_the_surfaces) result.hole = holes.touched;
+  }
+  result.proven = result.proven && !result.hole;
+  if (result.triangle_a >= a.mesh.triangles.size()) result.triangle_a = kNoTriangle;
+  if (result.triangle_b >= b.mesh.triangles.size()) result.triangle_b = kNoTriangle;
   return result;
 }
 
@@ -109,8 +134,8 @@ MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
   const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
-  const bool solid = a.solid || b.solid;
-  return with_counts(solid ? relation_of_solids(a, b, found, wanted) : relation_of_sheets(a, b, found), found);
+  const bool closed = a.solid && b.solid;
+  return with_counts(closed ? relation_of_closed(a, b, found, wanted) : relation_of_open(a, b, found, wanted), found);
 }
 
 std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Surface& b) {
@@ -122,6 +147,7 @@ std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Sur
 // The answer to the question with A and B exchanged.
 MeshRelation mirrored(MeshRelation found) {
   std::swap(found.triangle_a, found.triangle_b);
+  if (found.hole) found.hole->of_a = !found.hole->of_a;
   if (found.relation == Relation::contains || found.relation == Relation::inside) {
     found.relation = found.relation == Relation::contains ? Relation::inside : Relation::contains;
   }
@@ -137,6 +163,8 @@ MeshRelation relation_of(const Surface& a, const Surface& b, Wanted wanted) {
 MeshRelation mesh_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::relation); }
 
 MeshRelation overlap_relation(const Surface& a, const Surface& b) { return relation_of(a, b, Wanted::overlap); }
+
+MeshRelation closed_relation(const Surface& a, const Surface& b) { return relation_of_points(a, b, Wanted::relation); }
 
 std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
   if (comes_before(a, b)) return simple_relation_in_order(a, b);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "mesh/closing.hpp"
 #include "mesh/surface.hpp"
 
 namespace satcheck {
@@ -15,6 +16,8 @@ class MovedSurface {
     moved_.bvh = still.bvh;
     moved_.parts = still.parts;
     moved_.solid = still.solid;
+    moved_.open_parts = still.open_parts;
+    if (!still.solid) closed_ = std::make_unique<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
   }
 
   // The surface with t added to every coordinate and rounded once. Rounding keeps the order of
@@ -30,13 +33,25 @@ class MovedSurface {
     for (std::size_t i = 0; i < still_.bvh.boxes.size(); ++i) {
       moved_.bvh.boxes[i] = move_box(still_.bvh.boxes[i]);
     }
+    if (!still_.solid) moved_.closings = moved_closings(t);
     return moved_;
   }
 
  private:
+  std::shared_ptr<LazyClosings> moved_closings(Vec3 t) {
+    const Closing& still = *closing_of(still_, OpenParts::filled);
+    const std::shared_ptr<const Surface> closed{std::shared_ptr<void>{}, &closed_->at(t)};
+    auto closings = std::make_shared<LazyClosings>();
+    // The boxes of the holes stay where they were: only their size is asked for.
+    closings->made[static_cast<std::size_t>(OpenParts::filled)] =
+        std::make_shared<const Closing>(Closing{closed, still.holes, hulls_of(*moved_mesh_, still.holes)});
+    return closings;
+  }
+
   const Surface& still_;
   std::shared_ptr<Mesh> moved_mesh_;
   Surface moved_;
+  std::unique_ptr<MovedSurface> closed_;  // of an open surface
 };
 
 }  // namespace satcheck

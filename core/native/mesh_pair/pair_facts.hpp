@@ -1,9 +1,9 @@
 // What is known of two bodies, and which relation that amounts to.
 //
-// A solid is the set of points of winding number != 0, up to points of its surface; its boundary is where
-// that set ends. A wall of no thickness (0 on both sides) or a face inside the material (not 0 on either
-// side) is part of the mesh and not of the boundary. A mesh that is no solid is all boundary and has no
-// inside.
+// A body is its solid part and its sheets. The solid part is the set of points of winding number != 0. A
+// sheet is a piece of a triangle with winding number 0 on both sides: material without an inside. Nothing
+// lies within a sheet, and whatever crosses a sheet crosses the body. The boundary is where the solid part
+// ends, and the sheets. A face with material on both sides belongs to the inside.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,8 @@ struct Evidence {
 };
 
 struct PairFacts {
-  bool common = false;   // there is a common inner point; of a sheet all points count
+  // There is a common inner point (of a sheet all points are inner), or two sheets cross.
+  bool common = false;
   bool a_alone = false;  // there is an inner point of A outside of B
   bool b_alone = false;
   bool contact = false;  // the boundaries have a common point

@@ -9,7 +9,7 @@
 
 namespace satcheck {
 
-// One surface, seen against the other one, which is a solid.
+// One surface, seen against the other one. Both are closed.
 struct Side {
   const Surface& self;
   const Surface& other;
@@ -34,12 +34,6 @@ inline std::optional<Beside> beside_inner(const Surface& s, const LazyPoint& p, 
 
 class Samples {
  public:
-  // The surfaces say nothing of the inside of what is no solid: it is never in the other body.
-  Samples(const Surface& a, const Surface& b) {
-    facts_.a_alone = !b.solid;
-    facts_.b_alone = !a.solid;
-  }
-
   const PairFacts& facts() const { return facts_; }
   bool settled() const { return facts_.settled(); }
 
@@ -52,6 +46,32 @@ class Samples {
   // Does the relation depend on whether there is contact, which is not known yet?
   bool contact_matters() const {
     return !facts_.contact && (!facts_.common || facts_.a_alone != facts_.b_alone);
+  }
+
+  // The winding numbers on both sides of a triangle of side.self, next to a generic point of it.
+  void note_beside(const Side& side, const Beside& mine, const Beside& theirs, const Evidence& where) {
+    note(side, mine.front, theirs.front, where);
+    note(side, mine.back, theirs.back, where);
+    if (mine.is_sheet()) note_sheet(side, true, theirs, where);
+    if (theirs.is_sheet()) note_sheet(side, false, mine, where);
+    if (mine.is_boundary() && theirs.is_boundary()) note_contact(where);
+  }
+
+  // A sheet of side.self (self), or of the other body, next to a point where the body that it is no part of has
+  // these winding numbers.
+  void note_sheet(const Side& side, bool self, const Beside& other, const Evidence& where) {
+    if (other.front != 0 && other.back != 0 && !facts_.common) {
+      facts_.common = true;
+      facts_.overlap = where;
+    }
+    if (other.front == 0 && other.back == 0 && !other.on_surface) alone(side, self) = true;
+  }
+
+  // Two sheets pass through each other.
+  void note_sheets_cross(const Evidence& where) {
+    if (!facts_.common) facts_.overlap = where;
+    facts_.common = facts_.a_alone = facts_.b_alone = true;
+    note_contact(where);
   }
 
   // The winding numbers at one point.
@@ -69,8 +89,8 @@ class Samples {
     facts_.contact = true;
   }
 
-  // A point of triangle t of side.self, where the other solid's winding number is `theirs`. False when
-  // that of its own solid could not be told.
+  // A point of triangle t of side.self, where the other surface's winding number is `theirs`. False when
+  // that of its own surface could not be told.
   bool note_free(const Side& side, std::uint32_t t, const ExactPoint& p, int theirs);
 
   // The same for any point; `partner` is the triangle to name beside t.

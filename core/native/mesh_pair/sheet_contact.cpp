@@ -2,44 +2,80 @@
 // share only that point do not cross, for a disk without one point is connected. So a crossing runs
 // along a segment, and when no two open triangles cross, the segment lies on an edge:
 //
-// * an edge of one surface in a triangle of the other: they cross if the two triangles at the edge
-//   leave to strictly different sides of that triangle's plane;
-// * on edges of both: they cross if, turning around the common line, the triangles of one surface
+// * an edge of one sheet in a triangle of the other: they cross if triangles at the edge leave to
+//   strictly different sides of that triangle's plane;
+// * on edges of both: they cross if, turning around the common line, triangles of one sheet
 //   alternate with those of the other.
+//
+// Where triangles of both lie in each other, a crossing may lead through that patch. It does not if there is
+// a direction in which A, moved by however little, leaves every triangle of B that it meets.
 #include "mesh_pair/sheet_contact.hpp"
 
+#include <algorithm>
 #include <array>
+#include <map>
 #include <unordered_map>
 
 #include "base/edge_table.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
+#include "mesh/self_contact.hpp"
 #include "mesh/winding.hpp"
-#include "mesh_pair/mesh_pair.hpp"
 
 namespace satcheck {
 namespace {
 
-// An edge of exactly two triangles and the corners across from it.
+// An edge and the corners across from it, of each triangle there.
 struct Hinge {
   Vec3 p, q;
-  std::array<Vec3, 2> wings;
+  std::vector<Vec3> wings;
 };
 
-// The hinges of the triangles in contact, by triangle.
+// Which triangles of a closed surface are sheets, by a point of each.
+class Sheets {
+ public:
+  explicit Sheets(const Surface& surface) : surface_(surface) {}
+
+  bool include(std::uint32_t t) {
+    const auto [entry, is_new] = known_.try_emplace(t, false);
+    if (is_new) entry->second = is_sheet(t);
+    return entry->second;
+  }
+
+ private:
+  // A triangle that meets no other one of its surface has material on one side.
+  bool is_sheet(std::uint32_t t) const {
+    const Corners c = corners(surface_.mesh, t);
+    if (collinear(c[0], c[1], c[2]) || !has_irregular_partners(surface_, t)) return false;
+    const auto sides = beside_inner(surface_, lazy_centroid(c), t);
+    return !sides || sides->is_sheet();
+  }
+
+  const Surface& surface_;
+  std::unordered_map<std::uint32_t, bool> known_;
+};
+
+// The hinges of sheets in contact, by triangle.
 class Hinges {
  public:
-  Hinges(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  Hinges(const Mesh& mesh, Sheets& sheets, const std::vector<std::uint32_t>& triangles) {
     std::vector<bool> wanted(mesh.triangles.size(), false);
     for (const std::uint32_t t : triangles) wanted[t] = true;
     const EdgeTable edges(mesh.vertices.size(), mesh.triangles);
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const auto h = edges.half_edges(e);
-      if (h.size() != 2 || !(wanted[h[0] / 3] || wanted[h[1] / 3])) continue;
-      const auto at = [&](std::uint32_t half_edge, std::uint32_t step) {
-        return mesh.vertices[mesh.triangles[half_edge / 3][(half_edge % 3 + step) % 3]];
+      if (std::none_of(h.begin(), h.end(), [&](std::uint32_t half_edge) { return wanted[half_edge / 3]; })) continue;
+      const auto corner = [&](std::uint32_t half_edge, std::uint32_t step) {
+        return mesh.triangles[half_edge / 3][(half_edge % 3 + step) % 3];
       };
-      const Hinge hinge{at(h[0], 0), at(h[0], 1), {at(h[0], 2), at(h[1], 2)}};
+      std::vector<std::uint32_t> across;  // front and back of a sheet have one corner
+      for (const std::uint32_t half_edge : h) {
+        if (sheets.include(half_edge / 3)) across.push_back(corner(half_edge, 2));
+      }
+      std::sort(across.begin(), across.end());
+      across.erase(std::unique(across.begin(), across.end()), across.end());
+      Hinge hinge{mesh.vertices[corner(h[0], 0)], mesh.vertices[corner(h[0], 1)], {}};
+      for (const std::uint32_t v : across) hinge.wings.push_back(mesh.vertices[v]);
       for (const std::uint32_t half_edge : h) by_triangle_[half_edge / 3].push_back(hinge);
     }
   }
@@ -69,12 +105,6 @@ bool runs_through(Vec3 p, Vec3 q, const Corners& t) {
   return left > 0 && right > 0;
 }
 
-bool crosses_triangle(const Hinge& hinge, const Corners& t) {
-  const auto side = [&](Vec3 p) { return orientation(t[0], t[1], t[2], p); };
-  if (collinear(t[0], t[1], t[2]) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
-  return side(hinge.wings[0]) * side(hinge.wings[1]) < 0 && runs_through(hinge.p, hinge.q, t);
-}
-
 // Collinear segments that share more than a point.
 bool share_length(const Hinge& a, const Hinge& b) {
   if (!collinear(a.p, a.q, b.p) || !collinear(a.p, a.q, b.q)) return false;
@@ -102,48 +132,139 @@ bool same_half_plane(Vec3 p, Vec3 q, Vec3 u, Vec3 v) {
   return true;  // a collinear triangle: no side to speak of
 }
 
+// Do two wings of A and two of B alternate?
 bool alternate(const Hinge& a, const Hinge& b) {
   const Vec3 p = a.p, q = a.q;
-  if (same_half_plane(p, q, a.wings[0], a.wings[1])) return false;
+  const auto lies_in = [&](Vec3 u, const std::vector<Vec3>& wings) {
+    return std::any_of(wings.begin(), wings.end(), [&](Vec3 w) { return same_half_plane(p, q, u, w); });
+  };
+  std::vector<Vec3> of_a, of_b;
   for (const Vec3& u : a.wings) {
-    for (const Vec3& v : b.wings) {
-      if (same_half_plane(p, q, u, v)) return false;
+    if (!lies_in(u, b.wings) && !lies_in(u, of_a)) of_a.push_back(u);
+  }
+  for (const Vec3& x : b.wings) {
+    if (!lies_in(x, a.wings)) of_b.push_back(x);
+  }
+  for (std::size_t j = 1; j < of_a.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const auto between = [&](Vec3 x) { return strictly_between(p, q, of_a[i], of_a[j], x); };
+      const auto count = std::count_if(of_b.begin(), of_b.end(), between);
+      if (count != 0 && count != std::ptrdiff_t(of_b.size())) return true;
     }
   }
-  return strictly_between(p, q, a.wings[0], a.wings[1], b.wings[0]) !=
-         strictly_between(p, q, a.wings[0], a.wings[1], b.wings[1]);
+  return false;
 }
 
-std::vector<std::uint32_t> triangles_of(const std::vector<ContactPair>& contacts,
-                                        std::uint32_t ContactPair::*side) {
+bool crosses_triangle(const Hinge& hinge, const Corners& t) {
+  const auto side = [&](Vec3 p) { return orientation(t[0], t[1], t[2], p); };
+  if (collinear(t[0], t[1], t[2]) || side(hinge.p) != 0 || side(hinge.q) != 0) return false;
+  bool above = false, below = false;
+  for (const Vec3& w : hinge.wings) {
+    above = above || side(w) > 0;
+    below = below || side(w) < 0;
+  }
+  return above && below && runs_through(hinge.p, hinge.q, t);
+}
+
+struct SheetPair {
+  std::uint32_t a, b;
+  Corners of_a, of_b;
+};
+
+bool crosses_at_edge(const SheetPair& pair, const Hinges& hinges_a, const Hinges& hinges_b) {
+  for (const Hinge& h : hinges_a.of(pair.a)) {
+    if (crosses_triangle(h, pair.of_b)) return true;
+    for (const Hinge& k : hinges_b.of(pair.b)) {
+      if (share_length(h, k) && alternate(h, k)) return true;
+    }
+  }
+  const auto& of_b = hinges_b.of(pair.b);
+  return std::any_of(of_b.begin(), of_b.end(), [&](const Hinge& k) { return crosses_triangle(k, pair.of_a); });
+}
+
+// Of a direction and the normal of a plane, both unit: far more than rounding makes of 0.
+constexpr double kSurelyAlong = 0x1p-40;
+
+Vec3 unit_normal(const Corners& t) {
+  const Vec3 n = rounded_normal(t[0], t[1], t[2]);
+  return n * (1 / norm(n));
+}
+
+// Does the plane of t, the triangle of A (sign 1) or of B (-1), part the two triangles, so that A leaves B when it
+// moves along `way`?
+bool leaves_over(const Corners& t, const Corners& other, double sign, Vec3 way) {
+  const double along = sign * dot(unit_normal(t), way);
+  if (std::fabs(along) < kSurelyAlong) return false;
+  // A moves to the front of its own triangle (along > 0): then B has to lie behind it, or in its plane.
+  const int free_side = along > 0 ? -1 : 1;
+  return std::all_of(other.begin(), other.end(), [&](Vec3 p) {
+    const int side = orientation(t[0], t[1], t[2], p);
+    return side == 0 || side == free_side;
+  });
+}
+
+bool leaves(const SheetPair& pair, Vec3 way) {
+  return leaves_over(pair.of_a, pair.of_b, 1, way) || leaves_over(pair.of_b, pair.of_a, -1, way);
+}
+
+// Sums of up to three different normals, each forth or back.
+std::vector<Vec3> ways_out(const std::vector<Vec3>& normals) {
+  std::vector<Vec3> chosen;
+  for (const Vec3& n : normals) {
+    const auto parallel = [&](Vec3 m) { return std::fabs(dot(m, n)) > 1 - kSurelyAlong; };
+    if (chosen.size() < 3 && std::none_of(chosen.begin(), chosen.end(), parallel)) chosen.push_back(n);
+  }
+  std::vector<Vec3> ways{{}};
+  for (const Vec3& n : chosen) {
+    const std::size_t count = ways.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      ways.push_back(ways[i] + n);
+      ways.push_back(ways[i] - n);
+    }
+  }
+  std::erase(ways, Vec3{});
+  for (Vec3& way : ways) way = way * (1 / norm(way));
+  return ways;
+}
+
+std::vector<SheetPair> sheet_pairs(const Surface& a, const Surface& b, Sheets& of_a, Sheets& of_b,
+                                   const std::vector<ContactPair>& contacts) {
+  std::vector<SheetPair> pairs;
+  for (const ContactPair& c : contacts) {
+    if (of_a.include(c.a) && of_b.include(c.b)) pairs.push_back({c.a, c.b, corners(a.mesh, c.a), corners(b.mesh, c.b)});
+  }
+  return pairs;
+}
+
+template <class Member>
+std::vector<std::uint32_t> triangles_of(const std::vector<SheetPair>& pairs, Member side) {
   std::vector<std::uint32_t> result;
-  for (const ContactPair& c : contacts) result.push_back(c.*side);
+  for (const SheetPair& pair : pairs) result.push_back(pair.*side);
   return result;
 }
 
 }  // namespace
 
-ContactVerdict judge_sheet_contact(const Surface& a, const Surface& b,
-                                   const std::vector<ContactPair>& contacts) {
-  const Hinges hinges_a(a.mesh, triangles_of(contacts, &ContactPair::a));
-  const Hinges hinges_b(b.mesh, triangles_of(contacts, &ContactPair::b));
-  ContactVerdict verdict;
-  for (const ContactPair& c : contacts) {
-    const Corners ta = corners(a.mesh, c.a), tb = corners(b.mesh, c.b);
-    if (coplanar_overlap(ta, tb) != CoplanarOverlap::none) verdict.proven = false;
-    for (const Hinge& h : hinges_a.of(c.a)) {
-      if (crosses_triangle(h, tb)) return {Evidence{c.a, c.b, contact_point(ta, tb)}, true};
-      for (const Hinge& k : hinges_b.of(c.b)) {
-        if (share_length(h, k) && alternate(h, k)) {
-          return {Evidence{c.a, c.b, contact_point(ta, tb)}, true};
-        }
-      }
+void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Samples& samples) {
+  Sheets of_a(a), of_b(b);
+  const std::vector<SheetPair> pairs = sheet_pairs(a, b, of_a, of_b, contacts);
+  if (pairs.empty()) return;
+  const Hinges hinges_a(a.mesh, of_a, triangles_of(pairs, &SheetPair::a));
+  const Hinges hinges_b(b.mesh, of_b, triangles_of(pairs, &SheetPair::b));
+  std::vector<Vec3> flat;  // normals of triangles that lie in each other
+  for (const SheetPair& pair : pairs) {
+    if (crosses_at_edge(pair, hinges_a, hinges_b)) {
+      samples.note_sheets_cross({pair.a, pair.b, contact_point(pair.of_a, pair.of_b)});
+      return;
     }
-    for (const Hinge& k : hinges_b.of(c.b)) {
-      if (crosses_triangle(k, ta)) return {Evidence{c.a, c.b, contact_point(ta, tb)}, true};
-    }
+    if (coplanar_overlap(pair.of_a, pair.of_b) != CoplanarOverlap::none) flat.push_back(unit_normal(pair.of_a));
   }
-  return verdict;
+  if (flat.empty()) return;
+  const std::vector<Vec3> ways = ways_out(flat);
+  const bool frees = std::any_of(ways.begin(), ways.end(), [&](Vec3 way) {
+    return std::all_of(pairs.begin(), pairs.end(), [&](const SheetPair& pair) { return leaves(pair, way); });
+  });
+  if (!frees) samples.fail();
 }
 
 }  // namespace satcheck

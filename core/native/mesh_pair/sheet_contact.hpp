@@ -1,22 +1,16 @@
-// Do two surfaces without inside cross where no two of their triangles do?
+// Do sheets cross where no two of their triangles do?
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "mesh_pair/contact.hpp"
-#include "mesh_pair/pair_facts.hpp"
+#include "mesh_pair/samples.hpp"
 
 namespace satcheck {
 
-struct ContactVerdict {
-  std::optional<Evidence> crossing;
-  bool proven = true;
-};
-
-// A crossing through edges: along a shared segment each surface has points strictly on both sides of
-// the other. Proven when true; when there is none, `proven` tells that no coplanar patch hides one.
-ContactVerdict judge_sheet_contact(const Surface& a, const Surface& b,
-                                   const std::vector<ContactPair>& contacts);
+// Notes a crossing of sheets of two closed surfaces that runs through edges: along a shared segment each has
+// points strictly on both sides of the other. Where it finds none it proves that there is none, or fails: sheets
+// do not cross where an arbitrarily small translation of A frees them of each other.
+void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts, Samples& samples);
 
 }  // namespace satcheck

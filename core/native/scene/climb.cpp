@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <map>
 #include <thread>
 
 #include "base/parallel.hpp"
 #include "base/tolerances.hpp"
 #include "convex/hulls_apart.hpp"
-#include "mesh_pair/boundary_contact.hpp"
+#include "mesh_pair/open_surfaces.hpp"
 #include "scene/broad_phase.hpp"
 #include "scene/touch_proof.hpp"
 
@@ -49,22 +48,6 @@ double share_within(const Aabb& box, const Aabb& other) {
   }
   return share;
 }
-
-// The triangles of a surface that bound no material, at least in part.
-class Voids {
- public:
-  explicit Voids(const Surface& surface) : surface_(surface) {}
-
-  bool include(std::uint32_t triangle) {
-    const auto [entry, is_new] = known_.try_emplace(triangle, false);
-    if (is_new) entry->second = has_void(surface_, triangle);
-    return entry->second;
-  }
-
- private:
-  const Surface& surface_;
-  std::map<std::uint32_t, bool> known_;
-};
 
 class Climber {
  public:
@@ -235,15 +218,7 @@ class Climber {
     if (!a_) make_whole_surfaces();
     const double rounding = chain_rounding(largest_coordinate());
     found_.gap = mesh_distance(*a_, *b_, q_.wants_distance ? INFINITY : q_.tolerance + rounding);
-    if (!std::isfinite(found_.gap->distance)) return true;
-    Voids of_a(*a_), of_b(*b_);
-    const auto bounds_material = [&](std::uint32_t t, std::uint32_t u) { return !of_a.include(t) && !of_b.include(u); };
-    if (bounds_material(found_.gap->triangle_a, found_.gap->triangle_b)) return true;
-    // A wall of the body can be as near, and which of them is met first depends on the trees.
-    const double as_near = found_.gap->distance + rounding;
-    const MeshDistance gap = mesh_distance(*a_, *b_, as_near, bounds_material);
-    found_.gap_is_void = !std::isfinite(gap.distance);
-    if (!found_.gap_is_void) found_.gap = gap;
+    if (!(a_->solid && b_->solid)) found_.gap_of_holes = distance_of_holes(*a_, *b_, found_.gap->distance);
     return true;
   }
 

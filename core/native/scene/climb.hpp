@@ -45,7 +45,7 @@ struct Climb {
   std::optional<double> least_depth;  // of an overlap that triangles decided, and a band that is not 0
   std::optional<WayWithin> way_within;  // of one that least_depth does not prove deeper than the band
   std::optional<MeshDistance> gap;      // of surfaces apart
-  bool gap_is_void = false;           // it may be that of a wall that bounds no material
+  std::optional<double> gap_of_holes;  // what fills a hole may be as near as this, and nearer than `gap`
   std::array<std::int64_t, kBand + 1> nanoseconds{};
 };
 

@@ -40,7 +40,10 @@ std::optional<bool> Geometry::known_convex() const {
 std::shared_ptr<Surface> Geometry::surface() {
   return once(mutex_, surface_, [&] {
     ++hierarchies_;
-    return plain_ ? make_plain_surface(mesh_) : make_surface(*mesh_, solid_);
+    if (plain_) return make_plain_surface(mesh_);
+    Surface surface = make_surface(*mesh_, solid_);
+    surface.open_parts = open_;
+    return surface;
   });
 }
 

@@ -21,8 +21,9 @@ class Geometry {
  public:
   // solid: the mesh is closed and consistently wound. Surfaces throw std::invalid_argument where it is not.
   // plain: more than that, it is as inspect() left it and was found to be a plain solid; that is not proven again.
-  Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain = false)
-      : mesh_(std::move(mesh)), solid_(solid), plain_(plain) {}
+  // open: how its surface is read where it is open.
+  Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain = false, OpenParts open = OpenParts::filled)
+      : mesh_(std::move(mesh)), solid_(solid), plain_(plain), open_(open) {}
 
   const std::shared_ptr<Mesh>& mesh() const { return mesh_; }
   bool solid() const { return solid_; }
@@ -51,6 +52,7 @@ class Geometry {
  private:
   std::shared_ptr<Mesh> mesh_;
   bool solid_, plain_;
+  OpenParts open_;
   mutable std::recursive_mutex mutex_;  // of all below
   std::optional<Aabb> bounds_;
   std::optional<bool> convex_;

@@ -5,7 +5,7 @@
 #include "base/tolerances.hpp"
 #include "convex/narrow_phase.hpp"
 #include "convex/signed_comparison.hpp"
-#include "mesh_pair/boundary_contact.hpp"
+#include "exact/triangle_pair.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 
 namespace satcheck {
@@ -24,12 +24,10 @@ double depth_inside(const Surface& a, const Surface& b, double largest) {
 }  // namespace
 
 double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b) {
-  if (!is_plain_boundary(a, triangle_a) || !is_plain_boundary(b, triangle_b)) return 0;
   return depth_of_triangles(corners(a.mesh, triangle_a), corners(b.mesh, triangle_b));
 }
 
 bool crosses_deeper(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b, double length) {
-  if (!is_plain_boundary(a, triangle_a) || !is_plain_boundary(b, triangle_b)) return false;
   const Shape of_a = make_triangle(corners(a.mesh, triangle_a)), of_b = make_triangle(corners(b.mesh, triangle_b));
   const PairResult found = check_pair(of_a, {}, of_b, {}, Query::depth);
   if (found.outcome != Outcome::penetrating || !found.has_distance || -found.lower <= length) return false;

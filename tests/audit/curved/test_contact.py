@@ -177,27 +177,37 @@ def test_a_shape_that_touches_a_wall_from_within_is_not_said_to_be_inside(swappe
     assert found.severity == "error"
 
 
-@pytest.mark.parametrize("clearance", [None, 0.25])
 @pytest.mark.parametrize("radius", [0.125, 0.5])
-def test_a_shape_in_a_box_without_a_lid_is_not_said_to_be_outside(
-    radius: float, clearance: float | None
-) -> None:
-    """Whether it lies in the body is not defined, and must not read as a pass."""
+def test_a_shape_in_a_box_without_a_lid_is_inside_whatever_closes_it(radius: float) -> None:
     box = mesh_of(Box((2.0, 2.0, 2.0)))
     open_box = mesh_body("box", Mesh(box.vertices, box.triangles[:-2].copy()))
-    found = ask(shape("ball", Sphere(radius)), open_box, clearance=clearance)
-    assert found.relation == "separated"
-    assert found.undecided == "inside"
-    assert found.severity == "warning"
+    found = ask(shape("ball", Sphere(radius)), open_box)
+    assert (found.relation, found.quality) == ("inside", "bounded")
+    sheet = ask(shape("ball", Sphere(radius)), open_box, allow_open=True)
+    assert (sheet.relation, sheet.quality) == ("separated", "exact")
 
 
-def test_a_touch_from_within_an_open_mesh_is_no_pass() -> None:
-    """The ball fills the cube, of which two triangles are missing: it may lie inside."""
+def test_a_shape_in_a_hole_is_not_decided() -> None:
+    """A small ball in the middle of each face of a cube: one face is missing."""
     cube = mesh_of(Box((1.0, 1.0, 1.0)))
     open_cube = mesh_body("cube", Mesh(cube.vertices, np.asarray(cube.triangles)[:-2]))
-    found = ask(shape("ball", Sphere(0.5)), open_cube)
+    middles = [tuple(0.5 * s * (m == axis) for m in range(3)) for axis in range(3) for s in (-1, 1)]
+    seen = [ask(shape("ball", Sphere(0.25), moved(*middle)), open_cube) for middle in middles]
+    (found,) = [f for f in seen if f.relation == "indeterminate"]
     assert found.severity == "warning"
-    assert found.undecided == "inside"
+    assert "the hole of cube" in (found.reason or "")
+    assert [f.relation for f in seen].count("penetrating") == 5
+
+
+def test_a_ball_on_an_open_sheet_touches_it() -> None:
+    floor = Mesh(
+        np.array([(-4.0, -4.0, 0.0), (4.0, -4.0, 0.0), (4.0, 4.0, 0.0), (-4.0, 4.0, 0.0)]),
+        np.array([(0, 1, 2), (0, 2, 3)], dtype=np.uint32),
+    )
+    found = ask(shape("ball", Sphere(0.5), moved(0.25, 0.5, 0.5)), mesh_body("floor", floor))
+    assert (found.relation, found.quality) == ("touching", "exact")
+    into = ask(shape("ball", Sphere(0.5), moved(0.25, 0.5, 0.25)), mesh_body("floor", floor))
+    assert (into.relation, into.severity) == ("penetrating", "error")
 
 
 def test_no_distance_is_taken_from_the_mesh_within_a_shape() -> None:
@@ -240,29 +250,24 @@ CROSSWISE = ((5, 8, 9), (5, 9, 7), (8, 5, 7), (8, 7, 9))
 
 
 @pytest.mark.parametrize("swapped", [False, True])
+@pytest.mark.parametrize("fin", [TWINS, CROSSWISE])
 @pytest.mark.parametrize(
-    ("x", "relation"), [(3.0, "separated"), (3.3, "separated"), (2.25, "touching"), (2.1, None)]
+    ("x", "z", "relation"),
+    [
+        (3.0, 2.0, "penetrating"),
+        (2.1, 2.0, "penetrating"),
+        (3.0, 2.25, "touching"),
+        (3.0, 2.5, "separated"),
+    ],
 )
-def test_a_fin_of_no_thickness_is_no_material(
-    x: float, relation: str | None, swapped: bool
+def test_a_fin_of_no_thickness_is_material(
+    x: float, z: float, relation: str, fin: tuple[tuple[int, int, int], ...], swapped: bool
 ) -> None:
-    pair = shape("ball", Sphere(0.25), moved(x, 1.0, 2.0)), finned(*TWINS)
+    pair = shape("ball", Sphere(0.25), moved(x, 1.0, z)), finned(*fin)
     found = ask(*(pair[::-1] if swapped else pair), tolerance=0.0)
-    assert found.relation == (relation or "penetrating")
-    if relation == "separated":
-        assert (found.exact_relation, found.quality, found.severity) == (relation, "exact", "none")
-    if relation is None:
+    assert (found.relation, found.exact_relation) == (relation, relation)
+    if relation == "penetrating":
         assert found.mtv_verified
-
-
-def test_a_fin_whose_sides_are_cut_differently_is_not_decided() -> None:
-    """No triangle lies in one of the other side: nothing here proves that they cancel."""
-    found = ask(shape("ball", Sphere(0.25), moved(3.0, 1.0, 2.0)), finned(*CROSSWISE))
-    assert (found.relation, found.exact_relation) == ("indeterminate", None)
-    assert (found.severity, found.undecided) == ("warning", "relation")
-    assert found.depth is None
-    deep = ask(shape("ball", Sphere(0.75), moved(2.5, 1.0, 2.0)), finned(*CROSSWISE))
-    assert (deep.exact_relation, deep.severity) == ("penetrating", "error")
 
 
 def test_bounds_that_do_not_close_leave_the_relation_open(monkeypatch: pytest.MonkeyPatch) -> None:

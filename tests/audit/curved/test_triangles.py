@@ -10,7 +10,7 @@ from satcheck import core
 from satcheck.audit.curved.exact.triangles import refined
 from satcheck.audit.curved.shape import CurvedShape, curved_shape
 from satcheck.audit.curved.signed import AT_ORIGIN, signed
-from satcheck.audit.curved.triangles import against_triangles, cancelling
+from satcheck.audit.curved.triangles import against_triangles
 from satcheck.scene.primitives import Cone
 from tests.audit.curved.bodies import tilted
 
@@ -70,17 +70,3 @@ def test_bounds_hold_for_all_triangles() -> None:
         assert (nearest.outcome == "separated") == apart
         misled += min(known, key=lambda one: one.distance).lower > nearest.lower
     assert misled > 0
-
-
-def test_what_cancels() -> None:
-    """Two sheets of one triangle, turned towards each other; a third one; one that only shares
-    two corners; all with corners of their own."""
-    sheet = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
-    back = [(1.0, 0.0, -0.0), (0.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
-    other = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 2.0, 0.0)]
-    faces = np.arange(12, dtype=np.uint32).reshape(4, 3)
-    mesh = core.Mesh(np.array(sheet + back + other + sheet), faces)
-    assert cancelling(mesh, [0, 1]).tolist() == [0, 1]
-    assert cancelling(mesh, [0, 1, 2]).tolist() == [0, 1]
-    assert cancelling(mesh, [0, 1, 3]).tolist() == []
-    assert cancelling(mesh, [0, 2, 3]).tolist() == []

@@ -39,26 +39,29 @@ def test_the_depth_of_meshes_needs_no_parts(tmp_path):
     assert [body.parts for body in report.bodies] == [None, None]
 
 
-def test_an_open_mesh_has_a_depth_of_its_surface(tmp_path):
+def test_an_open_mesh_has_a_depth(tmp_path):
     scene = scene_of(tmp_path, a=open_box(), b=unit_box(-0.5, 1, 1))
     finding = only(check(scene))
     assert finding.relation == "penetrating"
     assert finding.mtv_verified
     assert finding.depth_bounds[0] <= 0.5 <= finding.depth_bounds[1] < 0.505
-    assert "no solid" in finding.reason
+    assert finding.quality == "exact"
 
 
 def test_a_surface_pushed_through_a_wall_finds_the_short_way_back(tmp_path):
-    """Open meshes have no hull that helps: the box is 4 wide, the way back is 0.5."""
+    """The open box is read as a sheet: it is 4 wide, the way back through its wall is 0.5."""
     scene = scene_of(tmp_path, a=open_box(), b=unit_box(3.25, 1.5, 1.5, edge=1.25))
-    finding = only(check(scene))
+    finding = only(check(scene, Settings(allow_open=True)))
     assert finding.mtv_verified
     assert math.hypot(*finding.mtv) == pytest.approx(0.5, rel=0.02)
 
 
-def test_a_box_in_an_open_box_is_separated(tmp_path):
-    finding = only(check(scene_of(tmp_path, a=open_box(), b=unit_box(1, 1, 1))))
-    assert (finding.relation, finding.quality) == ("separated", "exact")
+def test_the_way_out_of_a_filled_box_is_not_into_it(tmp_path):
+    """The same box with its lid filled somehow: the way out leads away from the inside."""
+    scene = scene_of(tmp_path, a=open_box(), b=unit_box(3.25, 1.5, 1.5, edge=1.25))
+    finding = only(check(scene))
+    assert finding.mtv_verified
+    assert math.hypot(*finding.mtv) == pytest.approx(0.75, rel=0.02)
 
 
 def test_a_failed_decomposition_is_a_warning(tmp_path):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.audit import Settings, check
-from tests.audit.shapes import box, bracket, moved, scene_of, unit_box
+from tests.audit.shapes import box, bracket, moved, open_box, scene_of, unit_box
 
 
 def only(report):
@@ -104,7 +104,7 @@ def test_a_capped_ladder_cannot_measure(tmp_path):
     assert finding.exact_relation == "separated"
 
 
-def test_a_wall_without_thickness_is_no_end_of_a_gap(tmp_path):
+def test_a_gap_ends_at_a_wall_without_thickness(tmp_path):
     """A pocket whose open side is closed by the faces of both boxes it is made of."""
     outer, inner = box((0, 0, 0), (5, 5, 5)), box((1, 1, 2), (4, 4, 5))
     offset = len(outer[0])
@@ -113,10 +113,20 @@ def test_a_wall_without_thickness_is_no_end_of_a_gap(tmp_path):
     scene = scene_of(tmp_path, a=pocket, b=box((2, 2, 3), (3, 3, 4.75)))
     finding = only(check(scene, Settings(clearance=0.5)))
     assert (finding.relation, finding.exact_relation) == ("near", "separated")
-    assert (finding.quality, finding.distance) == ("estimate", None)
-    assert "no thickness" in finding.reason
+    assert (finding.quality, finding.distance) == ("exact", 0.25)
     through = scene_of(tmp_path, a=pocket, b=box((2, 2, 3), (3, 3, 7)))
-    assert only(check(through, Settings())).relation == "separated"
+    assert only(check(through, Settings())).relation == "penetrating"
+
+
+def test_a_gap_ends_where_the_fill_of_a_hole_may_be(tmp_path):
+    """The box is 1 away from the lid that is missing, and farther from the rim around it."""
+    a, b = open_box(), box((1.5, 1.5, 5), (2.5, 2.5, 6))
+    report = check(scene_of(tmp_path, a=a, b=b), Settings(clearance=1.25))
+    assert (only(report).relation, only(report).undecided) == ("separated", "limit")
+    assert report.summary.verdict == "incomplete"
+    assert check(scene_of(tmp_path, a=a, b=b), Settings(clearance=0.75)).summary.verdict == "pass"
+    sheets = Settings(clearance=1.25, allow_open=True)
+    assert check(scene_of(tmp_path, a=a, b=b), sheets).summary.verdict == "pass"
 
 
 @pytest.mark.parametrize("tip", [(0.5, -1.0, 0.5), (0.0, -2.0, 0.0)])

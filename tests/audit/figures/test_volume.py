@@ -109,7 +109,7 @@ def test_an_open_mesh_has_no_volume(tmp_path):
         tmp_path, "volume-of-no-solid", a=unit_box(3.5, 1.0, 1.0), b=open_box()
     )
     assert issue.body == "b"
-    assert "surfaces only" in finding.reason
+    assert "no solid" in finding.reason
 
 
 def test_far_from_an_open_mesh_there_is_nothing_all_the_same(tmp_path):

@@ -11,6 +11,7 @@ from satcheck.audit.tradeoff import RUNGS, Budget, PairTradeoff, Row, Rung, Trad
 from satcheck.audit.tradeoff import measure as measuring
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import load_scene
+from tests.audit.shapes import open_box, unit_box, write
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
 LABELS = [rung.label for rung in RUNGS]
@@ -153,24 +154,21 @@ def test_what_is_no_solid_has_no_volume() -> None:
     boolean = rows(pair)["boolean"]
     assert boolean.state == "failed"
     assert "no solid" in (boolean.reason or "")
-    # The cube lies in a box without a lid: nobody can say whether that is an overlap.
-    assert pair.truth.relation is None
-    assert rows(pair)["hull"].right is None
+    # The cube lies in a box without a lid: inside, whatever fills the hole.
+    assert pair.truth.relation == "contains"
+    assert rows(pair)["hull"].right is True
 
 
-def test_what_was_checked_by_surfaces_only_is_no_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_a_hole_leaves_open_is_no_verdict(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     monkeypatch.setattr(measuring, "RUNGS", [*RUNGS[:3], measuring.EXACT])
-    run = found("open_box.off", "cube.off")
-    (pair,) = run.pairs
-    assert not run.complete
+    files = write(tmp_path, a=open_box(), b=unit_box(1, 1, 3.5))
+    (pair,) = tradeoff(load_scene(files)).pairs
     exact = rows(pair)["exact"]
-    assert exact.relation == "separated"
+    assert exact.relation == "indeterminate"
     assert (exact.overlap, exact.proven, exact.right, exact.figure) == (None, False, None, None)
-    assert exact.reason == pair.truth.reason
-    assert "was not checked" in (exact.reason or "")
-    assert pair.picked is not None
-    assert (pair.picked.rung, pair.picked.settled) == ("exact", False)
-    assert "was not checked" in pair.picked.why
+    assert "the hole of a" in (exact.reason or "")
 
 
 def test_of_a_scene_the_pairs_whose_boxes_meet(monkeypatch: pytest.MonkeyPatch) -> None:

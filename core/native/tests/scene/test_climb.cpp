@@ -161,7 +161,7 @@ void a_surface_cut_down_to_what_matters_answers_as_all_of_it() {
       CHECK(alone.triangles->relation == among_many.triangles->relation);
       ++relations[static_cast<int>(alone.triangles->relation)];
       CHECK(alone.gap.has_value() == among_many.gap.has_value());
-      if (alone.gap) CHECK(alone.gap->distance == among_many.gap->distance && alone.gap_is_void == among_many.gap_is_void);
+      if (alone.gap) CHECK(alone.gap->distance == among_many.gap->distance && alone.gap_of_holes == among_many.gap_of_holes);
       CHECK(alone.least_depth.has_value() == among_many.least_depth.has_value());
       if (alone.least_depth) CHECK((*alone.least_depth > 0) == (*among_many.least_depth > 0));
     }

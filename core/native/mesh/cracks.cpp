@@ -1,0 +1,105 @@
+#include "mesh/cracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "base/edge_table.hpp"
+#include "base/patches.hpp"
+#include "mesh/boundary.hpp"
+
+namespace satcheck {
+namespace {
+
+// Of the size of a mesh: where the width of its cracks is more than this, rounding has left nothing of its shape.
+constexpr double kThinBeside = 0x1p-10;
+
+std::vector<BoundaryLoop> loops_of(const Mesh& welded) {
+  return boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles));
+}
+
+double distance(Vec3 p, Vec3 q) { return norm(q - p); }
+
+double distance_to_segment(Vec3 x, Vec3 p, Vec3 q) {
+  const Vec3 along = q - p;
+  const double size = dot(along, along);
+  const double share = size > 0 ? std::clamp(dot(x - p, along) / size, 0.0, 1.0) : 0;
+  return distance(x, p + along * share);
+}
+
+// Do all vertices of the loop lie within `width` of one segment?
+bool bounds_no_area(const Mesh& mesh, const BoundaryLoop& loop, double width) {
+  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
+  const auto farthest_from = [&](Vec3 p) {
+    return *std::max_element(loop.begin(), loop.end(),
+                             [&](auto u, auto v) { return distance(p, at(u)) < distance(p, at(v)); });
+  };
+  const Vec3 p = at(farthest_from(at(loop[0]))), q = at(farthest_from(p));
+  return std::all_of(loop.begin(), loop.end(), [&](auto v) { return distance_to_segment(at(v), p, q) <= width; });
+}
+
+// For each vertex of the loops the first one within the width, by x, or itself.
+std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::vector<BoundaryLoop>& loops, double width) {
+  std::vector<std::uint32_t> vertices;
+  for (const BoundaryLoop& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
+  const auto at = [&](std::uint32_t v) { return mesh.vertices[v]; };
+  std::sort(vertices.begin(), vertices.end(), [&](auto u, auto v) { return at(u).x != at(v).x ? at(u).x < at(v).x : u < v; });
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  std::map<std::uint32_t, std::uint32_t> same;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const std::uint32_t first = vertices[i];
+    if (!same.try_emplace(first, first).second) continue;
+    for (std::size_t k = i + 1; k < vertices.size() && at(vertices[k]).x - at(first).x <= width; ++k) {
+      if (distance(at(first), at(vertices[k])) <= width) same.try_emplace(vertices[k], first);
+    }
+  }
+  return same;
+}
+
+// Joins each boundary edge whose ends have such a partner to the edge between these.
+void close_seams(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width) {
+  const auto same = same_points(welded, loops, width);
+  const auto append = [&](const Triangle& t) {
+    if (!repeats_a_corner(t)) welded.triangles.push_back(t);
+  };
+  for (const BoundaryLoop& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t u = loop[i], v = loop[(i + 1) % loop.size()];
+      const std::uint32_t p = same.at(u), q = same.at(v);
+      append({v, u, p});
+      append({v, p, q});
+    }
+  }
+}
+
+std::size_t close_thin_loops(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width) {
+  std::size_t closed = 0;
+  for (const BoundaryLoop& loop : loops) {
+    if (!bounds_no_area(welded, loop, width)) continue;
+    const std::vector<Triangle> triangles = fan(loop);
+    welded.triangles.insert(welded.triangles.end(), triangles.begin(), triangles.end());
+    ++closed;
+  }
+  return closed;
+}
+
+}  // namespace
+
+std::size_t seal_cracks(Mesh& welded, double width) {
+  Aabb box;
+  for (const Vec3& p : welded.vertices) box.include(p);
+  if (!(width < kThinBeside * norm(box.max - box.min))) return 0;
+  const std::vector<BoundaryLoop> loops = loops_of(welded);
+  if (loops.empty()) return 0;
+  Mesh sealed = welded;
+  close_seams(sealed, loops, width);
+  const std::vector<BoundaryLoop> left = loops_of(sealed);
+  close_thin_loops(sealed, left, width);
+  const std::size_t open = loops_of(sealed).size();
+  if (open >= loops.size()) return 0;
+  welded = std::move(sealed);
+  return loops.size() - open;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,112 @@
+#include "mesh_pair/open_surfaces.hpp"
+
+#include <cmath>
+
+#include "mesh/bvh.hpp"
+#include "mesh_pair/mesh_distance.hpp"
+
+namespace satcheck {
+namespace {
+
+enum class Clearness { clear, touched, in_the_way };
+
+// A body that lies apart from the hull does not meet the fill. One that the hull lies within, without touching its
+// boundary, holds every fill.
+Clearness clearness_of(const MeshRelation& hull_to_body) {
+  if (!hull_to_body.proven) return Clearness::in_the_way;
+  switch (hull_to_body.relation) {
+    case Relation::separated:
+    case Relation::inside: return Clearness::clear;
+    case Relation::touching: return Clearness::touched;
+    default: return Clearness::in_the_way;
+  }
+}
+
+bool meets_a_triangle(const Aabb& box, const Surface& surface) {
+  if (surface.bvh.nodes.empty()) return false;
+  return !visit_box(surface.bvh, surface.mesh, box, [](std::uint32_t) { return false; });
+}
+
+const Aabb& box_of(const Surface& hull) { return hull.bvh.nodes[0].box; }
+
+// The holes of one side, held against the other one.
+class Side {
+ public:
+  Side(const Closing& holed, const Surface& other, const Closing* closing_of_other, bool is_a)
+      : holed_(holed), other_(other), closing_of_other_(closing_of_other), is_a_(is_a) {}
+
+  void look(Holes& holes) const {
+    for (std::size_t k = 0; k < holed_.hulls.size() && !holes.in_the_way; ++k) {
+      const Clearness clearness = clearness_at(k);
+      if (clearness == Clearness::in_the_way) holes.in_the_way = open_hole(k);
+      if (clearness == Clearness::touched && !holes.touched) holes.touched = open_hole(k);
+    }
+  }
+
+ private:
+  Clearness clearness_at(std::size_t k) const {
+    const Surface& hull = holed_.hulls[k];
+    if (hull.bvh.nodes.empty() || !meets_a_triangle(box_of(hull), other_)) return Clearness::clear;
+    Clearness clearness = clearness_of(closed_relation(hull, other_));
+    if (closing_of_other_ == nullptr) return clearness;
+    for (const Surface& theirs : closing_of_other_->hulls) {
+      if (clearness == Clearness::in_the_way) break;
+      if (theirs.bvh.nodes.empty() || !meet(box_of(theirs), box_of(hull))) continue;
+      const MeshRelation found = closed_relation(hull, theirs);
+      // Within the hull of another hole nothing is known.
+      const bool within = found.relation == Relation::inside;
+      clearness = std::max(clearness, within ? Clearness::in_the_way : clearness_of(found));
+    }
+    return clearness;
+  }
+
+  OpenHole open_hole(std::size_t k) const {
+    const Hole& hole = holed_.holes[k];
+    return {is_a_, k, holed_.holes.size(), hole.centre(), hole.diameter()};
+  }
+
+  const Closing& holed_;
+  const Surface& other_;
+  const Closing* closing_of_other_;
+  bool is_a_;
+};
+
+}  // namespace
+
+ClosedPair::ClosedPair(const Surface& a, const Surface& b, OpenParts open) : a_(a), b_(b) {
+  if (!a.solid) of_a_ = closing_of(a, open);
+  if (!b.solid) of_b_ = closing_of(b, open);
+}
+
+bool are_read_as_sheets(const Surface& a, const Surface& b) {
+  const auto is_sheet = [](const Surface& s) { return !s.solid && s.open_parts == OpenParts::sheets; };
+  return is_sheet(a) || is_sheet(b);
+}
+
+Holes holes_between(const ClosedPair& pair) {
+  Holes holes;
+  if (pair.closing_a()) Side(*pair.closing_a(), pair.b(), pair.closing_b(), true).look(holes);
+  if (pair.closing_b() && !holes.in_the_way) Side(*pair.closing_b(), pair.a(), pair.closing_a(), false).look(holes);
+  return holes;
+}
+
+std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit) {
+  if (are_read_as_sheets(a, b)) return {};
+  const ClosedPair pair(a, b, OpenParts::filled);
+  static const std::vector<Surface> none;
+  const auto& hulls_a = pair.closing_a() ? pair.closing_a()->hulls : none;
+  const auto& hulls_b = pair.closing_b() ? pair.closing_b()->hulls : none;
+  double least = limit;
+  const auto look = [&](const Surface& hull, const Surface& other) {
+    if (hull.bvh.nodes.empty() || other.bvh.nodes.empty()) return;
+    least = std::fmin(least, mesh_distance(hull, other, least).distance);
+  };
+  for (const Surface& hull : hulls_a) look(hull, b);
+  for (const Surface& hull : hulls_b) look(hull, a);
+  for (const Surface& hull : hulls_a) {
+    for (const Surface& theirs : hulls_b) look(hull, theirs);
+  }
+  return least < limit ? std::optional(least) : std::nullopt;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,42 @@
+// Two surfaces of which one or both are open: do their holes leave the relation open?
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "mesh/closing.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+
+namespace satcheck {
+
+// The closed surfaces in the place of two that may be open.
+class ClosedPair {
+ public:
+  ClosedPair(const Surface& a, const Surface& b, OpenParts open);
+
+  const Surface& a() const { return of_a_ ? *of_a_->surface : a_; }
+  const Surface& b() const { return of_b_ ? *of_b_->surface : b_; }
+  // Nothing of a surface that is closed by itself.
+  const Closing* closing_a() const { return of_a_.get(); }
+  const Closing* closing_b() const { return of_b_.get(); }
+
+ private:
+  const Surface &a_, &b_;
+  std::shared_ptr<const Closing> of_a_, of_b_;
+};
+
+// Is what is open of either surface meant to be open?
+bool are_read_as_sheets(const Surface& a, const Surface& b);
+
+// in_the_way: the hull of a hole meets more of the other body than its boundary, so that fills exist which overlap
+// the body and others which do not. touched: no such hole exists, but the hull of one touches the other body.
+struct Holes {
+  std::optional<OpenHole> in_the_way, touched;
+};
+
+Holes holes_between(const ClosedPair& pair);
+
+// The distance of the hulls of holes from the other surface and from its hulls, where that is less than `limit`.
+std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit);
+
+}  // namespace satcheck
