@@ -1,0 +1,77 @@
+// Loops of the boundary, and the holes and flat parts that they make.
+#include "mesh/boundary.hpp"
+
+#include "mesh/closing.hpp"
+#include "mesh/surface.hpp"
+#include "mesh/topology.hpp"
+#include "tests/check.hpp"
+
+using namespace satcheck;
+using namespace satcheck::testing;
+
+namespace {
+
+Mesh tetrahedron() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}}; }
+
+std::vector<BoundaryLoop> loops_of(const Mesh& mesh) {
+  return boundary_loops(mesh, EdgeTable(mesh.vertices.size(), mesh.triangles));
+}
+
+void closed_meshes_have_none() {
+  CHECK(loops_of(tetrahedron()).empty());
+  CHECK(find_holes(tetrahedron()).empty());
+}
+
+void a_missing_triangle_is_a_loop_of_three() {
+  for (std::size_t missing = 0; missing < 4; ++missing) {
+    Mesh mesh = tetrahedron();
+    const Triangle gone = mesh.triangles[missing];
+    mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(missing));
+    const auto loops = loops_of(mesh);
+    CHECK(loops.size() == 1 && loops[0].size() == 3);
+    mesh.triangles.push_back(fan(loops[0])[0]);
+    CHECK(loops_of(mesh).empty());
+    for (const std::uint32_t v : loops[0]) CHECK(v == gone[0] || v == gone[1] || v == gone[2]);
+  }
+}
+
+void a_turned_triangle_is_two_loops_in_one_hole() {
+  Mesh mesh = tetrahedron();
+  std::swap(mesh.triangles[2][1], mesh.triangles[2][2]);
+  CHECK(loops_of(mesh).size() == 2);
+  CHECK(find_holes(mesh).size() == 1);
+  CHECK(make_surface(close_surface(mesh, OpenParts::filled).surface->mesh, true).solid);
+}
+
+void loops_that_share_a_vertex_are_two_holes() {
+  // Two triangles that are missing from an octahedron and share a corner.
+  Mesh mesh{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+            {{4, 0, 2}, {4, 2, 1}, {4, 1, 3}, {4, 3, 0}, {5, 2, 0}, {5, 1, 2}, {5, 3, 1}, {5, 0, 3}}};
+  CHECK(loops_of(mesh).empty());
+  mesh.triangles.erase(mesh.triangles.begin() + 2);
+  mesh.triangles.erase(mesh.triangles.begin());
+  CHECK(loops_of(mesh).size() == 2);
+  CHECK(find_holes(mesh).size() == 2);
+}
+
+void a_flat_part_is_a_sheet_and_no_hole() {
+  const Mesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  CHECK(loops_of(square).size() == 1);
+  CHECK(find_holes(square).empty());
+  const Closing closing = close_surface(square, OpenParts::filled);
+  CHECK(closing.hulls.empty() && closing.surface->mesh.triangles.size() == 4);
+  Mesh bent = square;
+  bent.vertices[3].z = 0.25;
+  CHECK(find_holes(bent).size() == 1);
+}
+
+}  // namespace
+
+int main() {
+  closed_meshes_have_none();
+  a_missing_triangle_is_a_loop_of_three();
+  a_turned_triangle_is_two_loops_in_one_hole();
+  loops_that_share_a_vertex_are_two_holes();
+  a_flat_part_is_a_sheet_and_no_hole();
+  return exit_status();
+}
