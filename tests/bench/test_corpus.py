@@ -52,7 +52,7 @@ def test_the_samples_are_asked_once_each() -> None:
     assert cases["notch"].stated == Stated(overlap=False)
     assert cases["arm"].stated == Stated(overlap=True, depth=0.5)
     assert cases["flush"].stated.overlap is None
-    assert cases["open"].stated.overlap is None
+    assert cases["open"].stated == Stated(overlap=True, depth=1.5)
     assert all(path.is_file() for case in cases.values() for path in case.inputs(SAMPLES))
 
 
