@@ -41,6 +41,19 @@ Labels label_components(const Mesh& welded, const EdgeTable& edges) {
   return number_sets(sets, welded.triangles.size());
 }
 
+Labels label_vertex_components(const Mesh& welded) {
+  constexpr std::uint32_t none = 0xFFFFFFFF;
+  DisjointSets sets(welded.triangles.size());
+  std::vector<std::uint32_t> first_at(welded.vertices.size(), none);
+  for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
+    for (const std::uint32_t v : welded.triangles[t]) {
+      if (first_at[v] == none) first_at[v] = t;
+      sets.unite(first_at[v], t);
+    }
+  }
+  return number_sets(sets, welded.triangles.size());
+}
+
 Labels label_manifold_patches(const Mesh& welded, const EdgeTable& edges) {
   DisjointSets sets(welded.triangles.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {

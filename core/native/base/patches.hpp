@@ -40,6 +40,9 @@ struct Labels {
 // Sets connected through shared edges, whatever the number of triangles at them.
 Labels label_components(const Mesh& welded, const EdgeTable& edges);
 
+// Sets connected through shared vertices.
+Labels label_vertex_components(const Mesh& welded);
+
 // Sets connected through edges of exactly two triangles.
 Labels label_manifold_patches(const Mesh& welded, const EdgeTable& edges);
 

@@ -89,18 +89,10 @@ namespace {
 
 // The largest first.
 std::vector<Hole> make_holes(const Mesh& mesh, const std::vector<BoundaryLoop>& loops) {
-  std::map<std::uint32_t, std::vector<std::uint32_t>> loops_at;  // a vertex
-  for (std::uint32_t i = 0; i < loops.size(); ++i) {
-    for (const std::uint32_t v : loops[i]) loops_at[v].push_back(i);
-  }
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> shared;  // vertices of two loops
+  std::map<std::uint32_t, std::uint32_t> first_at;  // a vertex: the first loop there
   DisjointSets sets(loops.size());
-  for (const auto& [vertex, here] : loops_at) {
-    for (std::size_t j = 1; j < here.size(); ++j) {
-      for (std::size_t i = 0; i < j; ++i) {
-        if (++shared[{here[i], here[j]}] == 2) sets.unite(here[i], here[j]);
-      }
-    }
+  for (std::uint32_t i = 0; i < loops.size(); ++i) {
+    for (const std::uint32_t v : loops[i]) sets.unite(first_at.try_emplace(v, i).first->second, i);
   }
   std::vector<Hole> holes;
   std::vector<std::uint32_t> hole_of(loops.size(), kNowhere);
@@ -155,7 +147,7 @@ bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
 
 void double_flat_parts(Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
-  const Labels parts = label_components(welded, edges);
+  const Labels parts = label_vertex_components(welded);
   const std::vector<bool> open = open_parts_of(edges, parts);
   std::vector<Triangle> backs;
   std::uint32_t number = 0;

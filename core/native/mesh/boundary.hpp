@@ -22,7 +22,7 @@ std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& ed
 // Triangles that close the loop: a fan about its first vertex, against the direction of the loop.
 std::vector<Triangle> fan(const BoundaryLoop& loop);
 
-// Loops that share two vertices or more can be taken apart in several ways, so they are one hole.
+// Loops that share a vertex can be taken apart in several ways, and be filled together, so they are one hole.
 struct Hole {
   std::vector<BoundaryLoop> loops;
   Aabb box;
@@ -32,7 +32,7 @@ struct Hole {
 };
 
 // Turns each part of the mesh that is open and lies in one plane into a sheet: its triangles come in both windings
-// then. In the plane no other fill of its boundary exists. Parts are connected through edges.
+// then. In the plane no other fill of its boundary exists. Parts are connected through vertices.
 void double_flat_parts(Mesh& welded);
 
 // Of the mesh but for its flat parts; the largest first.
