@@ -65,11 +65,13 @@ def test_a_distance_without_evidence_is_named() -> None:
     assert "findings[].distance" in left(made)
 
 
-def test_a_wall_of_no_thickness_is_nothing_to_be_near_to(tmp_path: Path) -> None:
-    """It stands closer than the box, and is no part of the body: so it proves no distance."""
+def test_a_wall_of_no_thickness_is_near(tmp_path: Path) -> None:
+    """It stands closer than the bracket: the distance is that to its corner, and no less."""
     a: Mesh = pieces(wall(2.0, 2.0, 2.0), bracket())
     made = document(write(tmp_path, a=a, b=unit_box(3.5, 3.5, 1.0)), clearance=3.0)
     finding: dict[str, Any] = made["findings"][0]
+    assert finding["distance"] == pytest.approx(0.5**0.5)
+    assert verified(made).accepted
     finding.update(distance=0.5, normal=[1.0, 0.0, 0.0])
     finding["witness"] = {"a": [3.0, 3.0, 2.0], "b": [3.5, 3.5, 2.0]}
     assert not verified(made).accepted
