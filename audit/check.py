@@ -30,7 +30,6 @@ from satcheck.audit.summary import (
 )
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen, replace
-from satcheck.scene.drawing import DRAWINGS
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
@@ -73,10 +72,44 @@ def check(
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
     roster = place(scene, settings, known)
+    if len(roster.placed) < len(scene.bodies) and settings.planar is None:
+        report = _in_other_unit(scene, settings, progress, len(roster.placed))
+        if report is not None:
+            return report
+    return _check(scene, settings, progress, roster, keep=known is not None)
+
+
+def _in_other_unit(
+    scene: Scene, settings: Settings, progress: Progress | None, placed: int
+) -> Report | None:
+    """Of a scene with bodies beyond the number range of the core; None where no other unit has
+    room for more bodies than the `placed` ones."""
+    from satcheck.audit.other_unit import OtherUnit
+    from satcheck.scene.other_unit import exponent_for, in_other_unit
+
+    exponent = exponent_for(scene)
+    if exponent == 0:
+        return None
+    unit = OtherUnit(exponent)
+    scaled, asked = in_other_unit(scene, exponent), unit.settings(settings)
+    roster = place(scaled, asked)
+    if len(roster.placed) <= placed:
+        return None
+    return unit.report(_check(scaled, asked, progress, roster), scene, settings)
+
+
+def _check(
+    scene: Scene,
+    settings: Settings,
+    progress: Progress | None,
+    roster: Roster,
+    keep: bool = False,
+) -> Report:
+    """keep: what is made of the bodies is wanted again."""
     movers = _movers(scene)
     planner = Planner(settings, roster.book, scene.composed, moving=movers is not None)
     close = close_pairs(roster, planner, movers)
-    turn = InTurn(settings.jobs, keep=known is not None)
+    turn = InTurn(settings.jobs, keep=keep)
     examined = _examine_all(roster, close, planner, movers, turn, progress)
     findings = _findings(roster, close, examined, planner)
     of_motions = () if movers is None else movers.issues(roster.ids)
@@ -117,14 +150,11 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
             megabytes_per_file=settings.megabytes_per_file,
         )
     if settings.planar is None:
-        drawn = next((body for body in scene.bodies if body.file.format in DRAWINGS.values()), None)
-        if drawn is not None:
-            path = drawn.file.path
-            raise SatcheckError("planar-only", f"{path}: a drawing is flat: add --planar xy")
+        scene.require_in_space("add --planar xy")
         return scene
     from satcheck.scene.planar.laid_flat import laid_flat
 
-    return laid_flat(scene, settings.planar)
+    return laid_flat(scene, settings.planar, allow_open=settings.allow_open)
 
 
 def _movers(scene: Scene) -> Movers | None:

@@ -1,4 +1,4 @@
-"""Warnings about sizes under which an answer says little: as when a unit of length is mistaken."""
+"""Warnings about sizes that make an answer doubtful, as when a unit of length is wrong."""
 
 from __future__ import annotations
 

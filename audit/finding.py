@@ -1,4 +1,4 @@
-"""One pair: up the ladder, the figures that were asked for, the words for the result.
+"""One pair: up the ladder, the figures that are needed, the words for the result.
 
 A clearance is kept or not by the exact gap, whatever the touch band calls the pair: an overlap has
 no gap, so it keeps none.
@@ -12,6 +12,7 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.gap import Gap, compare_convex, measure_gap
 from satcheck.audit.figures.touch_band import Band, band_of, estimate_is_within, touch_band
+from satcheck.audit.ladder.around import open_pieces_around
 from satcheck.audit.ladder.ladder import Contact, boxes_apart, settle
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
@@ -40,6 +41,10 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
     contact = settle(pair, plan, climb)
     if contact.relation == "indeterminate":
         return indeterminate(pair.a.id, pair.b.id, contact.reason or "undecided", plan)
+    if contact.relation in ("separated", "touching"):
+        surrounded = open_pieces_around(pair)
+        if surrounded is not None:
+            return indeterminate(pair.a.id, pair.b.id, surrounded, plan)
     gap: tuple[float, float, bool | None] = (0.0, 0.0, None)
     if contact.relation in OVERLAPS:
         overlap = _overlapping(pair, contact, plan)
@@ -47,12 +52,17 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
             reason = f"undecided: rounding hides whether the overlap is within {pair.tolerance:.9g}"
             return indeterminate(pair.a.id, pair.b.id, reason, plan)
         known = overlap
+        gap = (0.0, pair.farther, None)
     else:
         measured = measure_gap(pair, contact, plan)
+        if pair.closer:
+            from satcheck.audit.figures.curve_error import gap_of_curves
+
+            measured = gap_of_curves(pair, measured)
         gap = measured.lower, measured.upper, measured.kept
         known = _apart(pair, contact, measured)
     contradiction = _add_extras(known, pair, contact, plan)
-    found = judged(known, pair, gap)
+    found = judged(known, pair, gap, overlaps=contact.overlaps)
     if contradiction is not None:
         found = disputed(found, contradiction)
     known["reason"] = known["reason"] or found.reason
@@ -147,12 +157,22 @@ def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any] | N
         return None
     is_open = pair.curved and contact.convex is not None and band.side == "open"
     relation: Relation = "touching" if band.side == "within" else contact.relation
+    proven = shown = contact.proven
+    reason = _weakness(pair, contact) or (OPEN_BAND if is_open else None)
+    if pair.closer:
+        from satcheck.audit.figures import curve_error
+
+        depth = depth and curve_error.depth_of_curves(pair, contact, depth, plan)
+        shown = proven and curve_error.overlap_of_curves(pair, contact)
+        in_band = relation == "touching" and pair.tolerance >= pair.closer
+        if not (shown or in_band) and curve_error.is_hidden(pair, contact, depth):
+            proven, reason = False, reason or _within_curves(pair)
     return {
         "relation": relation,
-        "exact_relation": contact.relation if contact.proven else None,
-        "quality": _depth_quality(contact, depth),
+        "exact_relation": contact.relation if shown else None,
+        "quality": _depth_quality(depth, proven=proven),
         "tolerance": pair.tolerance,
-        "reason": _weakness(pair, contact) or (OPEN_BAND if is_open else None),
+        "reason": reason,
         **({} if depth is None else _depth_figures(depth)),
     }
 
@@ -197,8 +217,8 @@ def _depth_figures(depth: Depth) -> dict[str, Any]:
     }
 
 
-def _depth_quality(contact: Contact, depth: Depth | None) -> Quality:
-    if not contact.proven:
+def _depth_quality(depth: Depth | None, *, proven: bool) -> Quality:
+    if not proven:
         return "estimate"
     if depth is None or depth.upper - depth.lower <= EXACT_WIDTH * depth.upper:
         return "exact"
@@ -219,17 +239,29 @@ def _apart(pair: Pair, contact: Contact, gap: Gap) -> dict[str, Any]:
             reason = reason or OPEN_BAND
         if guess:
             proven, reason = False, _open_gap(pair)
+    shown = contact.proven
+    if pair.closer and gap.lower == 0:  # the curves may meet
+        shown = False
+        if pair.tolerance < pair.closer:
+            proven, reason = False, reason or _within_curves(pair)
     figures: dict[str, Any] = {}
     if pair.asked.clearance is not None and gap.distance is not None:
         figures = {"distance": gap.distance, "normal": gap.normal, "witness": gap.witness}
+        if pair.closer:
+            figures["distance_bounds"] = (gap.lower, gap.upper)
+    at_best: Quality = "bounded" if "distance_bounds" in figures else "exact"
     return {
         "relation": relation,
-        "exact_relation": contact.relation if contact.proven else None,
-        "quality": "exact" if proven else "estimate",
+        "exact_relation": contact.relation if shown else None,
+        "quality": at_best if proven else "estimate",
         "tolerance": pair.tolerance,
         "reason": reason,
         **figures,
     }
+
+
+def _within_curves(pair: Pair) -> str:
+    return f"undecided: the curves may be {pair.closer:.3g} off their polygons"
 
 
 def _overlaps_within(contact: Contact, tolerance: float) -> bool:

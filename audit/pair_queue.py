@@ -163,6 +163,6 @@ class _Workers:
         return self._pool
 
     def _end(self, kind: type[BaseException] | None, *_: object) -> None:
-        """After an error, Ctrl-C for one, nobody waits for what is under way."""
+        """After an error, such as Ctrl-C, does not wait for running work."""
         if self._pool is not None:
             self._pool.shutdown(wait=kind is None, cancel_futures=True)

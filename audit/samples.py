@@ -19,6 +19,7 @@ from satcheck.audit.report.report import (
     Exempt,
     Finding,
     Issue,
+    PairCounts,
     Report,
     Tool,
     Verdict,
@@ -51,8 +52,8 @@ class PairTally:
     """One asked pair over all samples, in how many of which it is what, at rest or on the way: the
     first of overlaps, touches, near, undecided that applies.
 
-    undecided: indeterminate, or checked by surfaces only. first_overlap: number of the first sample
-    with an overlap. Where none of the counts applies the pair is separated.
+    undecided: how they relate, or whether they hit on the way. first_overlap: number of the first
+    sample with an overlap. Where none of the counts applies the pair is separated.
     """
 
     a: str
@@ -90,9 +91,10 @@ class PairTally:
 class Samples:
     """What `check_poses` found.
 
-    pairs: of every asked pair, in the order of the bodies, those that never met included. bodies,
-    exempt and rules: as in a report; the transforms are those of the last sample. issues: those
-    that are not about one pose. seed: of the random poses; None where they are not random.
+    pairs: of every asked pair, in the order of the bodies, those that never met included. counts:
+    of the last sample; how many are allowed or exempt is the same in all. bodies, exempt and rules:
+    as in a report; the transforms are those of the last sample. issues: those that are not about
+    one pose. seed: of the random poses; None where they are not random.
     """
 
     tool: Tool
@@ -103,6 +105,7 @@ class Samples:
     rules: tuple[Rule, ...]
     samples: tuple[Sample, ...]
     pairs: tuple[PairTally, ...]
+    counts: PairCounts
     issues: tuple[Issue, ...]
     seed: int | None = None
     tracebacks: tuple[str, ...] = ()
@@ -127,7 +130,9 @@ class Samples:
                 "samples": len(self.samples),
                 "by_verdict": {name: verdicts[name] for name in VERDICTS},
                 "pairs": {
-                    "total": len(self.pairs),
+                    "total": self.counts.total,
+                    "allowed": self.counts.allowed,
+                    "exempt": self.counts.exempt,
                     "separated": sum(pair.settled for pair in self.pairs),
                 },
             },
@@ -195,6 +200,7 @@ def check_poses(
         rules=report.rules,
         samples=tuple(samples),
         pairs=_all_pairs(report, known.book, tallies),
+        counts=report.summary.pairs,
         issues=tuple(common),
         tracebacks=tuple(tracebacks),
     )

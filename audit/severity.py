@@ -1,4 +1,4 @@
-"""How grave a finding is, what decided that, and what it leaves undecided.
+"""The severity of a finding, the rule that decided it, and what it leaves undecided.
 
 An overlap is an error unless rules limit it, and then where it exceeds a limit; so is a gap below
 the clearance. Rules may call the errors of a pair something else. What could not be decided stays a
@@ -49,7 +49,7 @@ def keeps(clearance: float, least: float, most: float) -> bool | None:
 def of_clearance(
     asked: Asked, least: float, most: float, kept: bool | None = None
 ) -> Judgement | None:
-    """Of a gap between these bounds; None: it keeps the clearance, or none is asked for. kept:
+    """Of a gap between these bounds; None: it keeps the clearance, or there is none. kept:
     whether it does, where that is known better than by the bounds."""
     if not asked.clearance:
         return None
@@ -58,30 +58,43 @@ def of_clearance(
         kept = keeps(asked.clearance, least, most)
     if kept is None:
         known = f"at least {least:.9g}" if most == inf else f"between {least:.9g} and {most:.9g}"
-        reason = f"undecided: clearance is {asked.clearance:.9g} ({rule}), and the gap is {known}"
+        by = f"--{rule}" if rule == CLEARANCE_RULE else rule
+        reason = f"undecided: clearance is {asked.clearance:.9g} ({by}), and the gap is {known}"
         return Judgement("warning", rule, "limit", reason)
     return None if kept else Judgement("error", rule)
 
 
 def judged(
-    known: Mapping[str, Any], pair: Pair, gap: tuple[float, float, bool | None]
+    known: Mapping[str, Any],
+    pair: Pair,
+    gap: tuple[float, float, bool | None],
+    *,
+    overlaps: bool = False,
 ) -> Judgement:
     """Of a finding, by what is known of it: its fields by name.
 
     gap: proven bounds of the distance of bodies without a common interior, and whether it keeps the
-    clearance. A relation that is not proven passes only where --accuracy or --allow-open asks for
-    less.
+    clearance. overlaps: an overlap is proven, even if the relation is not. A relation that is not
+    proven does not pass, and an overlap that is not proven does not fail, unless --accuracy or
+    --allow-open asks for less.
     """
     found = by_rule(_found(known, pair.asked, gap), pair.asked)
-    guessed = known["quality"] == "estimate" and found.passes
     settings = pair.settings
-    if guessed and settings.accuracy == "exact" and not settings.allow_open:
-        return _warned(found, "relation")
-    return found
+    if known["quality"] != "estimate" or settings.accuracy != "exact" or settings.allow_open:
+        return found
+    if known["relation"] in OVERLAPS and overlaps:
+        is_proven = not found.passes or known.get("mtv_verified") is True
+        return found if is_proven else _warned(found, "relation")
+    if known["relation"] in OVERLAPS:  # or a gap within these bounds
+        close = of_clearance(pair.asked, *gap)
+        if close is not None and close.severity == "error":
+            return _warned(by_rule(close, pair.asked), "relation")
+        return _warned(replace(found, severity="warning"), "relation")
+    return _warned(found, "relation") if found.passes else found
 
 
 def by_rule(found: Judgement, asked: Asked) -> Judgement:
-    """What a rule calls the errors of its pairs."""
+    """An error gets the severity that a rule sets for its pair."""
     if found.severity != "error" or asked.severity is None:
         return found
     severity: Severity = "silenced" if asked.severity == "none" else asked.severity
@@ -147,9 +160,10 @@ class _Limit:
     @property
     def question(self) -> str:
         known = f"{self.key} is {self.most:.6g} ({self.rule})"
+        figure = self.key.removeprefix("max_")
         if self.least is None or self.greatest is None:
-            return f"{known}, and what the pair has is not known"
-        return f"{known}, and the pair has between {self.least:.6g} and {self.greatest:.6g}"
+            return f"{known}, and the {figure} of the pair is not known"
+        return f"{known}, and the {figure} is between {self.least:.6g} and {self.greatest:.6g}"
 
 
 def _limits(known: Mapping[str, Any], asked: Asked) -> Iterator[_Limit]:

@@ -11,7 +11,7 @@ R = TypeVar("R")
 
 def side_by_side(work: Callable[[T], R], things: Sequence[T], threads: int) -> list[R]:
     """work(thing) of each, on so many threads; where the system grants no more of them, one after
-    the other. After an error, Ctrl-C for one, nobody waits for what is under way."""
+    the other. After an error, such as Ctrl-C, running work is not waited for."""
     from concurrent.futures import ThreadPoolExecutor
 
     pool = ThreadPoolExecutor(threads)

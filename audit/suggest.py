@@ -56,10 +56,19 @@ class Unchecked:
 
 
 @frozen
+class Undecided:
+    """A pair, and the first reason why something about it was not decided."""
+
+    a: str
+    b: str
+    reason: str
+
+
+@frozen
 class Suggestions:
     """poses: how many others were checked; seed: of random ones. held: joints that did not move
-    among them. undecided: pairs of which something was not decided. may_meet: links of which some
-    bodies met in some of the poses, or may have.
+    among them. undecided: pairs of which something was not decided, and why. may_meet: links of
+    which some bodies met in some of the poses, or may have.
 
     "never" is said of the poses that were checked, and proves nothing about the others.
     """
@@ -69,7 +78,7 @@ class Suggestions:
     poses: int
     seed: int | None
     pairs: tuple[Suggestion, ...]
-    undecided: int
+    undecided: tuple[Undecided, ...]
     may_meet: frozenset[frozenset[str]]
     issues: tuple[Issue, ...]
     unchecked: tuple[Unchecked, ...] = ()
@@ -85,7 +94,7 @@ class Suggestions:
             "seed": self.seed,
             "held": list(self.held),
             "suggestions": [_values(pair) for pair in self.pairs],
-            "undecided": self.undecided,
+            "undecided": len(self.undecided),
             "unchecked": [_unchecked_values(pair) for pair in self.unchecked],
         }
 
@@ -113,8 +122,7 @@ def suggest(
 
         samples = check_poses(scene, poses, replace(settings, depth=False), progress)
         issues = tuple(dict.fromkeys((*report.issues, *samples.issues)))
-    undecided = {(f.a, f.b) for f in report.findings if f.undecided is not None}
-    undecided |= {(one.a, one.b) for one in samples.pairs if one.undecided} if samples else set()
+    undecided = _undecided(report, samples)
     assert known.book is not None
     ids = [body.id for body in report.bodies]
     asked = [(ids[i], ids[j]) for i, j in known.book.asked_pairs()]
@@ -127,12 +135,28 @@ def suggest(
         poses=len(poses),
         seed=seed if poses else None,
         pairs=tuple(pairs),
-        undecided=len(undecided),
+        undecided=undecided,
         may_meet=may_meet,
         issues=issues,
         unchecked=unchecked,
         held=tuple(held) if poses else (),
     )
+
+
+def _undecided(report: Report, samples: Samples | None) -> tuple[Undecided, ...]:
+    """As placed, then in the poses."""
+    findings = list(report.findings)
+    if samples:
+        open_in_poses = {(one.a, one.b) for one in samples.pairs if one.undecided}
+        of_poses = (finding for sample in samples.samples for finding in sample.findings)
+        findings += [f for f in of_poses if (f.a, f.b) in open_in_poses]
+    first: dict[Names, Undecided] = {}
+    for finding in findings:
+        if finding.undecided is not None:
+            swept = finding.motion and finding.motion.reason
+            reason = finding.reason or swept or "undecided"
+            first.setdefault((finding.a, finding.b), Undecided(finding.a, finding.b, reason))
+    return tuple(first.values())
 
 
 def _unchecked(scene: Scene, report: Report, asked: list[Names]) -> tuple[Unchecked, ...]:

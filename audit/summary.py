@@ -11,6 +11,7 @@ from satcheck._version import __version__
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.bodies.roster import Lost, Roster
 from satcheck.audit.report.report import (
+    NOTHING_TO_CHECK,
     SEVERITIES,
     BodyReport,
     Exempt,
@@ -26,15 +27,15 @@ from satcheck.audit.report.report import (
 )
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import fields
+from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
     from satcheck.audit.asked.settings import FailOn
+    from satcheck.decompose import Decomposition
     from satcheck.scene import Scene
     from satcheck.scene.health import MeshHealth
     from satcheck.scene.primitives import Primitive
 
-# The code of the issue about a scene that exempts all of its pairs.
-NOTHING_TO_CHECK = "nothing-to-check"
 Health = Mapping[str, bool | int | float | str | None]
 
 
@@ -84,12 +85,12 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -
     if any(finding.severity in grave for finding in found):
         return "fail"
     unchecked = any(finding.undecided is not None for finding in findings)
-    return "incomplete" if unchecked or not counts.total else "pass"
+    return "incomplete" if unchecked or not counts.asked else "pass"
 
 
 def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
     meshes = {id(body.shared): body.shared for body in roster.placed.values()}
-    health = {key: _health(mesh.file.health) for key, mesh in meshes.items()}
+    health = {key: health_values(mesh.file.health) for key, mesh in meshes.items()}
     return tuple(
         _lost_report(roster.lost[k])
         if k in roster.lost
@@ -98,7 +99,7 @@ def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
     )
 
 
-def _health(health: MeshHealth) -> Health:
+def health_values(health: MeshHealth) -> Health:
     return {name: _finite(getattr(health, name)) for name in fields(health)}
 
 
@@ -123,7 +124,7 @@ def _lost_report(body: Lost) -> BodyReport:
 
 def _body_report(body: PlacedBody, health: Health) -> BodyReport:
     file, given = body.body.file, body.body.as_given or body.body
-    shape, transform = given.shape, given.transform
+    transform = placing_file(given.file, given.transform)
     known = body.shared.decomposition.known
     parts = None if isinstance(known, SatcheckError) else known
     return BodyReport(
@@ -142,9 +143,13 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         resolution=body.resolution,
         convex=body.shared.geometry.known_convex,
         parts=None if parts is None else len(parts.parts),
-        part_error=None if parts is None else PartError(parts.outside, parts.missing),
-        shape=_shape(shape),
+        part_error=None if parts is None else _part_error(parts, file.exponent),
+        shape=_shape(shape_of_file(given.file, given.shape)),
     )
+
+
+def _part_error(parts: Decomposition, exponent: int) -> PartError:
+    return PartError(math.ldexp(parts.outside, exponent), math.ldexp(parts.missing, exponent))
 
 
 def _shape(shape: Primitive | None) -> Mapping[str, object] | None:
@@ -180,16 +185,27 @@ def issues_of(
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
     ]
-    empty = [] if counts.total else [_nothing_to_check(scene, counts)]
+    empty = [] if counts.asked else [_nothing_to_check(scene, counts)]
     return tuple(dict.fromkeys((*issues, *roster.issues, *empty, *of_pairs)))
 
 
 def _nothing_to_check(scene: Scene, counts: PairCounts) -> Issue:
-    """Why no pair is asked about: that of two static bodies counts as one of these."""
-    still = 0 if scene.check_static else sum(body.static for body in scene.in_order())
-    static = still * (still - 1) // 2
-    why = {"of static bodies": static, "within ignored groups": counts.exempt - static}
-    said = " and ".join(f"{count:,} {what}" for what, count in why.items() if count)
-    pairs = "pair" if counts.exempt == 1 else "pairs"
-    message = f"no pair was checked: the scene exempts all {counts.exempt:,} {pairs}: {said}"
-    return Issue(NOTHING_TO_CHECK, "warning", None, None, message)
+    """Why no pair is asked about."""
+    in_link = sum(robot.pairs_within_links for robot in scene.robots)
+    static_bodies = 0 if scene.check_static else sum(body.static for body in scene.in_order())
+    static, in_group = exempt_by(counts, static_bodies)
+    why = {
+        "within one link": in_link,
+        "allowed by rules": counts.allowed - in_link,
+        "of static bodies": static,
+        "within ignored groups": in_group,
+    }
+    said = ", ".join(f"{count:,} {what}" for what, count in why.items() if count)
+    return Issue(NOTHING_TO_CHECK, "warning", None, None, f"no pair was checked: {said}")
+
+
+def exempt_by(counts: PairCounts, static_bodies: int) -> tuple[int, int]:
+    """Exempt pairs of static bodies, and the others, which are within ignored groups.
+    static_bodies: 0 where pairs of such bodies are checked."""
+    static = static_bodies * (static_bodies - 1) // 2
+    return static, counts.exempt - static

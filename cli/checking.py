@@ -14,12 +14,29 @@ from satcheck.cli.refusals import failure, wrong_usage
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
+    from typing import Protocol
+
     from satcheck.audit.report.report import Report
     from satcheck.cli.output import Page
     from satcheck.cli.posing import Posing
     from satcheck.scene import Scene
     from satcheck.scene.scene_builder import Split
     from satcheck.scene.units import Length
+
+    class Inputs(Protocol):
+        """The options of a command that say what is read, and how."""
+
+        @property
+        def paths(self) -> tuple[str, ...]: ...
+        @property
+        def packages(self) -> Mapping[str, Path]: ...
+        @property
+        def split(self) -> Split | None: ...
+        @property
+        def allow_outside(self) -> bool: ...
+        @property
+        def units(self) -> str | None: ...
+
 
 # With -o at most this many warnings are repeated on stderr.
 WARNINGS = 5
@@ -34,7 +51,7 @@ COLLECT_AFTER = 50_000
 
 @frozen
 class Choices:
-    """What the command line asked for."""
+    """The options of the command line."""
 
     paths: tuple[str, ...]
     form: str
@@ -69,12 +86,8 @@ def run(choices: Choices) -> int:
     """Check, write the document, tell the errors on stderr; returns the exit code."""
     refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     document = Document()
-    scene = load(
-        choices.paths,
-        choices.packages,
-        choices.split,
-        choices.allow_outside,
-        units=choices.units,
+    scene = load_inputs(
+        choices,
         hashed=choices.form == "json",
         meanwhile=lambda: _import_what_follows(choices.form),
     )
@@ -83,8 +96,9 @@ def run(choices: Choices) -> int:
     ):
         gc.enable()
         gc.set_threshold(COLLECT_AFTER)
-    if len(scene.bodies) < 2 and choices.form == "table":  # every pair would be an empty row
-        return exit_codes.ERROR
+    failed = any(issue.severity == "error" for issue in scene.issues)
+    if failed and len(scene.bodies) < 2 and choices.form == "table":
+        return exit_codes.ERROR  # every pair would be an empty row, and the error is told
     if choices.posing.given:
         from satcheck.cli.posing import poses_of
         from satcheck.scene.robot import posed
@@ -174,6 +188,21 @@ def load(
         what = "one body alone cannot collide" if scene.bodies else "there is no body"
         raise wrong_usage(f"{what}: {_advice(paths, split)}")
     return scene
+
+
+def load_inputs(
+    choices: Inputs, hashed: bool = True, meanwhile: Callable[[], object] | None = None
+) -> Scene:
+    """As `load`, with the options of a command."""
+    return load(
+        choices.paths,
+        choices.packages,
+        choices.split,
+        choices.allow_outside,
+        choices.units,
+        hashed,
+        meanwhile,
+    )
 
 
 def _advice(paths: tuple[str, ...], split: Split | None) -> str:

@@ -1,4 +1,4 @@
-"""What the options of a check may be, and are where nobody says.
+"""The values and the defaults of the options of a check.
 
 The settings of the library say the same, and a test holds them together: help must not load them.
 """

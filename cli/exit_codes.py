@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from satcheck.audit.report.report import Issue, Report, Verdict
 
-CLEAN = 0  # everything asked was checked, and nothing was found
-FINDINGS = 1  # bodies overlap, or are closer than the clearance
+CLEAN = 0  # everything was checked, and no pair fails
+FINDINGS = 1  # bodies overlap beyond what rules allow, or are closer than their clearance
 ERROR = 2  # usage, unreadable input, or a fault of satcheck itself
-INCOMPLETE = 3  # nothing was found, but something that was asked could not be decided
+INCOMPLETE = 3  # no pair is known to fail, but not everything could be checked
 INTERRUPTED = 130  # Ctrl-C, the shells' 128 + SIGINT
 
 _BY_VERDICT = {"pass": CLEAN, "fail": FINDINGS, "incomplete": INCOMPLETE}

@@ -27,4 +27,4 @@ def in_units_of(given: Length, declared: str | None, option: str) -> float:
     try:
         return given.in_units_of(declared)
     except ValueError as error:
-        raise wrong_usage(f"{option} {error}") from None
+        raise wrong_usage(f"{option} {error}, or state the unit with --units") from None

@@ -70,7 +70,7 @@ def form_of(form: str | None, output: Path | None) -> str:
     suffix = output.suffix.lower() if output else ""
     if form is None and suffix in _NO_REPORTS:
         raise wrong_usage(
-            f"{output}: a report is a table or .json; --format table writes one there"
+            f"{output}: a report is JSON or a table: name it .json, or give --format table"
         )
     return form or ("json" if suffix == ".json" else "table")
 

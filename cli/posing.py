@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @frozen
 class Posing:
-    """What the command line asked for."""
+    """The options of the command line."""
 
     pose: tuple[str, ...] = ()
     state: tuple[str, ...] = ()
@@ -32,7 +32,7 @@ class Posing:
 
 
 def poses_of(scene: Scene, asked: Posing) -> list[Pose] | Pose:
-    """The one pose asked for, or a list where several or random ones are, if only of one.
+    """A pose, or a list of poses where several or random ones are given, even if it has only one.
 
     UsageError for a combination that makes no sense; what is wrong with a pose is a SatcheckError.
     """
@@ -46,7 +46,9 @@ def poses_of(scene: Scene, asked: Posing) -> list[Pose] | Pose:
     read = [read_poses(given) for given in asked.pose]
     if asked.sample:
         if len(read) > 1 or any(isinstance(one, list) for one in read):
-            raise wrong_usage("--sample draws the poses: of --pose it takes one, to hold on to")
+            raise wrong_usage(
+                "--sample draws random poses: give one --pose at most, whose joints stay"
+            )
         fixed = {**base, **(read[0] if read and not isinstance(read[0], list) else {})}
         robots = [robot.robot for robot in scene.robots]
         return joint_samples(robots, asked.sample, asked.random_seed or 0, fixed)

@@ -34,7 +34,7 @@ class Bar:
         self._timer: Timer | None = None
 
     def __enter__(self) -> Bar | None:
-        """None where nobody would see it."""
+        """None where standard error is not shown."""
         if not self._wanted:
             return None
         from threading import Timer

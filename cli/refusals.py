@@ -9,14 +9,14 @@ if TYPE_CHECKING:
 
 
 def wrong_usage(message: str) -> click.UsageError:
-    """What was asked for makes no sense. To be raised."""
+    """Of options that contradict each other or the input. To be raised."""
     import click
 
     return click.UsageError(message)
 
 
 def failure(message: str) -> click.ClickException:
-    """What was asked for cannot be done. To be raised."""
+    """Of a command that cannot be done. To be raised."""
     import click
 
     return click.ClickException(message)

@@ -16,7 +16,7 @@ from pathlib import Path
 # Paths below these lead to what is already open: terminals, pipes, the files of a redirection.
 _OPEN_ALREADY = ("/dev/", "/proc/")
 _MOST_LINKS = 40
-# File systems that cannot bring a file to the disk on request.
+# Errors of file systems that cannot flush a file to the disk on request.
 _NO_SYNC = (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS)
 
 
@@ -78,7 +78,7 @@ def _known(path: Path) -> os.stat_result | None:
 
 def _write_in_place(path: Path, pieces: Iterable[bytes]) -> None:
     number = _descriptor(str(path))
-    # Opened by its name once more, what a shell redirects would be cut off and begin anew.
+    # Opening the file of a redirection again by its name would truncate it.
     with path.open("wb") if number is None else os.fdopen(os.dup(number), "wb") as stream:
         stream.writelines(pieces)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from satcheck.cli import exit_codes
-from satcheck.cli.checking import load, refuse_early
+from satcheck.cli.checking import load_inputs, refuse_early
 from satcheck.cli.lengths import in_units_of
 from satcheck.cli.output import Document, talk, write_file
 from satcheck.core.frozen import frozen, replace
@@ -29,7 +29,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 
 @frozen
 class Choices:
-    """What the command line asked for."""
+    """The options of the command line."""
 
     paths: tuple[str, ...]
     moved: Path | None
@@ -81,18 +81,12 @@ def run(choices: Choices) -> int:
     utf8 = choices.form == "json"
     document.deliver(lambda page: _render(found, choices, page), choices.output, utf8=utf8)
     if stray is not None:
-        talk(f"note: {choices.moved} is read with --allow-outside alone, for {stray}")
+        talk(f"note: to read {choices.moved} give --allow-outside, because of {stray}")
     return exit_codes.of_report(found.report, exit_zero=False)
 
 
 def _loaded(choices: Choices) -> Scene:
-    scene = load(
-        choices.paths,
-        choices.packages,
-        choices.split,
-        choices.allow_outside,
-        units=choices.units,
-    )
+    scene = load_inputs(choices)
     if not choices.posing.given:
         return scene
     from satcheck.cli.posing import poses_of
@@ -100,7 +94,7 @@ def _loaded(choices: Choices) -> Scene:
 
     pose = poses_of(scene, choices.posing)
     if isinstance(pose, list):
-        raise click.UsageError("one pose at a time: the links stay where it puts them")
+        raise click.UsageError("resolve takes one pose, which places the links")
     return posed(scene, pose)
 
 
@@ -119,8 +113,7 @@ def _refuse_outputs(choices: Choices) -> None:
         wanted = {Path(choices.scene_file).suffix.lower()}
     elif not all(map(is_mesh, choices.body_files)):
         raise click.UsageError(
-            "--moved writes one scene file, or one of mesh files alone; "
-            "links of robots are not moved"
+            "--moved needs one scene file, or mesh files alone: links of robots are not moved"
         )
     if choices.moved.suffix.lower() not in wanted:
         known = " or ".join(sorted(wanted))
@@ -128,7 +121,7 @@ def _refuse_outputs(choices: Choices) -> None:
 
 
 def _stray(choices: Choices, scene: Scene) -> str | None:
-    """A mesh that OUT names outside of its folder; UsageError where nobody has allowed that."""
+    """A mesh that OUT names outside of its folder; UsageError without --allow-outside."""
     if choices.moved is None:
         return None
     from satcheck.scene.moved_file import stray_mesh
@@ -136,8 +129,8 @@ def _stray(choices: Choices, scene: Scene) -> str | None:
     stray = stray_mesh(choices.scene_file, choices.moved, scene)
     if stray is not None and not choices.allow_outside:
         raise click.UsageError(
-            f"--moved {choices.moved}: {stray} lies outside of its folder, so that it could be "
-            "read with --allow-outside alone: write it above the meshes, or add that option"
+            f"--moved {choices.moved}: {stray} lies outside of its folder: write it into a folder "
+            "that contains the meshes, or add --allow-outside"
         )
     return stray
 

@@ -30,7 +30,7 @@ def check_and_tell(
     for option in ("certificate", "explain", "cross_check"):
         if getattr(choices, option):
             name = option.replace("_", "-")
-            raise click.UsageError(f"--{name} is about one pose, and here are several")
+            raise click.UsageError(f"--{name} takes one pose, and several are given")
     settings = settings_of(choices, scene)
     with Bar("poses") as bar:
         found = check_poses(scene, poses, settings, progress=bar)

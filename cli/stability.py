@@ -25,7 +25,7 @@ _EXIT_CODES = {
 
 @frozen
 class Choices:
-    """What the command line asked for."""
+    """The options of the command line."""
 
     paths: tuple[str, ...]
     form: str

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from satcheck.cli import exit_codes
-from satcheck.cli.checking import load, refuse_early
+from satcheck.cli.checking import load_inputs, refuse_early
 from satcheck.cli.output import Document, talk
 from satcheck.cli.posing import Posing, poses_of
 from satcheck.core.frozen import frozen
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @frozen
 class Choices:
-    """What the command line asked for."""
+    """The options of the command line."""
 
     paths: tuple[str, ...]
     form: str
@@ -45,13 +45,7 @@ def run(choices: Choices) -> int:
 
     refuse_early(choices.paths, choices.output, others=choices.posing.pose)
     document = Document()
-    scene = load(
-        choices.paths,
-        choices.packages,
-        choices.split,
-        choices.allow_outside,
-        units=choices.units,
-    )
+    scene = load_inputs(choices)
     if choices.form == "srdf" and len(scene.robots) != 1:
         raise click.UsageError("SRDF is about one robot: give one URDF")
     found = _suggest(scene, choices)
@@ -63,7 +57,7 @@ def run(choices: Choices) -> int:
             talk(f"satcheck: {issue_line(issue)}")
     talk(remark(found, pairs, never=choices.never))
     if choices.form == "srdf" and pairs:
-        talk("An SRDF has a line for two links: several pairs of their bodies share it.")
+        talk("An SRDF has one line for two links: it covers all pairs of their bodies.")
     if any(issue.severity == "error" for issue in found.issues):
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if found.undecided else exit_codes.CLEAN

@@ -23,7 +23,7 @@ PLOTS = (".svg", ".png", ".html")
 
 @frozen
 class Choices:
-    """What the command line asked for."""
+    """The options of the command line."""
 
     paths: tuple[str, ...]
     form: str

@@ -27,13 +27,13 @@ _CALLED: dict[Outcome, str] = {
     "rejected": "rejected",
     "not certified": "not certified",
     "open": "indeterminate",
-    "no file": "not checked for want of files",
+    "no file": "not checked, as files are missing",
 }
 
 
 @frozen
 class Choices:
-    """What the command line asked for. root: where the paths of the report start."""
+    """The options of the command line. root: where the paths of the report start."""
 
     report: Path
     root: Path
@@ -112,8 +112,8 @@ def _missing(found: Verification, root: Path) -> str:
     more = len(found.missing) - MOST_NAMED
     files = first + (f" and {more:,} more" if more > 0 else "")
     return (
-        f"{counted(len(found.missing), 'file is', 'files are')} not there, looked for from "
-        f"{root.absolute()} on: {files}; --root names the folder where the check ran"
+        f"{counted(len(found.missing), 'file is', 'files are')} missing below {root.absolute()}: "
+        f"{files}; --root names the folder where the check ran"
     )
 
 
@@ -129,7 +129,7 @@ def _table(found: Verification) -> str:
 
 
 def _not_covered(found: Verification) -> Iterator[str]:
-    """What the report says and nobody proved, by its names."""
+    """The fields that are not proven, by the names that readers know."""
     for title, kinds in (
         ("Taken as stated", ("stated",)),
         ("Not covered", ("not covered", "certified")),

@@ -20,7 +20,7 @@ _DERIVED: Any = object()
 
 
 def derived(*, init: Literal[False] = False) -> Any:
-    """The default of a field that nobody gives: `__post_init__` sets it, with object.__setattr__.
+    """The default of a field that is not given: `__post_init__` sets it, with object.__setattr__.
 
     init: for type checkers, which know it from dataclasses.
     """

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from math import frexp
 from typing import TYPE_CHECKING
 
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen
+from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
 from satcheck.scene.resolution import FLOAT64_ROUNDING
@@ -26,7 +28,7 @@ IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column 
 class MeshFile:
     """One mesh file, flattened into one mesh in file units, or one mesh of it.
 
-    path: as given, with "/". sha256: of the file's bytes; None: nobody wanted it. format: "obj",
+    path: as given, with "/". sha256: of the file's bytes; None: not needed. format: "obj",
     "stl", "ply", "off", "glb", "gltf", "3mf" or "dae", or "shape": a primitive that the scene file
     at `path` states. resolution: how finely its coordinates were written, in file units. units: as
     the file declares them. mesh: welded, wound outward where that can be decided. topology: of the
@@ -35,7 +37,9 @@ class MeshFile:
     counter-clockwise, of the convex polygon over which the mesh is a prism, in a check in a plane.
     placement_step: how finely its placement in the world is known, relative to the coordinates that
     it makes. deviation: how far curves may be off the polygons that stand for them, in file units;
-    part of the resolution.
+    part of the resolution. inscribed: these polygons lie within the curves; else they may reach out
+    of them by the deviation. exponent: mesh, resolution and deviation times 2**exponent are in file
+    units; 0 but for files whose numbers the core cannot hold.
     """
 
     path: str
@@ -51,18 +55,21 @@ class MeshFile:
     outline: tuple[tuple[float, float], ...] | None = None
     placement_step: float = FLOAT64_ROUNDING
     deviation: float = 0.0
+    inscribed: bool = False
+    exponent: int = 0
 
 
 @frozen
 class Body:
     """A mesh file, or a primitive shape, placed in the world.
 
-    transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1), affine and not
-    singular; None: as in the file. groups: bodies of one group may be exempt from each other.
-    shape: what `file` is the mesh of; None: a file on disk. path: of the node within the file;
-    None: all of the file. static: one of the surroundings, see `Scene.check_static`. pinned: stays
-    where it is when a scene is pulled apart. units: that the world coordinates are in; None: nobody
-    states any. unit_scale: what the transform converts coordinates of the file by; None: nothing.
+    transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1) for a point of the
+    mesh, affine and not singular; None: as in the file. groups: bodies of one group may be exempt
+    from each other. shape: what `file` is the mesh of, in units of the mesh; None: a file on disk.
+    path: of the node within the file; None: all of the file. static: one of the surroundings, see
+    `Scene.check_static`. pinned: stays where it is when a scene is pulled apart. units: that the
+    world coordinates are in; None: unknown. unit_scale: what the transform converts
+    coordinates of the file by; None: nothing.
     as_given: the body whose outline this one is, in a check in a plane.
     """
 
@@ -112,7 +119,7 @@ class Scene:
     order: the ids of bodies and unreadable ones together, in the order given.
     units: of all lengths, as the inputs declare them or converted; None where one is unknown.
     ignore_within_groups: groups whose bodies are not checked against each other.
-    rules: what is asked of pairs beyond the settings of a check, in the order in which they count.
+    rules: for pairs, beside the settings of a check, in the order in which they count.
     check_static: whether two bodies that do not move are a pair to check.
     composed: the bodies come, at least in part, from a file that places them.
     issues: all of them, those of `unreadable` and of each mesh file included.
@@ -146,6 +153,13 @@ class Scene:
             said = next(found for found in self.issues if found.code == UNITS_UNKNOWN)
             raise SatcheckError(UNITS_UNKNOWN, said.message)
 
+    def require_in_space(self, instead: str) -> None:
+        """Raises SatcheckError (`planar-only`) where a body is a drawing. instead: what to do, or
+        why a command cannot do it."""
+        drawn = (body.file.path for body in self.bodies if body.file.format in DRAWINGS.values())
+        if (path := next(drawn, None)) is not None:
+            raise SatcheckError("planar-only", f"{path}: a drawing is flat: {instead}")
+
     def in_order(self) -> list[Body | Unreadable]:
         """All that was asked for; what `order` does not name comes last."""
         rank = {id_: number for number, id_ in enumerate(self.order)}
@@ -157,5 +171,30 @@ def resolution_in_world(file: MeshFile, transform: Transform | None, largest: fl
     """`Body.resolution_world`. largest: coordinate of the file's mesh."""
     if transform is None:
         return file.resolution
+    if _is_exact_scaling(transform):
+        return file.resolution * transform[0]
     step = largest_placed(transform, largest) * file.placement_step
     return file.resolution * largest_stretch(transform) + step
+
+
+def _is_exact_scaling(transform: Transform) -> bool:
+    """By a power of two about the origin, which rounds nothing."""
+    scale = transform[0]
+    return frexp(scale)[0] == 0.5 and transform == (
+        scale,
+        0,
+        0,
+        0,
+        0,
+        scale,
+        0,
+        0,
+        0,
+        0,
+        scale,
+        0,
+        0,
+        0,
+        0,
+        1,
+    )

@@ -1,8 +1,8 @@
 """Inputs in several units of length -> bodies in one, as far as their units are known.
 
-What an input states is taken at its word: a GLB or glTF file is in metres, a 3MF or DAE file in the
-unit that it names, a robot in metres, a scene in its `units`. OBJ, STL, PLY and OFF files state
-nothing. Within a scene or a robot they are in its unit; beside others, nobody knows.
+A GLB or glTF file and a robot are in metres, a 3MF or DAE file in the unit that it names, a scene
+in its `units`. OBJ, STL, PLY, OFF and XAML files state no unit: within a scene or a robot they are
+in its unit; beside other files their unit is unknown.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ _SHOWN = 5  # files in one message
 
 
 class Input:
-    """One input with bodies. declares: what it says of its units, in its own words; unit: which it
-    is, by that or by the one who gives it; None: unknown. ids: of its bodies."""
+    """One input with bodies. declares: its units, in its own words. unit: the one that this means,
+    or the one given for inputs that declare none; None: unknown. ids: of its bodies."""
 
     __slots__ = ("declares", "ids", "kind", "path", "unit")
 
     def __init__(self, kind: Kind, path: str, declares: str | None, otherwise: str | None) -> None:
-        """otherwise: the unit of what declares none."""
+        """otherwise: the unit of inputs that declare none."""
         self.kind = kind
         self.path = path
         self.declares = declares
@@ -38,7 +38,7 @@ class Input:
 class InOneUnit:
     """bodies: in the common unit, those whose unit is known. unit: the common one; None: no input
     states any. label: what the lengths of all bodies are in; None: unknown, or not all in one.
-    scales: of each scene, by its path, common units of one of its own. issues: about all this."""
+    scales: path of a scene -> how many common units one of its units is. issues: about all this."""
 
     bodies: tuple[Body, ...]
     unit: str | None
@@ -56,8 +56,8 @@ def in_one_unit(
 
     A scene that states no unit is in that of its meshes, where they all state the same one. Where
     nothing in an input states any, it is in that of the first file of rules that does.
-    The common unit is that of robots, or else of scenes, or else of mesh files; of several the
-    smallest, into which the others are converted by whole numbers, as a rule.
+    The common unit is that of robots, or else of scenes, or else of mesh files. Of several it is
+    the smallest, because the factors of the others are then usually whole numbers.
     """
     by_id = {body.id: body for body in bodies}
     known_rules = {path: unit for path, text in rules.items() if (unit := stated_unit(text))}
@@ -99,7 +99,7 @@ def _common(inputs: Iterable[Input]) -> str | None:
 
 
 def _converted(body: Body, own: str | None, common: str | None) -> Body:
-    """own: of its input. Without that its lengths stay as they are."""
+    """own: the unit of its input; None: its lengths stay as they are."""
     if own is None or common is None or body.units == own == common:
         return body
     scale = ratio(body.units or own, common)
@@ -128,7 +128,7 @@ def scaled_mesh(transform: Transform | None, scale: float) -> Transform | None:
 
 
 def _label(bodies: Iterable[Body], declared: Iterable[str | None], unit: str | None) -> str | None:
-    """In the words of the inputs, where they all say it in the same ones."""
+    """In the words of the inputs, where all use the same words."""
     if any(body.units != unit for body in bodies):
         return None
     words = list(dict.fromkeys(text for text in declared if text))
@@ -169,7 +169,7 @@ def _unknown(bodies: Sequence[Body], inputs: Sequence[Input]) -> list[Issue]:
     unstated = list(files.pop(None, {})) or [unsaid or ""]
     known = " and ".join(f"{_listed(list(paths))} in {unit}" for unit, paths in files.items())
     message = (
-        f"{_listed(unstated)}: no unit of length is stated, and {known}: pairs of them are not "
+        f"{_listed(unstated)}: no unit of length is stated, beside {known}: their pairs are not "
         f"decided. State the unit: {'`units` in the scene' if unsaid else '--units'}"
     )
     return [issue(UNITS_UNKNOWN, message, file=unstated[0])]

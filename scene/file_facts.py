@@ -1,4 +1,4 @@
-"""What the files of bodies say about more than one of them: warnings to be said once."""
+"""Warnings about files that several bodies share: each is given once."""
 
 from __future__ import annotations
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes, with_cracks_closed
 from satcheck.core.frozen import frozen
+from satcheck.core.power_of_two import held_times_power
 from satcheck.scene.errors import MeshFileError
 
 
@@ -19,9 +20,10 @@ class MeshHealth:
     faces miss each other by no more than the precision of the file; they are closed. holes: loops
     of the boundary that are left after the repair, but for those of flat parts, which are sheets;
     largest_hole: how far the largest one reaches, file units, 0.0 without holes. volume: signed,
-    file units cubed, 0.0 unless closed and oriented. inside_out: parts faced inward and were
-    turned. double_sided: each face exists in both orientations. flat: all vertices in one plane.
-    solid: after repair, inside and outside are defined, and some of it is inside.
+    file units cubed, 0.0 unless closed and oriented; not a number where float64 cannot hold it.
+    inside_out: parts faced inward and were turned. double_sided: each face exists in both
+    orientations. flat: all vertices in one plane. solid: after repair, inside and outside are
+    defined, and some of it is inside.
     """
 
     vertices: int
@@ -58,6 +60,9 @@ class Examined:
     warnings: tuple[tuple[str, str], ...]
 
 
+# The share of all directions beyond which open pieces may be meant to enclose what is in them.
+# At their middle, a corner of a room takes up half of them, and a box without a lid 5/6.
+MOST_AROUND = 0.75
 # Two copies of a point, each coordinate of both off by no more than the precision of the file, are
 # no farther apart than this many times that precision.
 CRACK_WIDTH = 2 * math.sqrt(3)
@@ -68,21 +73,27 @@ def _exact(_: Mesh) -> float:
     return 0.0
 
 
-def examine(mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact) -> Examined:
+def examine(
+    mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact, exponent: int = 0
+) -> Examined:
     """Welds, inspects and, unless its winding is known to be meant, orients a mesh.
 
     Its vertices and triangles come in an order of their own, so that no answer depends on the
     order in the file. resolution: how finely coordinates of the mesh are known; it is asked only of
-    a mesh with a boundary. Raises MeshFileError (without a file name) when no triangle has an area.
+    a mesh with a boundary. exponent: lengths of the mesh times 2**exponent are in file units.
+    Raises MeshFileError (without a file name) when no triangle has an area.
     """
-    return _judged(_sealed(inspect(mesh, orient), orient, resolution))
+    return _judged(_sealed(inspect(mesh, orient), orient, resolution), exponent)
 
 
 def examine_bytes(
-    vertices: bytes | memoryview, triangles: bytes | memoryview, resolution: Resolution = _exact
+    vertices: bytes | memoryview,
+    triangles: bytes | memoryview,
+    resolution: Resolution = _exact,
+    exponent: int = 0,
 ) -> Examined:
     """examine(Mesh.from_bytes(vertices, triangles)), without the mesh between."""
-    return _judged(_sealed(inspect_bytes(vertices, triangles, True), True, resolution))
+    return _judged(_sealed(inspect_bytes(vertices, triangles, True), True, resolution), exponent)
 
 
 def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Inspection:
@@ -92,7 +103,7 @@ def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Ins
     return with_cracks_closed(inspection, orient, CRACK_WIDTH * resolution(inspection.mesh))
 
 
-def _judged(found: Inspection) -> Examined:
+def _judged(found: Inspection, exponent: int) -> Examined:
     topology, after, turned = found.topology, found.repaired, found.turned
     if topology.degenerate_triangles == topology.triangles:
         raise MeshFileError(
@@ -102,7 +113,8 @@ def _judged(found: Inspection) -> Examined:
     # An even number of triangles at every edge, each face in pairs, and nothing enclosed: front and
     # back of a sheet. A solid whose faces come twice encloses its volume twice.
     in_pairs = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
-    double_sided = in_pairs and topology.volume == 0
+    double_sided = in_pairs and topology.volume == 0 and not found.hole_count
+    copies_dropped = after.triangles < topology.triangles  # orienting does that, too
     health = MeshHealth(
         vertices=topology.vertices,
         triangles=topology.triangles,
@@ -114,12 +126,12 @@ def _judged(found: Inspection) -> Examined:
         duplicate_triangles=topology.duplicate_triangles,
         cracks=found.cracks,
         holes=found.hole_count,
-        largest_hole=found.largest_hole[1] if found.largest_hole else 0.0,
+        largest_hole=math.ldexp(found.largest_hole[1], exponent) if found.largest_hole else 0.0,
         closed=after.closed if found.cracks else topology.closed,
         manifold=topology.manifold,
         oriented=topology.oriented,
-        volume=after.volume if found.cracks else topology.volume,
-        inside_out=turned and topology.oriented,
+        volume=held_times_power(after.volume if found.cracks else topology.volume, 3 * exponent),
+        inside_out=turned and topology.oriented and not copies_dropped,
         double_sided=double_sided,
         flat=not after.solid and found.mesh.is_flat(),
         solid=after.solid,
@@ -135,8 +147,10 @@ def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
         warnings.append(("cracks", f"{cracks} no wider than the precision of the file: closed"))
     if health.holes:
         holes, size = _count(health.holes, "hole"), f"{health.largest_hole:.3g}"
-        extent = f"{size} across" if health.holes == 1 else f"the largest {size} across"
-        warnings.append(("not-closed", f"{holes}, {extent}: there, nothing is inside or outside"))
+        largest = "" if health.holes == 1 else "the largest "
+        extent = f"{largest}in a box {size} from corner to corner"
+        beside = "next to a hole nothing is inside or outside"
+        warnings.append(("not-closed", f"{holes}, {extent}: {beside}"))
     elif health.boundary_edges and not health.closed:
         edges = _count(health.boundary_edges, "boundary edge")
         warnings.append(("not-closed", f"{edges}, all of flat parts: sheets, which have no inside"))
@@ -152,17 +166,20 @@ def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:
         warnings.append(("misoriented", f"inconsistent face orientation ({edges}): {outcome}"))
     if health.inside_out:
         what = "the mesh" if health.components == 1 else "at least one part of the mesh"
-        warnings.append(("inside-out", f"{what} faced inward (volume {health.volume:g}): turned"))
+        is_known = math.isfinite(health.volume) and health.volume != 0
+        volume = f" (volume {health.volume:g})" if is_known else ""
+        warnings.append(("inside-out", f"{what} faced inward{volume}: turned"))
     if health.flat:
         warnings.append(("flat", f"all triangles lie in one plane: {sheet}"))
-    elif health.closed and not health.solid and not health.double_sided:
+    elif health.closed and not (health.solid or health.double_sided or health.holes):
         warnings.append(("no-volume", f"closed, with no volume: {sheet}"))
     if health.degenerate_triangles:
         triangles = _count(health.degenerate_triangles, "triangle")
         warnings.append(("degenerate-triangles", f"{triangles} of area 0"))
     if health.duplicate_triangles and not health.double_sided:
         triangles = _count(health.duplicate_triangles, "triangle")
-        warnings.append(("duplicate-triangles", f"{triangles} repeat an earlier one"))
+        verb = "repeats" if health.duplicate_triangles == 1 else "repeat"
+        warnings.append(("duplicate-triangles", f"{triangles} {verb} an earlier one"))
     return warnings
 
 

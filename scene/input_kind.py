@@ -1,4 +1,4 @@
-"""What an input is, by its ending, and where that says nothing by the root of its XML."""
+"""What an input is: by its ending, or, for an unknown ending, by the root of its XML."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _KINDS: dict[str, InputKind] = {
     ".srdf": "srdf",
 }
 _XACRO = ".xacro"  # a robot, or the SRDF of one, once it is expanded
-# What an SRDF says, and no URDF: in both the outermost element is <robot>.
+# Elements of an SRDF that no URDF has; in both the outermost element is <robot>.
 _SRDF_ELEMENTS = frozenset(
     ("group", "group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property")
 ) | {"disable_collisions", "enable_collisions", "disable_default_collisions"}
@@ -28,7 +28,7 @@ _HEAD_BYTES = 1 << 20
 
 
 def kind_of(path: str) -> InputKind:
-    """ "mesh" for whatever is nothing else; its reader says what is wrong with it."""
+    """ "mesh" for a file of no other kind; its reader reports what is wrong with it."""
     suffix = Path(path).suffix.lower()
     if suffix in _KINDS:
         return _KINDS[suffix]
@@ -44,7 +44,7 @@ def _first_elements(location: Path) -> list[str]:
         size_of(location)
         with location.open("rb") as file:
             head = file.read(_HEAD_BYTES)
-    except (SatcheckError, OSError):  # said when the file is read
+    except (SatcheckError, OSError):  # reported when the file is read
         return [""]
     if not head.lstrip().startswith((b"<", b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")):
         return [""]

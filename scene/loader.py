@@ -1,4 +1,4 @@
-"""Paths -> Scene: every path contributes bodies; what cannot be read is said, not dropped."""
+"""Paths -> Scene. A file that cannot be read becomes a body that says so."""
 
 from __future__ import annotations
 
@@ -36,43 +36,37 @@ def load_scene(
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
-    Inputs that state different units of length are converted into one (`common_units`); bodies of
-    which none is known have `units` None, and pairs of them with others are not decided. units: of
-    the inputs that state none. Up-axes are not converted. split: which bodies a mesh file is.
-    "none": one, the whole file, flattened (nodes, instances and build items applied). "nodes": one
-    for each node of a GLB or glTF file with a mesh, and for each way from the build of a 3MF file,
-    or the root of a 3DXML file, to an object with a mesh; other formats have no nodes.
-    "components": these taken apart into pieces that share no edge. None: "nodes" for one file
-    alone, otherwise "none". Files without bodies of their own, of rules or SRDF, count as no file
-    here: they change no body and no id.
-    A `.toml` file is a scene of the form satcheck.scene/1, a `.json` file one of this form or of
-    satcheck-scene-1; its groups are its own, and get -2, -3, ... where several scenes have them;
-    its rules are about its own bodies, mesh files and robots, without own bodies about all.
-    A `.urdf` file, or one of another ending that is XML with <robot> around it, is a robot at rest,
-    a body for each <collision>; a `.srdf` file says which of its links may touch. packages: where
-    the packages lie that a URDF names, see `robot.MeshPlaces`.
+    - `.toml` and `.json` files are scenes: satcheck.scene/1, JSON also satcheck-scene-1. Rules of a
+      scene are about its own bodies, mesh files and robots; those of a scene without bodies, all.
+    - A `.urdf` file, or other XML with <robot> around it, is a robot at rest, with a body for each
+      <collision>. A `.srdf` file says which of its links may touch.
+    - Files of rules and SRDFs have no bodies: they change no body and no id.
     Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
     the id of their file where there are several), with -2, -3, ... where they occur again.
-    allow_outside: the files that a scene, a robot or a glTF file names may lie outside of its
-    folder. hashed: whether the SHA-256 of each file is taken, which some reports state. meanwhile:
-    what this thread may do while others read large files; called at most once.
+
+    split: which bodies a mesh file is. "none": the whole file is one. "nodes": each node with a
+    mesh of a GLB, glTF, 3MF or 3DXML file; other formats have no nodes. "components": each piece of
+    these that shares no edge with another. None: "nodes" for one file alone, else "none".
+    packages: where the packages lie that a URDF names, see `robot.MeshPlaces`.
+    allow_outside: a scene, a robot or a glTF file may name files outside of its folder.
+    hashed: take the SHA-256 of each file, which some reports state.
+    units: of the inputs that state none. Inputs of different units are converted into one
+    (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
+    meanwhile: called at most once, while other threads read large files.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
-    A mesh file, or a node of one, that cannot be used becomes an Unreadable with an error issue and
-    the rest still loads. Raises SceneFileError for a scene file or a robot that is wrong in itself.
+    A mesh file or node that cannot be used becomes an Unreadable with an error issue; the rest
+    loads. Raises SceneFileError for a wrong scene file or robot.
     """
-    if isinstance(paths, str | Path):
-        raise SatcheckError("bad-argument", f"paths: a list of paths, not one: [{str(paths)!r}]")
+    given = _as_texts(paths)
     files = MeshFiles(
         seconds_per_file, megabytes_per_file, allow_outside=allow_outside, hashed=hashed
     )
     builder = SceneBuilder(files, None if units is None else _unit(units))
-    given = [path.as_posix() if isinstance(path, Path) else path for path in paths]
     scenes = _read_scenes(given, allow_outside)
     ids = iter(plain_ids([path for path in given if is_mesh(path)]))
     alone = sum(_has_bodies(path, scenes) for path in given) == 1
-    if split is None:
-        split = "nodes" if alone else "none"
+    split = split or ("nodes" if alone else "none")
     if split == "none":
         files.read_ahead(((path, Path(path)) for path in given if is_mesh(path)), meanwhile)
     for path in given:
@@ -88,6 +82,12 @@ def load_scene(
         else:
             builder.add_nodes(next(ids), path, Path(path), split, alone)
     return builder.scene()
+
+
+def _as_texts(paths: Sequence[str | Path]) -> list[str]:
+    if isinstance(paths, str | Path):
+        raise SatcheckError("bad-argument", f"paths: a list of paths, not one: [{str(paths)!r}]")
+    return [path.as_posix() if isinstance(path, Path) else path for path in paths]
 
 
 def _unit(name: str) -> str:
@@ -109,7 +109,7 @@ def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFi
 
 
 def is_rules(path: str) -> bool:
-    """Whether it is a scene file without bodies: rules about those of others. Raises
+    """Whether it is a scene file without bodies, which has rules about other bodies. Raises
     SceneFileError."""
     scene = _read_scenes([path], allow_outside=True).get(path)
     return scene is not None and not scene.bodies

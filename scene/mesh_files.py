@@ -87,7 +87,7 @@ class MeshFiles:
             while queue:
                 try:
                     self.whole(*queue.pop())
-                except Exception:  # noqa: BLE001 said when the file is asked for
+                except Exception:  # noqa: BLE001 reported when the file is used
                     continue
 
         threads: list[Thread] = []
@@ -97,7 +97,7 @@ class MeshFiles:
                 thread.start()
                 threads.append(thread)
         except RuntimeError:
-            pass  # the system grants no more: what nobody reads ahead is read when it is asked for
+            pass  # no further threads: the remaining files are read when they are used
         try:
             if threads and meanwhile is not None:
                 meanwhile()
@@ -169,5 +169,5 @@ def _meant(part: str, known: Iterable[str | None]) -> str:
 def _is_large(location: Path) -> bool:
     try:
         return size_of(location) >= LARGE_FILE_BYTES
-    except SatcheckError:  # said when the file is asked for
+    except SatcheckError:  # reported when the file is used
         return False

@@ -109,7 +109,7 @@ class Motion:
 
 
 def scaled_motion(motion: Motion, scale: float) -> Motion:
-    """With its lengths in a unit of which one of its own is `scale`."""
+    """The same motion in another unit: its lengths times `scale`."""
     path = motion.path
     if scale == 1.0:
         return motion

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from satcheck.core import Mesh
 from satcheck.core.frozen import fields, frozen
+from satcheck.core.power_of_two import times_power
 
 Point = tuple[float, float, float]
 Values = dict[str, str | float | list[float]]
@@ -107,6 +108,21 @@ def values_of(shape: Primitive) -> Values:
         size = getattr(shape, name)
         values[name] = list(map(float, size)) if name in _TRIPLES else float(size)
     return values
+
+
+def sizes_of(shape: Primitive) -> tuple[float, ...]:
+    sizes = (getattr(shape, name) for name in fields(shape))
+    return tuple(s for size in sizes for s in (size if isinstance(size, tuple) else (size,)))
+
+
+def times_power_of_two(shape: Primitive, exponent: int) -> Primitive | None:
+    """The shape with its sizes times 2**exponent; None where one of them is not that exactly."""
+    sizes = times_power(sizes_of(shape), exponent)
+    if sizes is None:
+        return None
+    values: tuple[object, ...] = (sizes,) if fields(shape)[0] in _TRIPLES else sizes
+    form: Callable[..., Primitive] = type(shape)
+    return form(*values)
 
 
 def primitive_of(values: object) -> Primitive:

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
-from typing import Literal, get_args
+from collections.abc import Collection, Iterator, Sequence
+from typing import Literal, Protocol, TypeVar, get_args
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import frozen, replace
@@ -22,13 +22,26 @@ LENGTHS = ("max_depth", "clearance", "tolerance")
 KEYS = ("allowed", "max_volume", "severity", *LENGTHS)
 
 GROUP = "group:"
-# What a glob can mean by one text alone: no wildcard, or each in brackets of its own.
+# What `Selector.exactly` writes: each special character in brackets of its own.
 # Compiled at their first use: most scenes have no rules.
-_LITERAL = r"(?:[^*?\[]|\[[^]!]\])*"
-_BRACKETED = r"(?s)\[(.)\]"
 _SPECIAL = r"[*?\[]"
-# What stands in a name for a byte that is no text is a surrogate, which is no character.
+_ESCAPED = r"(?:\[g\](?=roup:))?(?:[^*?\[]|\[[*?\[]\])*"
+_IN_BRACKETS = r"\[([*?\[g])\]"
+# A byte of a file name that is not text is a surrogate in Python, which is not a character.
 _NO_CHARACTER = "[!\1-\ud7ff\ue000-\U0010ffff]"
+
+
+class Selectable(Protocol):
+    """A body, as a selector sees it."""
+
+    @property
+    def id(self) -> str: ...
+
+    @property
+    def groups(self) -> tuple[str, ...]: ...
+
+
+B = TypeVar("B", bound=Selectable)
 
 
 @frozen
@@ -36,7 +49,8 @@ class Selector:
     """Bodies by the glob of their ids, "arm/*", or of their groups, "group:links*".
 
     `*` any text, `?` one character, `[abc]` one of these, `[!abc]` one other; case counts. "[*]" is
-    a star. Raises SatcheckError `bad-rule` for an empty glob.
+    a star. Where an id (or a group) is exactly this text, it alone is selected: "bricks[0]" is the
+    body of that name if there is one. Raises SatcheckError `bad-rule` for an empty glob.
     """
 
     text: str
@@ -53,14 +67,14 @@ class Selector:
 
     @classmethod
     def writable(cls, body: str) -> Selector:
-        """That of this id for a text file. A byte of it that is no text cannot be written: any such
-        byte is matched there, and no character."""
+        """The selector of this id, in characters that a text file can hold. A byte of the id that
+        is not text is replaced by a pattern that matches any such byte and no character."""
         text = cls.exactly(body).text
         return cls("".join(_NO_CHARACTER if "\ud800" <= c <= "\udfff" else c for c in text))
 
     @classmethod
     def of_nobody(cls) -> Selector:
-        return cls("[!\0-\U0010ffff]")  # a character that there is not
+        return cls("[!\0-\U0010ffff]")  # no character is outside of this range
 
     @property
     def of_groups(self) -> bool:
@@ -70,21 +84,31 @@ class Selector:
     def glob(self) -> str:
         return self.text.removeprefix(GROUP)
 
-    @property
-    def only(self) -> str | None:
-        """The one id or group that the glob can match; None if it may be several."""
-        glob = self.glob
-        return re.sub(_BRACKETED, r"\1", glob) if re.fullmatch(_LITERAL, glob) else None
-
-    def pattern(self) -> re.Pattern[str]:
-        """Matches a name, of a body or of a group, from its beginning to its end."""
+    def choose(self, names: Collection[str]) -> Collection[str]:
+        """Those that are selected of all these ids, or of all these groups."""
+        for text in self._spelt():
+            if text in names:
+                return (text,)
+        if not re.search(_SPECIAL, self.glob):
+            return ()
         from fnmatch import translate
 
-        return re.compile(translate(self.glob))
+        matches = re.compile(translate(self.glob)).match
+        return [name for name in names if matches(name)]
 
-    def matches(self, body: str, groups: Iterable[str]) -> bool:
-        names = groups if self.of_groups else (body,)
-        return any(map(self.pattern().match, names))
+    def _spelt(self) -> Iterator[str]:
+        """The names that come before the glob: the one that `exactly` writes so, then the text."""
+        if "[" in self.glob and re.fullmatch(_ESCAPED, self.glob):
+            yield re.sub(_IN_BRACKETS, r"\1", self.glob)
+        yield self.glob
+
+    def select(self, bodies: Sequence[B]) -> list[B]:
+        """bodies: all from which to select; whether an id is exactly the text depends on them."""
+        if self.of_groups:
+            groups = frozenset(self.choose({group for body in bodies for group in body.groups}))
+            return [body for body in bodies if not groups.isdisjoint(body.groups)]
+        ids = frozenset(self.choose({body.id for body in bodies}))
+        return [body for body in bodies if body.id in ids]
 
 
 @frozen(kw_only=True)
@@ -129,7 +153,7 @@ class Rule:
             raise _refused("an allowed pair is not looked at: leave the other keys out")
 
     def scaled(self, scale: float) -> Rule:
-        """With its lengths, and its volume, in a unit of which one of its own is `scale`."""
+        """The same rule in another unit: lengths times `scale`, the volume times its cube."""
         if scale == 1.0:
             return self
         values = {key: getattr(self, key) for key in (*LENGTHS, "max_volume")}

@@ -14,6 +14,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.file_facts import issues_of_files
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.units import ratio, stated_unit
 
@@ -164,14 +165,15 @@ class SceneBuilder:
             if isinstance(part.source, Path):
                 place = part.source.as_posix()
                 file = self._files.whole(place, part.source)
-                part = replace(part, offset=self._in_metres(file, part.offset))
-                id_ = self._add(part.id, part.id, place, file, part.offset)
+                offset = self._in_metres(file, part.offset)
+                id_ = self._add(part.id, part.id, place, file, offset)
             elif isinstance(part.source, MeshFileError):
-                id_ = self._add(part.id, part.id, path, part.source, part.offset)
+                file, offset = part.source, part.offset
+                id_ = self._add(part.id, part.id, path, file, offset)
             else:
-                file = self._files.shape(part.source, path)
-                id_ = self._add(part.id, part.id, path, file, part.offset, shape=part.source)
-            bodies.append(RobotBody(id_, part.link, part.offset))
+                file, offset = self._files.shape(part.source, path), part.offset
+                id_ = self._add(part.id, part.id, path, file, offset, shape=part.source)
+            bodies.append(RobotBody(id_, part.link, placing_mesh(file, offset) or offset))
         self._robots.append(SceneRobot(robot, tuple(bodies)))
 
     def _in_metres(self, file: MeshFile | MeshFileError, offset: Transform) -> Transform:
@@ -183,12 +185,12 @@ class SceneBuilder:
         self._srdfs.append(read_srdf(path, location))
 
     def _begin(self, kind: Kind, path: str, declares: str | None) -> None:
-        """The bodies that follow are those of this input."""
+        """From now on bodies belong to this input."""
         self._inputs.append(Input(kind, path, declares, self._given_units))
 
     def _scale(self, file: MeshFile | MeshFileError, units: str | None) -> float:
-        """How many units of the input one of the mesh file is. units: in the place of what the file
-        states."""
+        """The factor from the unit of the mesh file to that of the input. units: instead of the
+        unit that the file states."""
         own = self._inputs[-1].unit
         if isinstance(file, MeshFileError) or own is None:
             return 1.0
@@ -208,12 +210,13 @@ class SceneBuilder:
         pinned: bool = False,
         units: str | None = None,
     ) -> str:
-        """units: of the mesh, in the place of what its file states."""
+        """transform: of coordinates of the file. units: of them, in the place of what it states."""
         id_ = self._ids.unique(wanted)
         self._order.append(id_)
         self._inputs[-1].ids.append(id_)
         if isinstance(file, MeshFile):
             own = stated_unit(units or file.units) or self._inputs[-1].unit
+            transform, shape = placing_mesh(file, transform), shape_of_mesh(file, shape)
             self._bodies.append(
                 Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
             )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 from satcheck.core import sha256
+from satcheck.core.power_of_two import exponent_into_range, exponent_of
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
@@ -12,6 +13,8 @@ from satcheck.scene.primitives import (
     DEFAULT_SEGMENTS,
     Primitive,
     mesh_of,
+    sizes_of,
+    times_power_of_two,
     values_of,
 )
 from satcheck.scene.resolution import FLOAT64_ROUNDING
@@ -24,10 +27,17 @@ def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) ->
 
     sha256 is that of the shape's values and of how many segments it has. The sizes are taken as the
     float64 that they were read as, so the resolution is float64 rounding. Raises MeshFileError for
-    a size beyond what is decided exactly. The mesh of a curved shape is only within it.
+    sizes that are too far apart. The mesh of a curved shape is only within it.
     """
+    exponent = 0
     try:
-        examined = examine(mesh_of(shape, segments))
+        try:
+            examined = examine(mesh_of(shape, segments))
+        except OverflowError:
+            sizes = sizes_of(shape)
+            exponent = -exponent_into_range(exponent_of(min(sizes)), exponent_of(max(sizes)))
+            scaled = times_power_of_two(shape, -exponent) or shape
+            examined = examine(mesh_of(scaled, segments), exponent=exponent)
     except OverflowError as error:
         raise MeshFileError("out-of-range", str(error), file=path) from None
     low, high = examined.mesh.bounds
@@ -42,4 +52,5 @@ def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) ->
         topology=examined.topology,
         health=examined.health,
         issues=(),
+        exponent=exponent,
     )

@@ -25,7 +25,7 @@ _SYNONYMS = {
     "feet": "ft",
     "inches": "in",
 }
-# As the reader of COLLADA says what the file states: "0.0254 * meters".
+# How the reader of COLLADA gives the unit of a file: "0.0254 * meters".
 _OF_METRES = " * meters"
 _SAME = 1e-9  # relative: a factor in a few digits is that of the unit
 # Few calls need it: compiled at its first use.
@@ -83,12 +83,12 @@ def _of_metres(text: str) -> str | None:
 
 
 def ratio(unit: str, other: str) -> float:
-    """How many of the other one is: exact, or rounded once."""
+    """How many of the other unit make one of this unit: exact, or rounded once."""
     return MICROMETRES[unit] / MICROMETRES[other]
 
 
 def unit_in(unit: str, scale: float) -> str:
-    """The unit of which one is `scale` of the given one, as `ratio` says."""
+    """The unit for which `ratio(it, unit)` is `scale`."""
     return next(name for name in MICROMETRES if ratio(name, unit) == scale)
 
 

@@ -13,12 +13,14 @@ import numpy as np
 
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
+from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.planar.laid_flat import laid_flat
 from satcheck.scene.primitives import Primitive, is_curved, primitive_of
 from satcheck.scene.shape_file import shape_file
 from satcheck.scene.shape_image import image_of
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
+from satcheck.verify.open_parts import bounds_nothing, with_backs
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
 
 # What a report says of a mesh that it could read.
@@ -28,13 +30,18 @@ SAME = 1e-12  # relative, of a length that was computed twice
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A mesh file, or a primitive. convex: exactly, in its own coordinates. A solid is balanced.
-    curved: what the mesh is only within."""
+    """A mesh file, or a primitive. triangles: of the file, then the reverse of those of the sheets
+    of a solid. solid: balanced, and bounds something. convex: exactly, in its own coordinates.
+    holed: it has holes. pieces: the sheets of an open mesh, unless it is meant to be open. curved:
+    what the mesh is only within."""
 
     file: MeshFile
     vertices: Floats
     triangles: Indices
+    solid: bool
     convex: bool
+    holed: bool = False
+    pieces: Indices | None = None
     curved: Primitive | None = None
 
 
@@ -47,20 +54,28 @@ class Missing:
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A body of the report, a mesh in the world or a curved shape, or why it cannot be had.
-    resolution: world units, recomputed. convex: also of every curved shape. missing: the file that
-    is not there, as the report names it."""
+    """A body of the report, a mesh in the world or a curved shape, or why it cannot be read.
+
+    resolution: world units, recomputed. convex: also of every curved shape. holed: the mesh has
+    holes, and nobody knows what fills them. pieces: as of its `Shape`. missing: the file that is
+    not there, as the report names it. deviation: in a check in a plane, how far the boundary may be
+    off the polygon that stands for it; inscribed: which lies within it.
+    """
 
     id: str
     groups: frozenset[str]
     world: World | None
     convex: bool = False
+    holed: bool = False
+    pieces: Indices | None = None
     resolution: float = 0.0
     static: bool = False
     reason: str | None = None
     claims: bool = True  # False: the report calls it unreadable
     curved: Curved | None = None
     missing: str | None = None
+    deviation: float = 0.0
+    inscribed: bool = False
 
     @property
     def bounds(self) -> tuple[Floats, Floats] | None:
@@ -75,10 +90,12 @@ class Placed:
 
 
 class Bodies:
-    """Reads each file once."""
+    """Reads each file once. allow_open: open meshes are meant to be open."""
 
-    def __init__(self, root: Path, *, allow_outside: bool = False) -> None:
-        self._root = root
+    def __init__(
+        self, root: Path, *, allow_open: bool = False, allow_outside: bool = False
+    ) -> None:
+        self._root, self._allow_open = root, allow_open
         self._files = MeshFiles(allow_outside=allow_outside)
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
@@ -89,7 +106,8 @@ class Bodies:
             return [self.place(entry) for entry in entries]
         given = [self._find(entry) for entry in entries]
         bodies = [one[0] for one in given if not isinstance(one, Placed)]
-        flat = laid_flat(Scene("", None, tuple(bodies)), cast(Any, plane))
+        scene = Scene("", None, tuple(bodies))
+        flat = laid_flat(scene, cast(Any, plane), allow_open=self._allow_open)
         prisms = {body.id: body.file for body in flat.bodies}
         return [
             one if isinstance(one, Placed) else _outline(one[0], prisms.get(one[0].id), entry)
@@ -110,7 +128,7 @@ class Bodies:
         return replace(placed, static=body.static)
 
     def _find(self, entry: Any) -> tuple[Body, Shape] | Placed:
-        """The body as the report places it, or why it cannot be had."""
+        """The body as the report places it, or the reason why it cannot be read."""
         if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
             raise Rejected("a body of the report has no id")
         listed = entry.get("groups")
@@ -143,7 +161,8 @@ class Bodies:
             pose = _pose(entry.get("transform"))
         except Rejected as why:
             return Placed(name, groups, None, static=static, reason=str(why))
-        primitive = None if values is None else primitive_of(values)
+        primitive = None if values is None else shape_of_mesh(shape.file, primitive_of(values))
+        pose = placing_mesh(shape.file, pose)
         found = Body(name, name, shape.file, pose, tuple(listed), static=static, shape=primitive)
         return found, shape
 
@@ -159,7 +178,7 @@ class Bodies:
             return Missing(file) if found.code == "file-not-found" else str(found)
         key = (file, found.part, "")
         if key not in self._shapes:
-            self._shapes[key] = _checked_shape(found)
+            self._shapes[key] = _checked_shape(found, self._allow_open)
         return self._shapes[key]
 
     def _primitive(self, file: str, values: Any) -> Shape | str:
@@ -169,8 +188,11 @@ class Bodies:
             try:
                 primitive = primitive_of(values)
                 made = shape_file(primitive, file)
+                primitive = shape_of_mesh(made, primitive) or primitive
                 curved = is_curved(primitive)
-                self._shapes[key] = curved_of(made, primitive) if curved else _checked_shape(made)
+                self._shapes[key] = (
+                    curved_of(made, primitive) if curved else _checked_shape(made, False)
+                )
             except (MeshFileError, ValueError) as error:
                 self._shapes[key] = f"{file}: not a shape: {error}"
         return self._shapes[key]
@@ -183,7 +205,7 @@ def _lost(body: Body, reason: str) -> Placed:
 def _outline(body: Body, prism: MeshFile | None, entry: dict[str, Any]) -> Placed:
     if prism is None:
         return _lost(body, "it has no outline in the plane")
-    shape = _checked_shape(prism)
+    shape = _checked_shape(prism, False)
     if isinstance(shape, str):
         return _lost(body, shape)
     try:
@@ -213,26 +235,32 @@ def _check_figures(entry: dict[str, Any], shape: Shape, resolution: float) -> No
         raise Rejected(f"convex is {shape.convex}")
 
 
-def _checked_shape(file: MeshFile) -> Shape | str:
+def _checked_shape(file: MeshFile, allow_open: bool) -> Shape | str:
     try:
-        return shape_of(file)
+        return shape_of(file, allow_open=allow_open)
     except Rejected as why:
         return str(why)
 
 
-def shape_of(file: MeshFile) -> Shape:
+def shape_of(file: MeshFile, *, allow_open: bool = False) -> Shape:
+    """allow_open: open meshes are meant to be open."""
     vertices = np.array(file.mesh.vertices)
     triangles = np.array(file.mesh.triangles, dtype=np.int64)
-    solid = file.health.solid
-    if solid and not is_balanced(vertices, triangles):
-        raise Rejected("said to be solid, but its surface is not closed or not evenly wound")
-    return Shape(file, vertices, triangles, solid and is_convex(vertices, triangles))
+    if file.health.solid:
+        if not is_balanced(vertices, triangles):
+            raise Rejected("said to be solid, but its surface is not closed or not evenly wound")
+        return Shape(file, vertices, triangles, True, is_convex(vertices, triangles))
+    both = with_backs(vertices, triangles, allow_open=allow_open)
+    pieces = None if both is None or allow_open else both[len(triangles) :]
+    if both is None or bounds_nothing(vertices, both):
+        return Shape(file, vertices, triangles, False, False, both is None, pieces)
+    return Shape(file, vertices, both, True, False, pieces=pieces)
 
 
 def curved_of(file: MeshFile, primitive: Primitive) -> Shape:
     """file: of the mesh within the shape, of which nothing is asked."""
     vertices, triangles = np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
-    return Shape(file, vertices, triangles, True, primitive)
+    return Shape(file, vertices, triangles, True, True, curved=primitive)
 
 
 def place_shape(
@@ -240,7 +268,7 @@ def place_shape(
 ) -> Placed:
     world = curved = None
     if shape.curved is None:
-        world = placed(shape.vertices, shape.triangles, shape.file.health.solid, pose)
+        world = placed(shape.vertices, shape.triangles, shape.solid, pose)
     else:
         if pose is not None and tuple(pose[12:]) != (0.0, 0.0, 0.0, 1.0):
             raise Rejected("the pose is not affine")
@@ -251,7 +279,18 @@ def place_shape(
         resolution = np.inf
     if not np.isfinite(resolution):
         raise Rejected("its placement is out of range")
-    return Placed(name, frozenset(groups), world, shape.convex, resolution, curved=curved)
+    return Placed(
+        name,
+        frozenset(groups),
+        world,
+        shape.convex,
+        shape.holed,
+        shape.pieces,
+        resolution,
+        curved=curved,
+        deviation=shape.file.deviation,
+        inscribed=shape.file.inscribed,
+    )
 
 
 def _pose(value: Any) -> tuple[float, ...] | None:

@@ -1,4 +1,4 @@
-"""Where a body ends: what of its surface has no material on one side at least.
+"""Where a body ends: the parts of its surface with no material on at least one side.
 
 The solid part of a body is the points that its surface runs around, with a winding number other
 than 0. A wall of no thickness (outside on both sides) is a sheet, and belongs to the boundary; a

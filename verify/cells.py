@@ -117,8 +117,8 @@ def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
 
 
 def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set[int]:
-    """Those of the triangles in contact, on this side of each pair, of which a part has no material
-    on either side."""
+    """The triangles in contact, on this side of each pair, that have a part without material on
+    either side."""
     triangles = sorted({pair[side] for pair in contacts})
     if not body.world.solid:
         return set(triangles)

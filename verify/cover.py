@@ -115,8 +115,8 @@ def half_spaces(s: Corners, t: Corners) -> list[HalfSpace]:
 
 
 def not_plain(body: Exact, triangles: list[int]) -> list[int]:
-    """Those through whose inside another triangle of the surface passes, those without area, and
-    those that have the solid on both sides, or on none."""
+    """The triangles without area, those that another triangle of the surface passes through, and
+    those with the solid on both sides or on none."""
     partners = own_partners(body, triangles)
     return [t for t in triangles if not _is_plain(body, t, partners.get(t, []))]
 
@@ -129,7 +129,7 @@ def _is_plain(body: Exact, t: int, partners: list[int]) -> bool:
     inward = [cross(normal, sub(corners[(k + 1) % 3], corners[k])) for k in range(3)]
     for u in partners:
         shared = common(corners, body.corners(u))
-        # Of a convex set that enters the triangle the middle does so, too.
+        # Where a convex set enters the triangle, so does its middle.
         middle = [sum((p[k] for p in shared), Fraction()) / len(shared) for k in range(3)]
         if all(dot(n, middle) > dot(n, c) for n, c in zip(inward, corners, strict=True)):
             return False

@@ -1,4 +1,4 @@
-"""Of each field of a report: whether it is proven, follows from what is proven, or is not covered.
+"""Whether each field of a report is proven, follows from what is proven, or is not covered.
 
 One table for the checker, its output and the docs. A path names a field of the published schema
 (`[]`: of each member of a list); an entry speaks for all below it. What is not covered is listed by
@@ -13,13 +13,13 @@ from typing import Any, Literal
 
 # proven: from the mesh files and the certificates. follows: checked against what is proven.
 # stated: what was asked, taken as it stands. certified: proven where the certificate of a finding
-# says so, else not covered. not covered: nobody looks at it beyond its type.
+# says so, else not covered. not covered: only its type is checked.
 Kind = Literal["proven", "follows", "stated", "certified", "not covered"]
 
 
 @dataclass(frozen=True, slots=True)
 class Cover:
-    """called: what a reader of the output knows the field by, where it is listed."""
+    """called: the name of the field in the output, where it is listed."""
 
     kind: Kind
     called: str = ""
@@ -70,7 +70,7 @@ COVERAGE: dict[str, Cover] = {
     "exempt": _stated("exempt pairs"),
     "rules[]": _stated("rules"),
     "effects[].effect": FOLLOWS,
-    "effects[].asked_by": _not("who asked for what"),
+    "effects[].asked_by": _not("which flags and rules asked"),
     "effects[].pairs": _not("on how many pairs an effect ran"),
     "effects[].not_run": _not("on how many pairs an effect ran"),
     "effects[].microseconds": _not("times"),
@@ -85,6 +85,7 @@ COVERAGE: dict[str, Cover] = {
     "findings[].exact_relation": PROVEN,
     "findings[].tolerance": FOLLOWS,
     "findings[].distance": _certified("distance"),
+    "findings[].distance_bounds": _certified("distance"),
     "findings[].depth": _certified("depth"),
     "findings[].depth_bounds": _certified("lower end of the depth"),
     "findings[].quality": FOLLOWS,
@@ -122,8 +123,8 @@ class Uncovered:
 
 
 def uncovered(document: dict[str, Any], left: Iterable[str]) -> tuple[Uncovered, ...]:
-    """What the report says and nobody proved. left: of each finding the certified fields that say
-    something and are not proven."""
+    """The fields with a value that is not proven. left: of each finding the certified fields that
+    have a value and are not proven."""
     counts: dict[str, int] = {}
     for field in left:
         counts[field] = counts.get(field, 0) + 1

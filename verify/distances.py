@@ -1,4 +1,4 @@
-"""That two bodies are as far apart as a finding says: no farther, and no nearer.
+"""The proof that two bodies are exactly as far apart as a finding says.
 
 Of convex bodies, curved ones among them, the planes across the normal show that nothing is nearer,
 and the witness points that something is as near. Of other meshes a certificate names a point of
@@ -20,7 +20,7 @@ from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact
 
 Json = dict[str, Any]
-# So many pairs of triangles with near boxes are looked at; more have no certificate.
+# Beyond this many pairs of triangles with near boxes there is no certificate.
 MOST_NEAR = 2_000_000
 
 

@@ -15,7 +15,7 @@ from satcheck.verify.coverage import Uncovered, uncovered
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
-from satcheck.verify.in_plane import ACROSS
+from satcheck.verify.in_plane import ACROSS, curve_error
 from satcheck.verify.published import Departure, departures
 from satcheck.verify.relations import OVERLAPS
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
@@ -56,7 +56,7 @@ class Verification:
     exempts them. pruned: pairs that are not listed, whose boxes are apart. asked: whether the
     report says that certificates were asked for. missing: files that are not there; with some, the
     pairs that are not listed and the summary are not checked, and nothing is accepted as a whole.
-    uncovered: what the report says and nobody checked beyond its type.
+    uncovered: fields with a value of which only the type was checked.
     """
 
     findings: tuple[Checked, ...]
@@ -80,7 +80,7 @@ class Verification:
 
     @property
     def certified(self) -> bool:
-        """Whether certificates were asked for, or there are some, unless none is needed."""
+        """Whether the report was made with certificates, has some, or needs none."""
         outcomes = {f.outcome for f in self.findings}
         return (
             self.asked
@@ -101,7 +101,7 @@ def verify(
     allow_outside: the buffers of a glTF file may lie outside of its folder. Raises Rejected where
     it is no report. Everything else that is wrong is a result.
     """
-    report = _Report(document, Bodies(root, allow_outside=allow_outside))
+    report = _Report(document, root, allow_outside=allow_outside)
     count = len(report.findings)
     checked = []
     for number_ in range(count):
@@ -153,11 +153,11 @@ class _NoFile(Exception):
 
 
 class _NotCertified(Exception):
-    """What is claimed may be true: no certificate speaks of it."""
+    """The claim may be true, but no certificate proves it."""
 
 
 class _Report:
-    def __init__(self, document: Any, reader: Bodies) -> None:
+    def __init__(self, document: Any, root: Path, *, allow_outside: bool) -> None:
         if not isinstance(document, dict) or document.get("schema") != SCHEMA:
             raise Rejected(f'not a report: "schema" is not "{SCHEMA}"')
         self.ill_formed: dict[int, Departure] = {}
@@ -169,6 +169,7 @@ class _Report:
         self.findings = _list(document, "findings")
         self.asked = _asked(_object(document, "settings"))
         plane = document["settings"]["planar"]
+        reader = Bodies(root, allow_open=self.asked.allow_open, allow_outside=allow_outside)
         placed = reader.place_all(_list(document, "bodies"), plane)
         self.bodies = {body.id: body for body in placed}
         if len(self.bodies) < len(placed):
@@ -311,7 +312,7 @@ class _Report:
         if (0 if truncated is None else truncated["pairs"]) != pruned:
             raise Rejected(f"the findings leave out {pruned} pairs")
         failed = any(_fails(f, SEVERITIES.index(fail_on)) for f in self.findings)
-        left_open = len(self.findings) - undecided["None"] or not total
+        left_open = len(self.findings) - undecided["None"] or total == allowed
         verdict = "fail" if failed else "incomplete" if left_open else "pass"
         if summary.get("verdict") != verdict:
             raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
@@ -327,11 +328,12 @@ class _Report:
 
 
 def _left(finding: dict[str, Any], proven: Proven) -> tuple[str, ...]:
-    """What an accepted finding says and is not proven."""
+    """The fields of an accepted finding that have a value and are not proven."""
     bounds, overlap = finding["depth_bounds"], finding["exact_relation"] in OVERLAPS
     is_left = {
         "undecided": finding["undecided"] == "limit",
         "distance": finding["distance"] is not None and not proven.distance,
+        "distance_bounds": finding.get("distance_bounds") is not None and not proven.distance,
         "depth": finding["depth"] is not None and not (proven.depth or proven.mtv),
         "depth_bounds": bounds is not None and bounds[0] > 0 and not proven.depth,
         "normal": finding["normal"] is not None and not proven.normal,
@@ -371,10 +373,13 @@ def _boxes_apart(a: Placed, b: Placed, asked: Asked) -> bool:
     widest = max((low_b - high_a).max(), (low_a - high_b).max())
     if widest <= 0:
         return False
-    if widest > max(most, asked.clearance or 0.0) * CERTAINLY:
+    closer = curve_error(a, b).closer
+    if widest > max(most, (asked.clearance or 0.0) + float(closer)) * CERTAINLY:
         return True
-    tolerance = default_tolerance(a, b) if asked.tolerance is None else asked.tolerance
-    beyond = Fraction(max(tolerance, asked.clearance or 0.0))
+    tolerance = asked.tolerance
+    if tolerance is None:
+        tolerance = default_tolerance(a, b, asked.across)
+    beyond = max(Fraction(tolerance), Fraction(asked.clearance or 0.0) + closer)
     exact = [
         max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s), Fraction(0))
         for p, q, r, s in zip(*(c.tolist() for c in (low_b, high_a, low_a, high_b)), strict=True)

@@ -75,6 +75,7 @@ def check_figures(finding: Json, a: Placed, b: Placed) -> None:
         _check_overlap(finding, rounding)
     else:
         _check_gap(finding, rounding)
+    _check_distance_bounds(finding, a, b, rounding)
     _check_witness(finding, (a, b), rounding)
     _check_quality(finding)
     _check_volume(finding, a, b)
@@ -94,7 +95,7 @@ def _check_overlap(finding: Json, rounding: Rounding) -> None:
     if not low <= high == depth:
         raise Rejected("the depth is the upper end of its bounds")
     move, normal = vector(finding["mtv"]), _unit(finding["normal"])
-    # The MTV may be longer than the depth, and the depth than the MTV, by what rounding takes.
+    # The MTV and the depth may differ by rounding, either way.
     length = _length(move)
     longer = EXACT_WIDTH * (depth + rounding.largest)
     if abs(length - depth) > longer:
@@ -146,7 +147,7 @@ def _check_witness(finding: Json, bodies: tuple[Placed, Placed], rounding: Round
 
 
 def shows_direction(finding: Json, a: Placed, b: Placed) -> bool:
-    """Whether witness points are so far apart that rounding leaves their direction what it is."""
+    """Whether witness points are far enough apart that rounding does not change their direction."""
     if finding["witness"] is None or finding["normal"] is None:
         return False
     length = rational(finding["distance"] or finding["depth"] or 0)
@@ -187,13 +188,28 @@ def _on_mesh(p: Point, world: World, slack: Fraction) -> bool:
     return False
 
 
+def _check_distance_bounds(finding: Json, a: Placed, b: Placed, rounding: Rounding) -> None:
+    """The distance of polygons says of curves no more than how far these are off them allows."""
+    bounds, distance = finding.get("distance_bounds"), finding["distance"]
+    closer = Fraction(a.deviation) + Fraction(b.deviation)
+    if (bounds is not None) is not (distance is not None and closer > 0):
+        raise Rejected("bounds come with the distance of polygons that stand for curves")
+    if bounds is None:
+        return
+    farther = sum((Fraction(body.deviation) for body in (a, b) if not body.inscribed), Fraction(0))
+    low, high, length = rational(bounds[0]), rational(bounds[1]), rational(distance)
+    slack = rounding.of(length)
+    if low > max(length - closer + slack, Fraction(0)) or high < length + farther - slack:
+        raise Rejected("the bounds of the distance leave out how far the curves may be off")
+
+
 def _check_quality(finding: Json) -> None:
     """Of a relation that is proven."""
     bounds = finding["depth_bounds"]
     wide = bounds is not None and rational(bounds[1]) - rational(bounds[0]) > (
         EXACT_WIDTH * rational(bounds[1])
     )
-    expected = "bounded" if wide else "exact"
+    expected = "bounded" if wide or finding.get("distance_bounds") is not None else "exact"
     if finding["quality"] != expected:
         raise Rejected(f"the quality that follows is {expected!r}")
 

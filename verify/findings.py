@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from satcheck.scene.health import MOST_AROUND
 from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.boundary import boundary_point, contacts_if_apart
 from satcheck.verify.cover import depth_is_at_least
@@ -26,13 +27,21 @@ from satcheck.verify.figures import (
     rounding_of,
     shows_direction,
 )
-from satcheck.verify.in_plane import check_in_plane, check_proof_in_plane, reaching
+from satcheck.verify.in_plane import (
+    CurveError,
+    check_in_plane,
+    check_proof_in_plane,
+    curve_error,
+    reaching,
+)
+from satcheck.verify.open_parts import turns_around
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import OVERLAPS, Pair, prove, prove_free
 from satcheck.verify.rules import Asked
 from satcheck.verify.severity import Known, check_severity, proven_depth
 from satcheck.verify.world import Exact, World
 
+NO_ERROR = CurveError(Fraction(0), Fraction(0))
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
 
 
@@ -64,53 +73,63 @@ def check_finding(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -
     assert b.world is not None
     pair = pair_of(a, b, a.world, b.world)
     relation, exact = finding.get("relation"), finding.get("exact_relation")
-    separated = relation == "separated"
-    proof, ends = member(certificate, "relation"), pair
-    if asked.across is not None:
-        check_in_plane(finding, asked.across)
-        ends = pair_of(a, b, *reaching(str(exact), a.world, b.world, asked.across))
-        check_proof_in_plane(proof, ends, asked.across)
-    hulls_apart = prove(
-        str(exact),
-        proof,
-        ends,
-        tolerance if separated else Fraction(0),
-        _least(finding, asked),
-    )
+    error = curve_error(a, b)
+    hulls_apart = _prove_relation(finding, pair, a, b, asked, tolerance)
     mtv = _check_mtv(finding, certificate, a, b)
-    depth = _check_depth(finding, certificate, pair)
-    covered = _check_cover(finding, certificate, pair)
+    depth = _check_depth(finding, certificate, pair, error)
+    covered = _check_cover(finding, certificate, pair) and not error.farther
     rounding = rounding_of(a, b)
     if pair.convex:
         distance = directed = spanned(finding, rounding, hulls_are_apart(pair))
     else:
         distance = check_distance(finding, certificate, pair, rounding)
+        distance = distance and not (a.holed or b.holed)
         directed = mtv or shows_direction(finding, a, b)
+    distance = distance and not error.closer
     proven = Proven(depth or (covered and mtv), mtv, distance or _is_zero(finding), directed or mtv)
     if relation != exact:
-        _check_band(finding, certificate, pair, (a, b), tolerance, clearance, proven)
-    if exact not in OVERLAPS:
-        unseen = not hulls_apart and _may_hide(a.world, b.world, 0.0)
-    else:
-        way_out = finding.get("depth") or 0.0 if relation in OVERLAPS else tolerance
-        unseen = _may_hide(a.world, b.world, float(way_out))
+        near = max(clearance - error.farther, Fraction(0))
+        _check_band(finding, certificate, pair, (a, b), tolerance, near, proven)
+    if exact not in OVERLAPS and not hulls_apart:
+        check_holes(a, b, max(tolerance, clearance))
+        check_pieces(a, b)
 
     def keeps(length: Fraction) -> bool | None:
         return _keeps(
             finding,
             length,
             lambda: squared_gap(member(certificate, "gap"), pair),
-            lambda least: _prove_apart(certificate, pair, least),
+            lambda least: _prove_apart(certificate, pair, (a, b), least),
+            error,
         )
 
     most = proven_depth(finding, depth, mtv)
     slack = rounding.of(tolerance)
     if relation == "near":
-        _prove_apart(certificate, pair, max(tolerance - slack, Fraction(0)))
+        _prove_apart(certificate, pair, (a, b), max(tolerance - slack, Fraction(0)))
     if relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
-    check_severity(finding, asked, Known(unseen, most, keeps, EXACT_WIDTH))
+    check_severity(finding, asked, Known(most, keeps, EXACT_WIDTH))
     return proven
+
+
+def _prove_relation(
+    finding: dict[str, Any], pair: Pair, a: Placed, b: Placed, asked: Asked, tolerance: Fraction
+) -> bool:
+    """By the certificate. Whether it holds for the hulls, so that neither body can lie inside the
+    other."""
+    relation = str(finding.get("exact_relation"))
+    proof, ends = member(finding["certificate"], "relation"), pair
+    if asked.across is not None:
+        check_in_plane(finding, asked.across)
+        ends = pair_of(a, b, *reaching(relation, pair.a.world, pair.b.world, asked.across))
+        check_proof_in_plane(proof, ends, asked.across)
+    error = curve_error(a, b)
+    if asked.across is not None and relation != "separated":
+        error.check_overlap(relation, proof, ends, asked.across)
+    beyond = tolerance if finding.get("relation") == "separated" else Fraction(0)
+    least = _least(finding, asked) + error.closer
+    return prove(relation, proof, ends, max(beyond, error.closer), least)
 
 
 def _is_zero(finding: dict[str, Any]) -> bool:
@@ -119,8 +138,8 @@ def _is_zero(finding: dict[str, Any]) -> bool:
 
 
 def _least(finding: dict[str, Any], asked: Asked) -> Fraction:
-    """How wide a gap has to be where the finding says that it keeps its clearance. Figures are
-    rounded: one that equals it keeps it."""
+    """The least gap of a finding that says that it keeps its clearance. A figure that equals the
+    clearance up to rounding keeps it."""
     if finding["relation"] != "separated" or finding["undecided"] == "limit":
         return Fraction(0)
     return Fraction(asked.clearance or 0.0) * (1 - EXACT_WIDTH)
@@ -131,25 +150,30 @@ def _keeps(
     clearance: Fraction,
     squared: Callable[[], Fraction],
     prove_apart: Callable[[Fraction], None],
+    error: CurveError = NO_ERROR,
 ) -> bool | None:
-    """Whether the gap keeps the clearance, whatever the touch band calls the pair; None: neither is
-    shown. squared: of the gap between two points. prove_apart: rejects a gap that is narrower."""
+    """Whether the gap keeps the clearance, independent of the touch band; None: not shown either
+    way. squared: of the gap between two points. prove_apart: rejects a narrower gap. error: of the
+    polygons that stand for the bodies."""
     if finding["exact_relation"] != "separated":
         return False
     if finding["relation"] == "separated":  # then that is a part of what was proven
         return None if finding["undecided"] == "limit" else True
-    if squared() < clearance * clearance:
+    if squared() < max(clearance - error.farther, Fraction(0)) ** 2:
         return False
     try:
-        prove_apart(clearance * (1 - EXACT_WIDTH))
+        prove_apart(clearance * (1 - EXACT_WIDTH) + error.closer)
     except Rejected:
         return None
     return True
 
 
-def _prove_apart(certificate: Any, pair: Pair, least: Fraction) -> None:
+def _prove_apart(
+    certificate: Any, pair: Pair, bodies: tuple[Placed, Placed], least: Fraction
+) -> None:
     """Rejects separated bodies with a gap narrower than that."""
     if not pair.convex:
+        check_holes(*bodies, least)
         contacts_if_apart(pair.a, pair.b, Fraction(0), least)
         return
     gap = member(certificate, "gap")
@@ -195,7 +219,7 @@ def _check_curved(
         )
 
     most = proven_depth(finding, proven.depth, proven.mtv)
-    check_severity(finding, asked, Known(False, most, keeps, EXACT_WIDTH))
+    check_severity(finding, asked, Known(most, keeps, EXACT_WIDTH))
     return proven
 
 
@@ -235,19 +259,24 @@ def number(value: Any) -> Fraction:
     return found
 
 
-def default_tolerance(a: Placed, b: Placed) -> float:
-    """The input precision of two bodies, but no more than a share of the smaller one."""
+def default_tolerance(a: Placed, b: Placed, across: int | None) -> float:
+    """The input precision of two bodies, but no more than a share of the smaller one, and no less
+    than what their curves may be off their polygons. across: the axis that no size counts along."""
+    axes = [axis for axis in range(3) if axis != across]
     sizes = [
-        math.dist(*(corner.tolist() for corner in body.bounds))
+        math.dist(*(corner[axes].tolist() for corner in body.bounds))
         for body in (a, b)
         if body.bounds is not None
     ]
-    return min(a.resolution + b.resolution, TOUCH_FRACTION * min(sizes))
+    written = min(a.resolution + b.resolution, TOUCH_FRACTION * min(sizes))
+    return max(written, a.deviation + b.deviation)
 
 
 def _tolerance(finding: dict[str, Any], a: Placed, b: Placed, asked: Asked) -> Fraction:
     said = number(finding.get("tolerance"))
-    expected = default_tolerance(a, b) if asked.tolerance is None else asked.tolerance
+    expected = asked.tolerance
+    if expected is None:
+        expected = default_tolerance(a, b, asked.across)
     if not math.isclose(said, expected, rel_tol=SAME):
         raise Rejected(f"the tolerance is {expected!r}")
     return said
@@ -271,6 +300,8 @@ def _check_mtv(finding: dict[str, Any], certificate: Any, a: Placed, b: Placed) 
     move = vector(finding.get("mtv"))
     if dot(move, move) > (depth + EXACT_WIDTH * (depth + largest)) ** 2:
         raise Rejected("the MTV is longer than the depth")
+    if curve_error(a, b).closer and "mtv" not in certificate:
+        return False
     _prove_way_out(move, member(certificate, "mtv"), a, b)
     return True
 
@@ -284,10 +315,19 @@ def _prove_way_out(move: Point, certificate: Any, a: Placed, b: Placed) -> None:
         return
     assert a.world is not None
     assert b.world is not None
-    prove_free(certificate, pair_of(a, b, a.world.moved(offset), b.world))
+    moved = a.moved(offset)
+    assert moved.world is not None
+    if member(certificate, "kind") != "axis":
+        check_holes(moved, b, Fraction(0))
+    pair = pair_of(a, b, moved.world, b.world)
+    prove_free(certificate, pair)
+    if not curve_error(a, b).leaves_gap(certificate, pair):
+        raise Rejected("the way out is shown of polygons alone, not of the curves")
 
 
-def _check_depth(finding: dict[str, Any], certificate: dict[str, Any], pair: Pair) -> bool:
+def _check_depth(
+    finding: dict[str, Any], certificate: dict[str, Any], pair: Pair, error: CurveError
+) -> bool:
     """The interval of the depth: a ball in the Minkowski difference, an axis across it."""
     bounds = _bounds_of_depth(finding)
     if bounds is None or "depth" not in certificate:
@@ -296,8 +336,8 @@ def _check_depth(finding: dict[str, Any], certificate: dict[str, Any], pair: Pai
     if not pair.convex:
         raise Rejected("a depth is certified for convex bodies only")
     proof = certificate["depth"]
-    inner_radius_exceeds(member(proof, "lower"), pair.a, pair.b, low)
-    if not depth_at_most(axis(member(proof, "upper")), pair, high):
+    inner_radius_exceeds(member(proof, "lower"), pair.a, pair.b, low + error.farther)
+    if not depth_at_most(axis(member(proof, "upper")), pair, high - error.closer):
         raise Rejected("along the axis the bodies overlap by more than the depth")
     return True
 
@@ -370,9 +410,24 @@ def _check_band(
     raise Rejected(f"{relation!r} does not follow from {exact!r}")
 
 
-def _may_hide(a: World, b: World, margin: float) -> bool:
-    """Whether one body, moved by no more than the margin, may lie in a hole of the other: their
-    boxes meet, and one of them is open. What fills a hole is not judged here."""
+def check_pieces(a: Placed, b: Placed) -> None:
+    """Rejects bodies that do not meet, of which open pieces of one surround the other."""
+    for outer, inner in ((a, b), (b, a)):
+        if outer.world is None or inner.world is None or outer.pieces is None:
+            continue
+        world, point = outer.world, inner.world.vertices[0]
+        low, high = world.bounds
+        is_within = (low <= point).all() and (point <= high).all()
+        if is_within and abs(turns_around(world.vertices[outer.pieces], point)) > MOST_AROUND:
+            raise Rejected(f"open pieces of {outer.id} surround {inner.id}")
+
+
+def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
+    """Rejects bodies of which one has holes, unless their boxes are farther apart than that: what
+    fills a hole may be there."""
+    if not (a.holed or b.holed) or a.bounds is None or b.bounds is None:
+        return
     (a_low, a_high), (b_low, b_high) = a.bounds, b.bounds
-    meet = bool((a_low - margin <= b_high).all() and (b_low - margin <= a_high).all())
-    return meet and not all(body.is_closed or body.is_flat for body in (a, b))
+    gaps = np.concatenate([b_low - a_high, a_low - b_high])
+    if Fraction(gaps.max()) <= margin * (1 + EXACT_WIDTH):
+        raise Rejected("what fills a hole is not certified, and may be where the other body is")

@@ -1,25 +1,89 @@
-"""Checks in a plane: what certificates of prisms prove of the outlines that they stand over.
+"""Checks in a plane: what certificates about prisms prove about their outlines.
 
 Each body is the prism over its outline, |z| <= its height, where z runs across the plane, and all
 reach farther than any body is wide. Prisms are apart, or touch, or overlap, exactly where their
 outlines do, and are as far apart and as deep in each other. Which of them holds the other depends
 on heights that no outline has. So one that is said to hold the other is made to reach beyond it.
 Where neither does, both have one height, and only their walls may tell them apart.
+
+A polygon may stand for a curve. Then only that is proven which holds for every boundary that is
+nowhere farther from the polygon than the deviation of the body.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from satcheck.verify.evidence import member, on_body, vector
+from satcheck.verify.bodies import Placed
+from satcheck.verify.distances import nothing_nearer
+from satcheck.verify.evidence import exceeds, gap_along, member, on_body, vector
 from satcheck.verify.exact import Rejected
+from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import Pair
 from satcheck.verify.world import World
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 Json = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class CurveError:
+    """How much closer, or deeper, and how much farther apart two bodies may be than the polygons
+    that stand for them: world units; 0: these are the bodies."""
+
+    closer: Fraction
+    farther: Fraction
+
+    def check_overlap(self, relation: str, proof: Any, pair: Pair, across: int) -> None:
+        """Rejects an exact relation of bodies that meet, where it is shown of the polygons alone.
+        pair: with heights that suit the relation.
+
+        A body lies within another if its polygon does, with more room than the curves may be off.
+        Inscribed polygons that overlap are within bodies that overlap, and so are convex ones that
+        overlap by more than they may reach out of the curves. Neither of these bodies holds the
+        other if the box of each sticks out by more than the curves may be off.
+        """
+        if not self.closer:
+            return
+        if relation in ("contains", "inside"):
+            nothing_nearer(pair.a, pair.b, self.closer)
+            return
+        if relation != "penetrating" or (self.farther and member(proof, "kind") != "polytope"):
+            raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
+        if self.farther:
+            inner_radius_exceeds(proof, pair.a, pair.b, self.farther)
+        a, b = pair.a.world, pair.b.world
+        if not (self._sticks_out(a, b, across) and self._sticks_out(b, a, across)):
+            raise Rejected("one body may hold the other, by what its curve is off its polygon")
+
+    def _sticks_out(self, one: World, other: World, across: int) -> bool:
+        """By their boxes."""
+        (low, high), (least, most) = one.bounds, other.bounds
+        steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
+        return any(
+            max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > self.closer
+            for p, q, r, s in steps
+        )
+
+    def leaves_gap(self, certificate: Any, pair: Pair) -> bool:
+        """Whether the polygons are as far apart along the axis as the curves may be off them."""
+        if not self.closer:
+            return True
+        if member(certificate, "kind") != "axis":
+            return False
+        n = vector(member(certificate, "axis"))
+        return any(n) and exceeds(gap_along(pair.a, pair.b, n), n, self.closer)
+
+
+def curve_error(a: Placed, b: Placed) -> CurveError:
+    bodies = (a, b)
+    closer = sum((Fraction(body.deviation) for body in bodies), Fraction(0))
+    outward = (Fraction(body.deviation) for body in bodies if not body.inscribed)
+    return CurveError(closer, sum(outward, Fraction(0)))
 
 
 def reaching(relation: str, a: World, b: World, across: int) -> tuple[World, World]:

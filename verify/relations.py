@@ -44,8 +44,8 @@ class Pair:
 def prove(relation: str, certificate: Any, pair: Pair, beyond: Fraction, least: Fraction) -> bool:
     """Rejects a certificate that does not prove the exact relation.
 
-    A separation has to be over `beyond` and at least `least`, world units. Returns whether it holds
-    for the hulls, so that neither body can lie inside the other.
+    A separation has to be over `beyond` and at least `least`, world units. Returns whether the
+    hulls have no common interior, so that neither body can lie inside the other.
     """
     kind = member(certificate, "kind")
     proofs: dict[tuple[str, str], Callable[[Any, Pair], None]] = {
@@ -70,7 +70,7 @@ def prove(relation: str, certificate: Any, pair: Pair, beyond: Fraction, least: 
     if not isinstance(kind, str) or (relation, kind) not in proofs:
         raise Rejected(f"a certificate of this kind proves no relation {relation!r}")
     proofs[relation, kind](certificate, pair)
-    return False
+    return (relation, kind) == ("touching", "axis")
 
 
 def prove_free(certificate: Any, pair: Pair) -> None:
@@ -228,12 +228,10 @@ def _crossing(certificate: Any, pair: Pair) -> None:
 
 def _sides(body: Exact, p: Point, normal: Vector) -> tuple[bool, bool]:
     """Whether there is material in front of a triangle of the body and behind it, next to p."""
-    if not body.world.solid:
-        return False, False
     found = body.beside(p, normal)
     if found is None:
         raise Rejected("where the triangles cross another one lies")
-    return found[0] != 0, found[1] != 0
+    return (found[0] != 0, found[1] != 0) if body.world.solid else (False, False)
 
 
 def _hulls_overlap(certificate: Any, pair: Pair) -> None:
@@ -253,7 +251,7 @@ def _same(certificate: Any, pair: Pair) -> None:
     """The same triangles; or solids with a common point, and no point in one of them alone."""
     a, b = pair.a.world, pair.b.world
     if a.solid != b.solid:
-        raise Rejected("one is a solid, the other is none")
+        raise Rejected("one is a solid, the other is not")
     if count_by_triangle(a.vertices, a.triangles, a.solid) == count_by_triangle(
         b.vertices, b.triangles, b.solid
     ):

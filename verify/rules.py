@@ -1,4 +1,4 @@
-"""The rules of a report: which pairs are exempt, and what is asked of the others.
+"""The rules of a report: which pairs are exempt, and which limits the others have.
 
 Of several rules about a pair the last one that sets a key decides it. Written apart from the
 solver's, which compiles the same rules to sets of bodies.
@@ -7,6 +7,7 @@ solver's, which compiles the same rules to sets of bodies.
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -72,19 +73,22 @@ class Rules:
         self._rules = [_checked(rule) for rule in listed]
         groups = {group for group in exempt["groups"] if isinstance(group, str)}
         static = exempt.get("static_pairs") is True
+        about = self._about(bodies)
         self._kinds: dict[str, Kind] = {
-            id_: (self._about(body), body.groups & groups, static and body.static)
+            id_: (tuple(about[id_]), body.groups & groups, static and body.static)
             for id_, body in bodies.items()
         }
         self._terms: dict[tuple[Kind, Kind], tuple[Json, dict[str, str]]] = {}
 
-    def _about(self, body: Placed) -> tuple[tuple[int, bool], ...]:
-        return tuple(
-            (number, side == "a")
-            for number, rule in enumerate(self._rules)
-            for side in "ab"
-            if _selects(rule[side], body)
-        )
+    def _about(self, bodies: Mapping[str, Placed]) -> dict[str, list[tuple[int, bool]]]:
+        """id -> the rules that are about the body, each with whether it is on the side a."""
+        selected = _Selected(bodies)
+        about: dict[str, list[tuple[int, bool]]] = {id_: [] for id_ in bodies}
+        for number, rule in enumerate(self._rules):
+            for side in "ab":
+                for id_ in selected.by(rule[side]):
+                    about[id_].append((number, side == "a"))
+        return about
 
     def is_ignored(self, a: Placed, b: Placed) -> bool:
         """Neither asked about nor counted."""
@@ -133,11 +137,35 @@ def _ignored(one: Kind, other: Kind) -> bool:
     return bool(one[1] & other[1]) or (one[2] and other[2])
 
 
-def _selects(selector: str, body: Placed) -> bool:
-    if selector.startswith(GROUP):
-        glob = selector.removeprefix(GROUP)
-        return any(fnmatchcase(group, glob) for group in body.groups)
-    return fnmatchcase(body.id, selector)
+class _Selected:
+    """The ids that a selector selects. A name that the selector spells out, with its special
+    characters in brackets or as it is, comes before what matches the glob."""
+
+    def __init__(self, bodies: Mapping[str, Placed]) -> None:
+        self._ids = {id_: [id_] for id_ in bodies}
+        self._groups: dict[str, list[str]] = {}
+        for id_, body in bodies.items():
+            for group in body.groups:
+                self._groups.setdefault(group, []).append(id_)
+        self._escaped = {
+            True: {_escaped(name): name for name in self._groups},
+            False: {_escaped(name): name for name in self._ids},
+        }
+        self._found: dict[str, frozenset[str]] = {}
+
+    def by(self, selector: str) -> frozenset[str]:
+        if selector not in self._found:
+            of_groups, glob = selector.startswith(GROUP), selector.removeprefix(GROUP)
+            members = self._groups if of_groups else self._ids
+            spelt = self._escaped[of_groups].get(glob, glob)
+            names = [spelt] if spelt in members else [n for n in members if fnmatchcase(n, glob)]
+            self._found[selector] = frozenset(id_ for name in names for id_ in members[name])
+        return self._found[selector]
+
+
+def _escaped(name: str) -> str:
+    text = re.sub(r"[*?\[]", r"[\g<0>]", name)
+    return f"[g]{text[1:]}" if text.startswith(GROUP) else text
 
 
 def _name(rule: Json) -> str:

@@ -1,4 +1,4 @@
-"""How grave a finding is, what decided that, and what it leaves open, from what is proven of it.
+"""The severity of a finding, the rule behind it, and what stays open, from the proven facts.
 
 That an overlap is within its limit, or a gap keeps its clearance, has to be proven. That it is
 not follows from the figures of the finding. Volumes are not certified.
@@ -33,13 +33,10 @@ class Judgement:
 class Known:
     """What is proven of a finding besides its relation.
 
-    unseen: one body may lie in the other, which has no inside to check, or come to lie there by the
-    way out of an overlap. depth_at_most: as far as that is proven. keeps: whether the gap is at
-    least as wide as this length; None: not decided. rounding: the relative width that a limit is
-    granted.
+    depth_at_most: as far as that is proven. keeps: whether the gap is at least as wide as this
+    length; None: not decided. rounding: the relative width that a limit is granted.
     """
 
-    unseen: bool
     depth_at_most: Fraction | None
     keeps: Callable[[Fraction], bool | None]
     rounding: Fraction
@@ -50,19 +47,11 @@ def check_severity(finding: Json, asked: Asked, known: Known) -> None:
     relation = finding["relation"]
     if relation in OVERLAPS:
         found = _limited(finding, asked, known) if asked.limited else Judgement("error")
-        unseen = known.unseen and (found.severity, found.undecided) == ("note", None)
     else:
         found = _apart(finding, asked, known)
-        unseen = known.unseen
     if found.severity == "error" and asked.severity is not None:
         severity = "silenced" if asked.severity == "none" else asked.severity
         found = replace(found, severity=severity, rule=asked.name("severity"))
-    if unseen and not asked.allow_open:
-        found = replace(
-            found,
-            severity=max(found.severity, "warning", key=SEVERITIES.index),
-            undecided="inside",
-        )
     if _is_disputed(finding):
         found = replace(
             found,

@@ -110,8 +110,8 @@ def _apart(p: Floats, q: Floats, reach: float) -> Mask:
     the products of edges, the edges across either face, the lines between corners."""
     done = np.zeros(len(p), dtype=bool)
     e, f = np.roll(p, -1, axis=1) - p, np.roll(q, -1, axis=1) - q
-    n, m = np.cross(e[:, 0], e[:, 1]), np.cross(f[:, 0], f[:, 1])
     with np.errstate(all="ignore"):
+        n, m = np.cross(e[:, 0], e[:, 1]), np.cross(f[:, 0], f[:, 1])
         for axes in _directions(p, q, e, f, n, m):
             left = ~done
             if not left.any():

@@ -64,32 +64,12 @@ class World:
 
     def labels(self, triangles: Indices) -> Indices:
         """For each vertex the least one that is connected with it through these triangles."""
-        label = np.arange(len(self.vertices))
-        while True:  # each triangle takes the least label of its corners, labels follow labels
-            least = label[triangles].min(axis=1)
-            before = label.copy()
-            for corner in range(3):
-                np.minimum.at(label, label[triangles[:, corner]], least)
-                np.minimum.at(label, triangles[:, corner], least)
-            label = label[label]
-            if (label == before).all():
-                return label
-
-    @cached_property
-    def is_closed(self) -> bool:
-        return self.solid or is_balanced(self.vertices, self.triangles)
+        return connected(triangles, len(self.vertices))
 
     @property
     def is_flat(self) -> bool:
         """Whether all vertices in use lie in one plane."""
-        used = integers(self.vertices[self.used], self.lattice)
-        origin = used[0]
-        spokes = [sub(p, origin) for p in used]
-        first = next((v for v in spokes if any(v)), None)
-        if first is None:
-            return True
-        normal = next((n for v in spokes if any(n := cross(first, v))), None)
-        return normal is None or all(dot(normal, v) == 0 for v in spokes)
+        return is_flat(self.vertices[self.used])
 
     def moved(self, offset: Sequence[float]) -> World:
         """Each coordinate rounded once."""
@@ -110,17 +90,21 @@ def placed(
     handedness = sign(dot(x, cross(y, z)))
     if handedness == 0 or tuple(pose[12:]) != (0.0, 0.0, 0.0, 1.0):
         raise Rejected("the pose is singular or not affine")
-    columns = []
-    for k, row in enumerate(rows):
-        total = np.full(len(vertices), float(pose[4 * k + 3]))
-        correction = np.zeros(len(vertices))
-        for axis in range(3):
-            product, error = two_product(row[axis], vertices[:, axis])
-            total, rest = two_sum(total, product)
-            correction = correction + (rest + error)
-        columns.append(total + correction)
+    # What overflows is not finite in the end, which a World refuses.
+    with np.errstate(over="ignore", invalid="ignore"):
+        columns = [_sums(row, pose[4 * k + 3], vertices) for k, row in enumerate(rows)]
     turned = triangles if handedness > 0 else triangles[:, [0, 2, 1]]
     return World(np.column_stack(columns) + 0.0, turned, solid)
+
+
+def _sums(row: Sequence[float], offset: float, vertices: Floats) -> Floats:
+    total = np.full(len(vertices), float(offset))
+    correction = np.zeros(len(vertices))
+    for axis in range(3):
+        product, error = two_product(row[axis], vertices[:, axis])
+        total, rest = two_sum(total, product)
+        correction = correction + (rest + error)
+    return total + correction
 
 
 def two_sum(a: Floats, b: Floats) -> tuple[Floats, Floats]:
@@ -138,6 +122,33 @@ def two_product(a: float, b: Floats) -> tuple[Floats, Floats]:
     return product, error
 
 
+def connected(triangles: Indices, count: int) -> Indices:
+    """For each of so many corners the least one that is connected with it through triangles."""
+    label = np.arange(count)
+    while True:  # each triangle takes the least label of its corners, labels follow labels
+        least = label[triangles].min(axis=1)
+        before = label.copy()
+        for corner in range(3):
+            np.minimum.at(label, label[triangles[:, corner]], least)
+            np.minimum.at(label, triangles[:, corner], least)
+        label = label[label]
+        if (label == before).all():
+            return label
+
+
+def is_flat(points: Floats) -> bool:
+    """Whether they lie in one plane, exactly."""
+    if len(points) == 0:
+        return True
+    exact = integers(points, lattice(points))
+    spokes = [sub(p, exact[0]) for p in exact]
+    first = next((v for v in spokes if any(v)), None)
+    if first is None:
+        return True
+    normal = next((n for v in spokes if any(n := cross(first, v))), None)
+    return normal is None or all(dot(normal, v) == 0 for v in spokes)
+
+
 def is_balanced(vertices: Floats, triangles: Indices) -> bool:
     """Whether every edge, by the coordinates of its ends, is run as often as its reverse."""
     _, same = np.unique(vertices + 0.0, axis=0, return_inverse=True)
@@ -150,23 +161,37 @@ def is_balanced(vertices: Floats, triangles: Indices) -> bool:
 
 
 def is_convex(vertices: Floats, triangles: Indices) -> bool:
-    """Whether a balanced surface is that of its hull, outward: no vertex in front of a face."""
+    """Whether a balanced surface winds around its hull and nothing else, outward.
+
+    Each face lies in a plane that has all vertices on one side: a sheet that is flush with the
+    hull has them in front. Such a surface wraps the hull a whole number of times, and a volume
+    above 0 says that this number is not 0.
+    """
     k = lattice(vertices)
     exact = integers(vertices, k)
     used = np.unique(triangles)
     points = vertices[used]
-    solid = False
+    volume = 0
     for t in triangles.tolist():
         a, b, c = (exact[v] for v in t)
         normal = cross(sub(b, a), sub(c, a))
         if not any(normal):
             continue
-        solid = True
-        near = possibly_highest(normal, points)
-        limit = dot(normal, a)
-        if any(dot(normal, exact[v]) > limit for v in used[near].tolist()):
+        volume += dot(normal, a)
+        if _reaches_beyond(normal, a, points, used, exact) and _reaches_beyond(
+            sub((0, 0, 0), normal), a, points, used, exact
+        ):
             return False
-    return solid
+    return volume > 0
+
+
+def _reaches_beyond(
+    normal: Vector, at: Vector, points: Floats, used: Indices, exact: Sequence[Vector]
+) -> bool:
+    """Whether one of the points used lies beyond the plane through a point."""
+    limit = dot(normal, at)
+    near = possibly_highest(normal, points)
+    return any(dot(normal, exact[v]) > limit for v in used[near].tolist())
 
 
 def rounded(vector: Sequence[Any]) -> Floats:

@@ -1,4 +1,4 @@
-"""Each effect of a check: who asked for it, on how many pairs it ran, on how many not, and why."""
+"""Each effect of a check: what needs it, on how many pairs it ran, on how many not, and why."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class _Alike:
         for place, stage in enumerate(self.finding.plan):
             time = sum([finding.plan[place].microseconds for finding in self.findings])
             effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
-            # What the overlap needed, and nobody asked more for, belongs to it.
+            # A step that only the overlap needed belongs to the overlap.
             yield effect if effect in self.asked.by else "overlap", time
 
     @property

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from satcheck.audit.asked.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.report.report import Effect
+from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.frozen import frozen, replace
 from satcheck.scene.rules import Rule, Severity
 
@@ -28,7 +29,7 @@ FOR_MESHES = "by default, for mesh files alone"
 class Asked:
     """What is asked about one pair. Lengths and volumes in the units of the scene.
 
-    by: effect -> who asked for it, a flag or the name of a rule; no entry: nobody did.
+    by: effect -> the flags and rules that need it; no entry: none does.
     clearance: None where there is none to keep. tolerance: None: the input precision.
     max_depth, max_volume: what an overlap is allowed; severity: of the errors of the pair; None:
     as ever. rules: key -> the name of the rule that set it.
@@ -83,7 +84,7 @@ class Planner:
         return self._asked[key]
 
     def who_asks(self, effect: Effect) -> tuple[str, ...]:
-        """The flag, and the rules that ask for the effect; empty: nobody does."""
+        """The flag and the rules that need the effect; empty: none does."""
         if effect == "sweep":
             return (MOTIONS,) if self.moving else ()
         flag = asked_by(self.settings, composed=self._composed).by.get(effect)
@@ -93,7 +94,7 @@ class Planner:
 
     @property
     def depth(self) -> bool:
-        """Whether the depth of every overlap is asked for."""
+        """Whether the depth of every overlap is computed."""
         return not self._composed if self.settings.depth is None else self.settings.depth
 
     @property
@@ -105,18 +106,22 @@ class Planner:
         """A gap of this pair beyond this is not asked about. resolution: of both together."""
         asked = self.asked(i, j)
         band = resolution if asked.tolerance is None else asked.tolerance
-        return max(band, asked.clearance or 0.0)
+        of_curves = 0.0 if self.settings.planar is None else resolution
+        return max(band, (asked.clearance or 0.0) + of_curves)
 
     def reach(self, resolutions: Mapping[int, float]) -> list[float]:
         """Of each of these bodies a length, so that two of them are together no less than any gap
         that is asked about."""
         settings = self.settings
+        # In a plane the curves that polygons stand for may be closer by their resolution.
+        flat = settings.planar is not None
         own = [self._book.longest(key) for key in ("clearance", "tolerance")]
         clearance = settings.clearance or 0.0
         return [
             max(
                 resolution if settings.tolerance is None else 0.5 * settings.tolerance,
-                0.5 * max(clearance, *(lengths[body] for lengths in own)),
+                0.5 * max(clearance, *(lengths[body] for lengths in own))
+                + (resolution * (1 + EXACT_WIDTH) if flat else 0.0),
             )
             for body, resolution in resolutions.items()
         ]
@@ -176,4 +181,4 @@ def _name(rule: Rule | None) -> str | None:
 
 def _value(rule: Rule | None, key: str, default: float | None) -> float | None:
     value = default if rule is None else getattr(rule, key)
-    return None if value is None else float(value)  # who asks from Python may give an integer
+    return None if value is None else float(value)  # a caller from Python may give an integer

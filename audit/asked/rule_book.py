@@ -233,7 +233,7 @@ def _sides_of(
 
 
 class _Members:
-    """Bodies by selector; a selector that names one id or group is looked up, not matched."""
+    """Bodies by selector."""
 
     def __init__(self, subjects: Sequence[Subject]) -> None:
         self._found: dict[Selector, frozenset[int]] = {}
@@ -250,8 +250,4 @@ class _Members:
 
     def _choose(self, selector: Selector) -> Iterable[int]:
         known = self._by_group if selector.of_groups else self._by_id
-        only = selector.only
-        if only is not None:
-            return known.get(only, ())
-        matches = selector.pattern().match
-        return (k for name, bodies in known.items() if matches(name) for k in bodies)
+        return (k for name in selector.choose(known) for k in known[name])

@@ -15,7 +15,7 @@ ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
 FailOn = Literal["error", "warning", "note"]
 FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
 
-# Relative width of the depth interval of a concave pair below which nothing finer is asked for.
+# The depth interval of a concave pair is narrowed to this width, relative to its upper end.
 DEPTH_WIDTH = 0.01
 # Seconds, in work units of a slow machine, that narrowing the interval of one pair may take.
 DEPTH_BUDGET = 2.0
@@ -29,7 +29,7 @@ CONTACT_POINTS = 100_000
 
 @frozen
 class Settings:
-    """Lengths are in the units of the files. None means "not asked for" unless said otherwise.
+    """Lengths are in the units of the files. None means "not computed" unless said otherwise.
 
     depth: depth and MTV of overlapping pairs; None: of mesh files, and in a scene that places its
     bodies only where a rule asks.

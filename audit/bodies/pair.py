@@ -1,4 +1,4 @@
-"""A question about two bodies: what is asked, how far to climb the ladder, with what tools."""
+"""A question about two bodies: what to compute, how far to climb the ladder, with what tools."""
 
 from __future__ import annotations
 
@@ -29,6 +29,8 @@ class Pair:
     By default either surface may be off by its own input precision, so the sum of both; but
     coordinates without decimals, far from the origin, must not swallow a whole body. Never less
     than what polygons may be off the curves that they stand for.
+    closer, farther: how much closer (or deeper), and how much farther apart, the bodies may be than
+    the polygons that stand for them in a check in a plane; 0.0 of other bodies.
     paths: how the bodies move against each other; None: they do not. alone: no other pair, of this
     check or another, asks for anything of these bodies.
     """
@@ -43,13 +45,21 @@ class Pair:
     alone: bool = False
     tolerance: float = derived()
     asked_gap: float = derived()
+    closer: float = derived()
+    farther: float = derived()
 
     def __post_init__(self) -> None:
         tolerance = self.asked.tolerance
         if tolerance is None:
             tolerance = self._precision()
         object.__setattr__(self, "tolerance", tolerance)
-        object.__setattr__(self, "asked_gap", max(self.asked.clearance or 0.0, tolerance))
+        files = (self.a.body.file, self.b.body.file) if self.settings.planar else ()
+        closer = sum((file.deviation for file in files), 0.0)
+        farther = sum((file.deviation for file in files if not file.inscribed), 0.0)
+        asked_gap = max((self.asked.clearance or 0.0) + closer, tolerance)
+        object.__setattr__(self, "asked_gap", asked_gap)
+        object.__setattr__(self, "closer", closer)
+        object.__setattr__(self, "farther", farther)
 
     def _precision(self) -> float:
         plane = self.settings.planar
@@ -60,6 +70,11 @@ class Pair:
             size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
         written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
         return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
+
+    @property
+    def wants_distance(self) -> bool:
+        """The figure is needed, not only whether it is within the touch band."""
+        return self.asked.wants("distance") or self.closer > self.tolerance
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""

@@ -1,4 +1,4 @@
-"""A body in the world, with everything that can be derived from it built once, when asked for."""
+"""A body in the world, and everything derived from it: built once, when it is needed."""
 
 from __future__ import annotations
 
@@ -67,7 +67,8 @@ class SharedMesh:
     """What all bodies made of one mesh share, in file coordinates.
 
     geometry: its tree, its hull, whether it is convex. largest: coordinate, in size. covers_once():
-    a solid that covers no point twice, so that its volume is that of its mesh.
+    a solid that covers no point twice, so that its volume is that of its mesh. has_sheets(): of a
+    solid, whether parts of its surface have no inside on either side.
     """
 
     __slots__ = (
@@ -76,6 +77,7 @@ class SharedMesh:
         "decomposition",
         "file",
         "geometry",
+        "has_sheets",
         "largest",
         "shape",
         "triangles",
@@ -90,8 +92,9 @@ class SharedMesh:
             file.mesh, file.health.solid, file.topology.plain_solid, settings.allow_open
         )
         self.covers_once = Once(lambda: core.covers_once(self.geometry.surface()))
+        self.has_sheets = Once(lambda: core.has_sheets(self.geometry.surface()))
         self.decomposition = Once(lambda: self._decomposition(settings))
-        self.shape = Once(self._shape)
+        self.shape = Once(lambda: self._shape(settings.allow_open))
         self._decompositions = 0
 
     @property
@@ -99,11 +102,11 @@ class SharedMesh:
         geometry = self.geometry
         return Work(geometry.hierarchies, geometry.refits, self._decompositions)
 
-    def _shape(self) -> Shape:
+    def _shape(self, allow_open: bool) -> Shape:
         """As the checker of certificates sees it."""
         from satcheck.verify.bodies import shape_of
 
-        return shape_of(self.file)
+        return shape_of(self.file, allow_open=allow_open)
 
     def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
         """A failure is an answer too: it is not tried again for the next pair."""

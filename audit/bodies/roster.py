@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, product
 from typing import TYPE_CHECKING
 
 from satcheck.audit.asked.rule_book import RuleBook, Subject
@@ -69,11 +69,13 @@ class Roster:
 
     def pairs_of_several_units(self) -> Iterator[tuple[int, int, str]]:
         """Those of the undecidable ones that nothing else is wrong with."""
-        if len(set(self.units.values())) < 2:
-            return
-        for i, j in combinations(self.placed, 2):
-            if not self.is_comparable(i, j) and self.book.is_asked(i, j):
-                yield i, j, f"{self._in_units(i)}, and {self._in_units(j)}"
+        alike: dict[str | None, list[int]] = {}
+        for k in self.placed:
+            alike.setdefault(self.units.get(k), []).append(k)
+        for some, others in combinations(alike.values(), 2):
+            for i, j in map(sorted, product(some, others)):
+                if self.book.is_asked(i, j):
+                    yield i, j, f"{self._in_units(i)}, and {self._in_units(j)}"
 
     def _in_units(self, k: int) -> str:
         unit = self.units.get(k)
@@ -155,5 +157,5 @@ def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:
 
 
 def _unused(rule: Rule) -> Issue:
-    message = f"{rule.name}: the rule is about no pair of bodies"
+    message = f"{rule.name}: the rule selects no pair of bodies"
     return Issue("unused-rule", "warning", None, None, message)

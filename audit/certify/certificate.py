@@ -20,7 +20,7 @@ from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector
 from satcheck.verify.figures import rounding_of
 from satcheck.verify.findings import check_finding, depth_at_most, pair_of
-from satcheck.verify.in_plane import reaching
+from satcheck.verify.in_plane import curve_error, reaching
 from satcheck.verify.rules import Asked
 
 Json = dict[str, Any]
@@ -67,6 +67,7 @@ class _Maker:
         self.worlds = a.world, b.world
         self.placed = self.ends = pair_of(a, b, a.world, b.world)
         plane = pair.settings.planar
+        self.error = curve_error(a, b)
         self.across = None if plane is None else axis_across(plane)
         if self.across is not None:
             relation = str(finding.exact_relation)
@@ -79,7 +80,8 @@ class _Maker:
             return f"no evidence was found for {finding.exact_relation!r}"
         certificate: Json = {"relation": relation}
         if self.placed.convex and finding.depth_bounds is not None:
-            depth = self._depth(Fraction(finding.depth_bounds[0]), finding.depth_bounds[1])
+            low, high = (Fraction(bound) for bound in finding.depth_bounds)
+            depth = self._depth(low + self.error.farther, high - self.error.closer)
             if depth is not None:
                 certificate["depth"] = depth
         elif finding.depth_bounds is not None:
@@ -87,10 +89,12 @@ class _Maker:
             if covered is not None:
                 certificate["cover"] = covered
         if finding.mtv_verified and finding.mtv is not None:
-            certificate["mtv"] = self._free(finding.mtv)
+            free = self._free(finding.mtv, self.error.closer)
+            if free["kind"] == "axis" or not self.error.closer:
+                certificate["mtv"] = free
         if finding.relation != finding.exact_relation:
             certificate |= self._band()
-        if finding.distance and not self.placed.convex:
+        if finding.distance and not (self.placed.convex or self.error.closer):
             certificate |= self._distance()
         return certificate
 
@@ -136,6 +140,7 @@ class _Maker:
         asked = Fraction(0)
         if self.finding.relation == "separated":
             asked = max(Fraction(self.pair.tolerance), Fraction(self.pair.asked.clearance or 0.0))
+        asked += self.error.closer
         placed = self.placed
         for axis in self._axes():
             n = vector(axis)
@@ -174,7 +179,7 @@ class _Maker:
         """For convex bodies that stick out of each other."""
         if not self.placed.convex:
             return None
-        found = expanded(self.ends, Fraction(0))
+        found = expanded(self.ends, self.error.farther)
         if found is None or not found.overlaps:
             return None
         leads: Json = {}
@@ -197,19 +202,18 @@ class _Maker:
             return None
         return {"kind": "polytope", **_polytope(found), **leads}
 
-    def _depth(self, lower: Fraction, upper: float) -> Json | None:
+    def _depth(self, lower: Fraction, limit: Fraction) -> Json | None:
         found = expanded(self.placed, lower)
         if found is None or not found.overlaps:
             return None
-        limit = Fraction(upper)
         normal = self.finding.normal
         if normal is not None and depth_at_most(vector(list(normal)), self.placed, limit):
             return {"lower": _polytope(found), "upper": list(normal)}
         complete = expanded(self.placed, limit * 2) or found
         return {"lower": _polytope(found), "upper": _text(shortened(complete.axis))}
 
-    def _free(self, move: Any) -> Json:
-        """That A, moved, has no common interior with B."""
+    def _free(self, move: Any, least: Fraction = Fraction(0)) -> Json:
+        """That A, moved, has no common interior with B. least: of the gap along an axis."""
         world = self.worlds[0].moved(move)
         placed = pair_of(self.a, self.b, world, self.worlds[1])
         length = math.hypot(*move)
@@ -220,7 +224,8 @@ class _Maker:
             hints += [[float(side) if k == axis else 0.0 for k in range(3)] for side in (1, -1)]
         for axis_ in hints:
             n = vector(axis_)
-            if any(n) and gap_along(placed.a, placed.b, n) >= 0:
+            gap = gap_along(placed.a, placed.b, n)
+            if any(n) and (exceeds(gap, n, least) if least else gap >= 0):
                 return {"kind": "axis", "axis": axis_}
         if placed.convex:
             found = expanded(placed, Fraction(0))

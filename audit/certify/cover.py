@@ -31,9 +31,9 @@ Json = dict[str, Any]
 Floats = NDArray[np.float64]
 # So many pairs of triangles are candidates at most.
 MOST_PAIRS = 200_000
-# Triangles that show nothing are left out, and the search is made anew, so often.
+# The search is repeated at most this often, without triangles that prove nothing.
 MOST_SEARCHES = 4
-# Room that a polytope leaves around a cube, relative to the cube, so that rounding takes none.
+# A polytope must exceed a cube by this share of the cube, so that rounding cannot uncover it.
 ROOM = 1e-6
 
 

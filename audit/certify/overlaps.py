@@ -166,7 +166,7 @@ def _quadrants(a: Any, b: Any) -> Iterator[tuple[Point, Vector]]:
     up_a = tuple(dot(m, m) * x - dot(n, m) * y for x, y in zip(n, m, strict=True))
     up_b = tuple(dot(n, n) * y - dot(n, m) * x for x, y in zip(n, m, strict=True))
     size_a, size_b = (max(abs(c) for c in v).bit_length() for v in (up_a, up_b))
-    for side_a in (-1, 1):  # behind both first: inside, as a rule
+    for side_a in (-1, 1):  # behind both first: usually inside
         for side_b in (-1, 1):
             way = tuple(
                 side_a * (x << max(0, size_b - size_a)) + side_b * (y << max(0, size_a - size_b))

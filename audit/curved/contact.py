@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 STAGE = "curved"
 PROOF = "curved-exact"
-TOO_CLOSE = "one may lie within the other: too close to its surface to tell"
+TOO_CLOSE = "they overlap, and one may lie within the other: too close to its surface to tell"
 OPEN_BOUNDS = "the bounds of a curved shape did not close"
 CLOSE_CONTACT = "a curved shape in contact as far as its bounds tell"
 
@@ -76,7 +76,7 @@ def _settle_convex(pair: Pair, plan: Plan) -> Contact:
     if relation != "penetrating":
         plan.record("containment", relation, "one shape holds the other")
     reason = None if is_known else TOO_CLOSE
-    return Contact(relation, is_known, 0.0, found, reason=reason)
+    return Contact(relation, is_known, 0.0, found, reason=reason, overlaps=True)
 
 
 def _closed(pair: Pair, found: Signed, plan: Plan) -> Signed:

@@ -13,6 +13,7 @@ from satcheck.audit.curved.triangles import Nearest, against_triangles
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, scaled
+from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck import core
@@ -70,7 +71,7 @@ def frees_mesh(pair: Pair, move: Vector) -> bool:
 
 def move_off(pair: Pair, most: float) -> Vector | None:
     """A translation of A, no longer than that, that provably frees it: off the triangle that the
-    shape is deepest in. None: that does not do, as a rule because it stands in several."""
+    shape is deepest in. None: no face does, usually because the shape stands in several."""
     curved, mesh, sign = _sides(pair)
     nearest = against_triangles(curved, mesh.mesh, 0.0).nearest
     if nearest is None or nearest.normal is None:
@@ -84,11 +85,11 @@ def move_off(pair: Pair, most: float) -> Vector | None:
 
 
 def _ends(mesh: PlacedBody, seen: Nearest) -> list[int]:
-    """Of the triangles that the inside of the shape meets those on which the body ends; of an open
-    body all count."""
+    """Of the triangles that the inside of the shape meets those on which the body ends; of a body
+    with holes all count."""
     crossed: list[int] = seen.crossed.tolist()
-    surface = mesh.surface()
-    return [k for k in crossed if not surface.solid or surface.is_boundary(k)]
+    closed, hulls = mesh.surface().closed()
+    return crossed if hulls else [k for k in crossed if closed.is_boundary(k)]
 
 
 def _touched(seen: Nearest) -> tuple[int, ...]:
@@ -105,20 +106,20 @@ def _outcome(seen: Nearest) -> str:
 def _hole_in_the_way(
     curved: CurvedShape, mesh: PlacedBody, outcome: str, move: Vector = ORIGIN
 ) -> str | None:
-    """Why what fills a hole of the mesh may overlap the shape, moved, or touch one that does not
-    touch the mesh; None where it cannot. outcome: of the triangles of the mesh."""
+    """The hole of the mesh whose fill may overlap the moved shape, or touch a shape that the mesh
+    does not touch; None: there is no such hole. outcome: of the triangles of the mesh."""
     _, hulls = mesh.surface().closed()
     for number, hull in enumerate(hulls):
         seen = against_triangles(curved, hull.mesh, 0.0, move)
         harmless = _outcome(seen) in ("separated", "touching" if outcome == "touching" else "")
         if seen.undecided or not harmless or _is_held(curved, hull, move):
             which = "the hole" if len(hulls) == 1 else f"hole {number + 1} of {len(hulls)}"
-            return f"{which} of {mesh.id} is where the curved shape is: what fills it decides"
+            return f"{which} of {mesh.id} meets the curved shape: what fills it decides"
     return None
 
 
 def _is_held(curved: CurvedShape, hull: core.Surface, move: Vector) -> bool:
-    """Whether the middle of the shape, moved, lies in the hull."""
+    """Whether the middle of the moved shape lies in the hull."""
     return hull.winding_number(added(curved.centre, move)) != 0
 
 
@@ -132,7 +133,7 @@ def _within(plan: Plan, mesh: PlacedBody, seen: Nearest, sign: float) -> Contact
         return Contact("penetrating", True)
     if seen.undecided or (nearest is not None and nearest.outcome != "separated"):
         plan.record(STAGE, "penetrating", f"within, and close to triangle {seen.triangle}")
-        return Contact("penetrating", False, reason=TOO_CLOSE)
+        return Contact("penetrating", False, reason=TOO_CLOSE, overlaps=True)
     relation: Relation = "inside" if sign > 0 else "contains"
     plan.record(STAGE, relation, "no triangle meets the shape, and its middle lies inside")
     return Contact(relation, True)
@@ -152,14 +153,30 @@ def _crossing(pair: Pair, plan: Plan, triangles: int) -> Contact:
         relation = "contains" if sign > 0 else "inside"
     plan.record(STAGE, relation, f"{triangles} triangles meet the inside of the shape")
     reason = TOO_CLOSE if within is None else None
-    return Contact(relation, within is not None, reason=reason)
+    return Contact(relation, within is not None, reason=reason, overlaps=True)
+
+
+def _gap_of_holes(pair: Pair) -> float:
+    """A lower bound of the distance of the shape from the fills of all holes; inf where no hole is
+    within the gap of the question."""
+    curved, mesh, _ = _sides(pair)
+    _, hulls = mesh.surface().closed()
+    seen = [against_triangles(curved, hull.mesh, pair.asked_gap) for hull in hulls]
+    if any(one.undecided for one in seen):
+        return 0.0
+    lower = [one.nearest.lower for one in seen if one.nearest is not None]
+    return max(min(lower, default=math.inf), 0.0)
 
 
 def _apart(pair: Pair, plan: Plan, seen: Nearest, sign: float) -> Contact:
+    of_holes = _gap_of_holes(pair)
     if seen.nearest is None:
         plan.record(STAGE, "separated", "no triangle is near the shape")
-        return Contact("separated", True, math.nextafter(pair.asked_gap, math.inf))
+        beyond = math.nextafter(pair.asked_gap, math.inf)
+        return Contact("separated", True, min(beyond, of_holes))
     nearest: Signed = seen.nearest if sign > 0 else seen.nearest.swapped()
+    if nearest.outcome == "separated":
+        nearest = replace(nearest, lower=min(nearest.lower, of_holes))
     plan.record(STAGE, nearest.outcome, f"nearest is triangle {seen.triangle}")
     relation: Relation = "separated" if nearest.outcome == "separated" else "touching"
     exact = nearest.exact

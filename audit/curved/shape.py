@@ -162,7 +162,7 @@ def _scaled(primitive: Primitive, by: list[float]) -> Primitive:
         case Cone(radius, height) if across:
             return Cone(radius * a, height * c)
     kind = type(primitive).__name__.lower()
-    raise ValueError(f"a {kind} scaled unevenly is none")
+    raise ValueError(f"a {kind} scaled unevenly is no {kind}")
 
 
 def _same(a: float, b: float) -> bool:

@@ -1,1 +1,1 @@
-"""The figures of a pair: depth, way out, gap, contacts, volume, touch band: where asked for."""
+"""The figures of a pair, each only where needed: depth, gap, contacts, volume, touch band."""

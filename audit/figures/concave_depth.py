@@ -55,8 +55,8 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
 def _shortest_escape(
     pair: Pair, ways: list[tuple[float, Vector]], plan: Plan
 ) -> tuple[Escape, Vector]:
-    """The shortest of these ways out as verified, and its normal. Each is a length and a normal,
-    the shortest first: the next is tried only where verification made one longer than that."""
+    """The shortest of these ways out once verified, and its normal. ways: lengths and normals, the
+    shortest first. The next is tried only if verification made the best one longer than it."""
     shortest: tuple[Escape, Vector] | None = None
     for length, normal in ways:
         if shortest is not None and shortest[0].bound <= length:
@@ -72,8 +72,8 @@ def _shortest_escape(
 def _searched(
     pair: Pair, lower: float, upper: float, plan: Plan
 ) -> tuple[float, float, Vector | None]:
-    """The bounds and the way out that are narrow enough: also to say on which side of a limit the
-    depth is, as far as the budget goes."""
+    """Bounds and a way out that are narrow enough, also to decide a limit of the depth, as far as
+    the budget goes."""
     work, width = _budget(pair), pair.settings.depth_width
     found = search(pair, lower, upper, plan)
     way_out, upper = found.way_out, min(upper, found.bound)
@@ -137,8 +137,8 @@ def _cheap_lower_bound(pair: Pair, contact: Contact, plan: Plan) -> float:
 def depth_by_move(pair: Pair, contact: Contact, move: Vector, plan: Plan) -> Depth:
     """The depth of a pair that a verified translation of A within the touch band frees.
 
-    A band that somebody asked for is not allowed to make the figures coarser: a shorter move is
-    then searched, as without a band. Within the input precision there is nothing to refine.
+    A wide tolerance must not make the figures coarser: a shorter move is then searched, as without
+    a band. Within the input precision there is nothing to refine.
     """
     if pair.asked.tolerance is None:
         return depth_of_move(pair, move, crossing_depth(pair, contact.crossing))

@@ -52,8 +52,7 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
         witness = contact.point and Witness(contact.point, contact.point)
         return Gap(0.0, 0.0, True, not pair.asked.clearance, 0.0, None, witness)
     if pair.curved and contact.relation == "separated" and pair.may("hull"):
-        beyond = math.nextafter(pair.asked_gap, math.inf)  # no triangle was found within that
-        return _at_least(pair, max(contact.gap_lower, beyond))
+        return _at_least(pair, contact.gap_lower)
     settled = contact.gap_lower > pair.asked_gap or pair.asked_gap == 0
     if settled or not pair.may("exact"):
         return _at_least(pair, contact.gap_lower)
@@ -62,7 +61,7 @@ def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
 
 def _surface_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
-    asked = pair.asked.wants("distance")
+    asked = pair.wants_distance
     stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
     assert contact.climb is not None
     assert contact.climb.gap is not None
@@ -70,23 +69,28 @@ def _surface_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
     of_holes = contact.climb.gap_of_holes
     if math.isinf(found.distance):
         plan.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
-        return _at_least(pair, of_holes or math.nextafter(limit, math.inf))
+        beyond = math.nextafter(limit, math.inf)
+        return _at_least(pair, beyond if of_holes is None else of_holes)
     plan.add(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}", cost)
     rounding = rounding_pad(pair.largest_coordinate)
     nearest = found.distance if of_holes is None else of_holes
     lower, upper = max(nearest - rounding, 0.0), found.distance + rounding
 
-    def compare(length: float) -> int | None:
-        """What fills a hole can only be nearer than the surface."""
-        side = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
-        return side if side <= 0 or of_holes is None else None
+    def side(length: float, sure: tuple[int, ...]) -> int | None:
+        """The sign of (distance - length). What fills a hole may be nearer than the surfaces, so
+        that only some signs are sure."""
+        sign = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
+        return sign if of_holes is None or sign in sure else None
 
+    tolerance, clearance = pair.tolerance, pair.asked.clearance
+    within = _is_within(lower, upper, tolerance, lambda length: side(length, sure=(-1, 0)))
+    kept = _is_kept(lower, upper, clearance, lambda length: side(length, sure=(-1,)))
     return Gap(
         lower,
         upper,
-        _is_within(lower, upper, pair.tolerance, compare),
-        _is_kept(lower, upper, pair.asked.clearance, compare),
-        found.distance,
+        within,
+        kept,
+        _on_its_side(found.distance, pair, within, kept),
         _direction(found.witness_a, found.witness_b),
         Witness(found.witness_a, found.witness_b),
     )
@@ -102,15 +106,10 @@ def _convex_gap(pair: Pair, result: core.PairResult | Signed) -> Gap:
     def compare(length: float) -> int | None:
         return compare_convex(pair, length)
 
-    return Gap(
-        lower,
-        upper,
-        _is_within(lower, upper, pair.tolerance, compare),
-        _is_kept(lower, upper, pair.asked.clearance, compare),
-        distance,
-        result.normal,
-        witness,
-    )
+    within = _is_within(lower, upper, pair.tolerance, compare)
+    kept = _is_kept(lower, upper, pair.asked.clearance, compare)
+    distance = _on_its_side(distance, pair, within, kept)
+    return Gap(lower, upper, within, kept, distance, result.normal, witness)
 
 
 def _at_least(pair: Pair, lower: float) -> Gap:
@@ -142,6 +141,19 @@ def _is_kept(lower: float, upper: float, clearance: float | None, compare: Compa
         return True
     side = -1 if upper < clearance else compare(clearance)
     return keeps(clearance, lower, upper) if side is None else side >= 0
+
+
+def _on_its_side(distance: float, pair: Pair, within: bool | None, kept: bool | None) -> float:
+    """The rounded distance, no further than the tolerance and the clearance that it is proven to be
+    at most, or at least."""
+    clearance = pair.asked.clearance or 0.0
+    if within:
+        distance = min(distance, pair.tolerance)
+    elif within is False:
+        distance = max(distance, pair.tolerance)
+    if clearance and kept is not None:
+        distance = max(distance, clearance) if kept else min(distance, clearance)
+    return distance
 
 
 def _direction(start: Vector, end: Vector) -> Vector | None:

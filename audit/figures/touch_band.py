@@ -28,7 +28,7 @@ from satcheck.core.frozen import frozen
 
 # A way out that exceeds the tolerance by no more than this factor is tried again as long as that.
 LITTLE_LONGER = 1 + EXACT_WIDTH
-# A length computed of a direction and the tolerance exceeds that by no more than this factor.
+# Rounding makes a unit direction times the tolerance longer by at most this factor.
 TO_ROUNDING = 1 + 16 * UNIT_ROUNDOFF
 # A band narrower than this share of the way out of the hulls.
 NARROW_BAND = 1 / 64

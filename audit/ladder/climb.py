@@ -87,5 +87,5 @@ def _overlaps(found: core.Climb) -> bool:
 
 
 def _question(pair: Pair) -> Question:
-    a, b, wants_distance = pair.a.geometry, pair.b.geometry, pair.asked.wants("distance")
-    return a, b, pair.asked_gap, pair.tolerance, wants_distance
+    a, b = pair.a.geometry, pair.b.geometry
+    return a, b, pair.asked_gap, pair.tolerance, pair.wants_distance

@@ -47,6 +47,13 @@ def _related(a: PlacedBody, height_a: float, b: PlacedBody, height_b: float, pla
     return core.mesh_relation(_reaching(a, height_a, plane), _reaching(b, height_b, plane)).relation
 
 
+def wall_gap(outer: PlacedBody, inner: PlacedBody, plane: Plane) -> float:
+    """How far the outline of a body is from that of one that it holds."""
+    height = max(body.bounds[1][axis_across(plane)] for body in (outer, inner))
+    around, within = _reaching(outer, 2 * height, plane), _reaching(inner, height, plane)
+    return core.mesh_distance(around, within).distance
+
+
 def _holds(outer: Box, inner: Box, plane: Plane) -> bool:
     return all(
         outer[0][axis] <= inner[0][axis] and inner[1][axis] <= outer[1][axis]

@@ -36,7 +36,8 @@ RELATION_NAMED: dict[str, Relation] = {
 class Contact:
     """How two bodies relate, without a touch band.
 
-    proven: False where a capped ladder or a degenerate contact left it open.
+    proven: False where a capped ladder or a degenerate contact left it open. overlaps: although it
+    is not, an overlap is; open is whether one body holds the other.
     gap_lower: a proven lower bound of their distance, 0.0 where none is known.
     convex: the signed distance, where both bodies are convex and it therefore says everything.
     crossing: indices of one triangle of each body that meet; point: a common point, rounded.
@@ -52,10 +53,11 @@ class Contact:
     point: Vector | None = None
     reason: str | None = None
     climb: core.Climb | None = None
+    overlaps: bool = False
 
 
 def settle(pair: Pair, plan: Plan, found: core.Climb | None = None) -> Contact:
-    """The relation of the pair by the lowest rung that settles what is asked.
+    """The relation of the pair by the lowest rung that settles the question.
 
     found: its climb, where it has been made; the rungs are then only put into words.
     """
@@ -121,7 +123,7 @@ def boxes_apart(pair: Pair, plan: Plan) -> float:
 
 
 def _outlines_apart(pair: Pair, plan: Plan) -> bool:
-    """Whether, in a check in a plane, an edge of two convex outlines proves what is asked."""
+    """In a check in a plane: whether an edge of two convex outlines settles the question."""
     a, b = pair.a.body.file.outline, pair.b.body.file.outline
     if a is None or b is None:
         return False
@@ -175,7 +177,5 @@ def _open(pair: Pair, hole: core.OpenHole) -> str:
     body, other = (pair.a, pair.b) if hole.of_a else (pair.b, pair.a)
     at = ", ".join(f"{c:.4g}" for c in hole.centre)
     which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
-    return (
-        f"{which} of {body.id}, {hole.diameter:.3g} across at ({at}), is where {other.id} is: "
-        "what fills it decides"
-    )
+    where = f"in a box {hole.diameter:.3g} from corner to corner at ({at})"
+    return f"{which} of {body.id}, {where}, meets {other.id}: what fills it decides the relation"

@@ -25,6 +25,9 @@ def settle_by_parts(pair: Pair, plan: Plan) -> Contact:
     if not pair.both_solid:
         plan.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
         return Contact("penetrating", False)
+    if any(body.shared.has_sheets() for body in (pair.a, pair.b)):
+        plan.record("parts", "not asked", "a sheet has no inside to fill, and parts leave it out")
+        return Contact("penetrating", False)
     split_together(pair)
     covers = [covering(body, plan) for body in (pair.a, pair.b)]
     if covers[0] is None or covers[1] is None:

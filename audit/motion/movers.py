@@ -54,6 +54,12 @@ class Movers:
         """Warnings about motions of bodies that are not there."""
         lost = self._motion.keys() - set(bodies)
         return [
-            Issue("unknown-body", "warning", None, None, f"a motion names {body!r}: there is none")
+            Issue(
+                "unknown-body",
+                "warning",
+                None,
+                None,
+                f"a motion names {body!r}, and no body has this id",
+            )
             for body in sorted(lost)
         ]

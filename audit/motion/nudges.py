@@ -35,7 +35,7 @@ SHARES = (0.9, 0.3)
 
 
 class Nudges:
-    """Keeps the nudge that served last: a contact goes on as it was, as a rule."""
+    """Keeps the nudge that served last: a contact usually goes on as it was."""
 
     def __init__(self, pair: MovingPair) -> None:
         self._pair = pair

@@ -8,8 +8,14 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.impact import Impact, first_impact, possible_overlap
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.track import STANDS, track_of
-from satcheck.audit.motion.worst import Worst, deepest_pose, least_distance
+from satcheck.audit.motion.worst import (
+    Worst,
+    deepest_pose,
+    least_distance,
+    least_hull_distance,
+)
 from satcheck.audit.report.motion_report import Place, Relation, Sweep, WorstPose
+from satcheck.core.frozen import replace
 from satcheck.scene.motion import Path, Rotation, Translation
 
 
@@ -86,14 +92,14 @@ class _Answer:
 
     def _free(self) -> Sweep:
         pair, impact = self._pair, self._impact
-        worst = self._nearest()
+        worst = self._with_fills(self._nearest())
         return Sweep(
             self._relation(worst),
             pair.tolerance,
             1.0,
             contact=impact.contact,
             worst=self._pose(worst),
-            reason=self._hollow(),
+            reason=self._unfilled(),
             steps=pair.steps,
         )
 
@@ -109,19 +115,34 @@ class _Answer:
         except Unanswerable:
             return unknown
 
+    def _with_fills(self, worst: Worst) -> Worst:
+        """What fills a hole may be nearer than the surfaces, yet no nearer than the hulls."""
+        clearance = self._pair.pair.asked.clearance
+        if not clearance or not self._holed():
+            return worst
+        hulls = least_hull_distance(self._pair, worst.upper, clearance)
+        return replace(worst, lower=min(worst.lower, hulls))
+
     def _relation(self, worst: Worst) -> Relation:
         """Of bodies that the scan has shown to be apart, or within the touch band, all the way."""
         if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
             return "touching"
         return "near" if worst.upper < (self._pair.pair.asked.clearance or 0.0) else "separated"
 
-    def _hollow(self) -> str | None:
-        """What surfaces alone do not show: whether a body came to lie in one that has no inside."""
+    def _holed(self) -> list[str]:
+        """The bodies of which a fill may matter. Sheets have no inside, and --allow-open reads all
+        that is open as sheets."""
         pair = self._pair.pair
-        hollow = [b.id for b in (pair.a, pair.b) if not b.solid and not b.body.file.health.flat]
-        if not hollow or self._pair.hulls_apart:
+        if pair.settings.allow_open:
+            return []
+        return [b.id for b in (pair.a, pair.b) if b.body.file.health.holes]
+
+    def _unfilled(self) -> str | None:
+        """Which holes leave open whether a body came to lie in the other: no fill is swept."""
+        holed = self._holed()
+        if not holed or self._pair.hulls_apart:
             return None
-        return f"surfaces only: what {' and '.join(hollow)} may enclose on the way was not checked"
+        return f"what fills the holes of {' and '.join(holed)} was not swept"
 
     def _pose(self, worst: Worst) -> WorstPose | None:
         if math.isinf(worst.upper):

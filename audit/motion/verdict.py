@@ -62,16 +62,15 @@ def _judged(found: Sweep, pair: Pair) -> Judgement:
     clearance = _clearance(found, asked)
     if clearance is not None and clearance.severity == "error":
         return clearance
-    if found.reason is not None and not pair.settings.allow_open:
+    if found.reason is not None:
         return Judgement("warning", undecided="inside")
     if clearance is not None:
         return clearance
-    touches = found.relation == "touching" or found.reason is not None
-    return Judgement("note" if touches else "none")
+    return Judgement("note" if found.relation == "touching" else "none")
 
 
 def _clearance(found: Sweep, asked: Asked) -> Judgement | None:
-    """None where it is kept all the way, or none is asked for."""
+    """None where the clearance is kept all the way, or there is none."""
     worst = found.worst
     gap = (0.0, math.inf) if worst is None else worst.distance or (0.0, 0.0)
     return of_clearance(asked, *gap)

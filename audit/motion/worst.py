@@ -45,6 +45,13 @@ def least_distance(pair: MovingPair, enough: float | None = None) -> Worst | Non
     return _least(pair, pair.least_gap, enough)
 
 
+def least_hull_distance(pair: MovingPair, most: float, enough: float) -> float:
+    """A lower bound of the least distance of the hulls. most: an upper one of the distance that is
+    asked about; the search goes on until it is known whether that keeps the clearance `enough`."""
+    found = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), most), enough)
+    return 0.0 if found is None else max(found.lower, 0.0)
+
+
 def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     """Minus the depth of bodies that are not both convex and overlap at t = impact.
 

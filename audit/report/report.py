@@ -2,7 +2,8 @@
 
 World frame, right-handed, lengths in the units of the files. `normal` is a unit vector from A to
 B; `distance` is a gap >= 0; `depth` is how far A has to move, without rotation, until A and B have
-no common interior; `mtv` is the translation to add to A. What was not asked for is None, never 0.
+no common interior; `mtv` is the translation to add to A. A figure that was not computed
+is None, never 0.
 """
 
 from __future__ import annotations
@@ -55,6 +56,8 @@ ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
 TIME = "microseconds"
 # The code of an issue about a pair that failed by a fault of satcheck itself.
 INTERNAL_ERROR = "internal-error"
+# No pair is asked about: within one link, allowed, or exempt.
+NOTHING_TO_CHECK = "nothing-to-check"
 # Codes of warnings about sizes that make an answer doubtful.
 TOLERANCE_LARGE = "tolerance-large"
 SIZES_DIFFER = "sizes-differ"
@@ -74,7 +77,7 @@ class PairCounts:
 
     Pruned: the world boxes are apart by more than was asked about. Allowed: the scene permits
     contact, nothing was computed. Exempt: pairs within one ignored group, and pairs of static
-    bodies; nobody asks about them, and they are no part of the total.
+    bodies; they are not part of the total.
     """
 
     total: int
@@ -84,15 +87,20 @@ class PairCounts:
     indeterminate: int
     exempt: int = 0
 
+    @property
+    def asked(self) -> int:
+        """The pairs that are checked: with none, nothing is."""
+        return self.total - self.allowed
+
 
 @frozen
 class Summary:
     """by_relation counts every pair that is not allowed; pruned pairs count as separated.
 
-    surfaces_only: of those, the decided pairs of which one body may lie inside the other, but the
-    other has no inside to check (none with Settings.allow_open). limits_undecided: those of which
-    it could not be decided whether an overlap is within the limits of its rules, or a gap keeps
-    its clearance, at rest or on the way.
+    surfaces_only: the pairs of which one body may come to lie in the other while they move, as what
+    fills the holes of a mesh is not swept (none with Settings.allow_open). limits_undecided: those
+    of which it could not be decided whether an overlap is within the limits of its rules, or a gap
+    keeps its clearance, at rest or on the way.
     sweeps_undecided: the pairs of which it could not be decided whether they hit while they move.
     disputed: the pairs on which another library contradicts the answer (Settings.cross_check).
     """
@@ -180,15 +188,17 @@ class Finding:
 
     relation: with the touch band, as the bodies are placed, and at the worst of their way where
     they move. placed_relation: as they are placed, of bodies that move. exact_relation: as they
-    are placed, without the band (None where a capped ladder left it open). tolerance: the touch
-    band of this pair.
+    are placed, without the band (None where a capped ladder left it open, or where polygons do not
+    show it of the curves that they stand for). tolerance: the touch band of this pair.
     quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
-    is proven, the depth is a proven interval; estimate: not proven.
+    is proven, the depth or the gap is a proven interval; estimate: not proven.
     rule: what decided the severity, where it was no matter of course: "clearance", or the name of a
     rule. undecided: what was asked and could not be decided; the severity is then a warning at
     least.
     distance: the gap, of bodies without a common interior; None, too, where nobody asked for it,
-    and where it need not be measured to be more than the clearance.
+    and where it need not be measured to be more than the clearance. distance_bounds: contains the
+    true gap, where polygons stand for curves in a check in a plane; the distance is then that of
+    the polygons.
     volume: what both have in common; volume_error: about how far off that is, not proven (0.0: the
     volume is exactly 0.0). Neither weakens the quality.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
@@ -197,7 +207,7 @@ class Finding:
     or their boxes stay apart; relation, severity and undecided count it, figures are as placed.
     """
 
-    SAID_IF_KNOWN = ("motion", "placed_relation")
+    SAID_IF_KNOWN = ("distance_bounds", "motion", "placed_relation")
 
     id: str
     a: str
@@ -210,6 +220,7 @@ class Finding:
     exact_relation: Relation | None = None
     tolerance: float | None = None
     distance: float | None = None
+    distance_bounds: tuple[float, float] | None = None
     depth: float | None = None
     depth_bounds: tuple[float, float] | None = None
     quality: Quality | None = None
@@ -237,8 +248,8 @@ class Finding:
 class EffectReport:
     """What a check computes beyond reading files, over all pairs.
 
-    asked_by: flags, and the rules that ask; empty: nobody does. pairs: on how many it ran; not_run:
-    why -> on how many it did not; together all pairs. microseconds: of its stages.
+    asked_by: the flags and rules that need it; empty: none does. pairs: on how many it ran.
+    not_run: why -> on how many it did not; together all pairs. microseconds: of its stages.
     """
 
     effect: Effect

@@ -15,12 +15,12 @@ from satcheck.core.frozen import frozen
 
 @frozen
 class Opinion:
-    """What a pair says where it is.
+    """How a pair is judged where it is.
 
-    open: a hole of one body leaves open whether they overlap. push: of an overlap, of a gap below
-    the clearance, away from a hole: a translation of the first body that ends it; None: none was
-    found. excused: nobody objects to what they do where
-    the scene has them, overlap within the touch band, for instance.
+    open: a hole of one body leaves open whether they overlap. push: a translation of the first body
+    that ends the overlap, widens the gap to the clearance, or leads away from the hole; None: none
+    was found. excused: no check fails on them where the scene has them, although they overlap or
+    may overlap: within the touch band, for instance.
     """
 
     kind: Literal["free", "overlap", "near", "open", "undecided"]
@@ -62,7 +62,7 @@ def may_overlap(pair: Pair) -> float:
 
 
 def is_overlap_excused(found: Finding) -> bool:
-    """Nobody objects to an overlap, or to what nobody can see."""
+    """Of a finding that no check fails on: whether it is an overlap, or may be one."""
     return found.exact_relation in OVERLAPS or found.undecided is not None
 
 

@@ -18,7 +18,7 @@ ONLY_MOVING = "only while they move, and motions are not resolved"
 def reasons(
     crowd: Crowd, staying: frozenset[str], links: frozenset[str], given_up: dict[BodyPair, str]
 ) -> dict[frozenset[str], str]:
-    """Why pairs are left, of those that nobody objects to as they are placed among them."""
+    """Why pairs are left, including those that no check fails on as they are placed."""
     found = {}
     for pair, said in crowd.opinions(crowd.close_pairs()).items():
         ids = frozenset(crowd.home[i].id for i in pair)

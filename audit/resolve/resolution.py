@@ -46,15 +46,16 @@ class Left:
 class Resolution:
     """moves: of the bodies that were moved, in the order of the scene. pinned: those that had to
     stay. overlaps, gaps: pairs that a check of the scene as it was fails on, because they overlap
-    beyond what rules allow, or are closer than their clearance. rounds: how often bodies were
-    pushed. left: what could not be resolved. report: of a check of the moved scene; the verdict is
-    its own.
+    beyond what rules allow, or are closer than their clearance. open: pairs of which a hole leaves
+    open whether they overlap. rounds: how often bodies were pushed. left: what could not be
+    resolved. report: of a check of the moved scene; the verdict is its own.
     """
 
     moves: tuple[Move, ...]
     pinned: tuple[str, ...]
     overlaps: int
     gaps: int
+    open: int
     rounds: int
     left: tuple[Left, ...]
     report: Report
@@ -65,7 +66,7 @@ class Resolution:
 
     @property
     def found(self) -> int:
-        return self.overlaps + self.gaps
+        return self.overlaps + self.gaps + self.open
 
     @property
     def remaining(self) -> tuple[Finding, ...]:
@@ -100,6 +101,7 @@ class Resolution:
                 "verdict": self.verdict,
                 "found": self.found,
                 "gaps": self.gaps,
+                "open": self.open,
                 "remaining": len(self.remaining),
                 "flush": self.flush,
                 "moved": len(self.moves),

@@ -42,15 +42,14 @@ def resolve(
 ) -> Resolution:
     """Translations, without rotation, that end every overlap of a scene that can be ended.
 
-    What counts as one is what `check` with these settings finds: a pair that the scene allows or
-    ignores stays as it is, one within the touch band counts as touching, one closer than the
-    clearance is pushed apart until it keeps it. Bodies that are moved are moved until they are free
-    without any touch band. The sum of the squares of the translations is made small, not least.
+    `check` with these settings decides what an overlap is: a pair that the scene allows or ignores
+    stays, and an overlap within the touch band is a touch. A pair closer than its clearance is
+    pushed apart. A body that is moved ends free of all others, without any touch band. The sum of
+    the squared lengths of the translations is small, not least.
 
-    pins: selectors of bodies that stay, as in rules; those that the scene calls static or pinned
-    stay too, and so do the links of robots.
-    max_motion: no body is moved farther. iterations: rounds of pushing, after which bodies are
-    taken out to free places, wherever these are. progress(done, total) counts pairs.
+    pins: selectors of bodies that stay, as in rules. Static and pinned bodies of the scene and
+    links of robots stay too. max_motion: no body is moved farther. iterations: rounds of pushing,
+    after which bodies are taken out to free places. progress(done, total) counts pairs.
 
     Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
     """
@@ -59,6 +58,7 @@ def resolve(
         raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
     if iterations < 0:
         raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
+    scene.require_in_space("resolve moves bodies in space only")
     scene.require_one_unit()
     staying = _staying(scene, pins)
     with ExitStack() as stack:
@@ -80,13 +80,14 @@ def resolve(
             write_plainly(crowd, rounds.left, longest)
         why = reasons(crowd, staying, _links(scene), rounds.left)
     moves = _moves(scene, crowd)
-    moved = moved_scene(scene, {move.body: move.translation for move in moves})
-    report = check(moved, proof_of(settings))
+    translations = {move.body: move.translation for move in moves}
+    report = check(moved_scene(scene, translations), proof_of(settings))
     return Resolution(
         moves=moves,
         pinned=tuple(body.id for body in scene.bodies if body.id in staying),
         overlaps=kinds["overlap"],
         gaps=kinds["near"],
+        open=kinds["open"],
         rounds=rounds.count,
         left=tuple(left_pairs(report, why)),
         report=report,
@@ -130,17 +131,16 @@ def _links(scene: Scene) -> frozenset[str]:
 
 def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     links = _links(scene)
-    selectors = [Selector(pin) for pin in pins]
-    for selector in selectors:
-        if not any(selector.matches(body.id, body.groups) for body in scene.bodies):
+    pinned: set[str] = set()
+    for selector in map(Selector, pins):
+        chosen = selector.select(scene.in_order())
+        if not chosen:
             raise SatcheckError("unknown-pin", f"no body is called {selector.text!r}")
+        pinned.update(body.id for body in chosen)
     return frozenset(
         body.id
         for body in scene.bodies
-        if body.static
-        or body.pinned
-        or body.id in links
-        or any(pin.matches(body.id, body.groups) for pin in selectors)
+        if body.static or body.pinned or body.id in links or body.id in pinned
     )
 
 

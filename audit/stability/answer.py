@@ -35,7 +35,7 @@ class Answer:
     gap: of bodies that do not overlap. depth: proven bounds, of overlapping ones. hold: however the
     surfaces are moved, by less than this together, the relation stays, except that an overlap whose
     surfaces cross may become nested. largest: the largest coordinate of the world meshes. convex:
-    both bodies are; None where nobody had to know. Lengths in the units of the files.
+    both bodies are; None where it was not needed. Lengths in the units of the files.
     """
 
     relation: Relation
@@ -68,7 +68,7 @@ def ask(variant: Variant, settings: Settings) -> Answer:
 
 def _with_reach(settings: Settings, largest: float) -> Settings:
     """Measures every gap: a clearance beyond any, a power of two, so that it scales with the pair;
-    no touch band, because the exact relation is what is asked."""
+    no touch band, because stability is about the exact relation."""
     reach = math.ldexp(1.0, math.frexp(largest)[1] + 2)
     return replace(settings, clearance=reach, tolerance=0.0, list_pruned=True, jobs=1)
 
@@ -104,15 +104,24 @@ def _hold(relation: Relation, finding: Finding, bodies: tuple[Body, Body]) -> fl
         return finding.distance or 0.0
     if relation not in OVERLAPS:
         return 0.0
-    settings = Settings()
-    a, b = (PlacedBody(one, SharedMesh(one.file, settings)) for one in bodies)
-    pair = Pair(a, b, settings, asked_by(settings))
+    pair = _pair(bodies)
     if relation in NESTED:
         return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
     found = core.mesh_relation(pair.a.surface(), pair.b.surface())
     if found.triangle_a < 0 or found.triangle_b < 0:
         return 0.0
     return crossing_depth(pair, (found.triangle_a, found.triangle_b))
+
+
+def touch_band(bodies: tuple[Body, Body]) -> float:
+    """Of a plain check of the two."""
+    return _pair(bodies).tolerance
+
+
+def _pair(bodies: tuple[Body, Body]) -> Pair:
+    settings = Settings()
+    a, b = (PlacedBody(one, SharedMesh(one.file, settings)) for one in bodies)
+    return Pair(a, b, settings, asked_by(settings))
 
 
 def _taken_back(answer: Answer, variant: Variant) -> Answer:

@@ -10,7 +10,7 @@ from numpy.random import Generator
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import Progress
-from satcheck.audit.stability.answer import ask
+from satcheck.audit.stability.answer import ask, touch_band
 from satcheck.audit.stability.comparison import compare
 from satcheck.audit.stability.meshings import noisy, reordered, retessellated
 from satcheck.audit.stability.placements import in_motion, reaxed, scaled, swapped, translated
@@ -18,6 +18,7 @@ from satcheck.audit.stability.result import FamilyResult, Sample, Stability
 from satcheck.audit.stability.variant import FAMILIES, Family, Question, Variant, body
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
+from satcheck.scene.other_unit import require_in_range
 
 Make = Callable[[Question, int, Generator], Iterator[Variant]]
 
@@ -68,10 +69,13 @@ def probe(
                 progress(done, total)
         skipped = None if found else _NOTHING_TO_ASK.get(family)
         results.append(FamilyResult(family, tuple(found), skipped))
-    return Stability(question.a.path, question.b.path, seed, asked, tuple(results))
+    band = touch_band((as_asked.a, as_asked.b))
+    return Stability(question.a.path, question.b.path, seed, asked, tuple(results), band)
 
 
 def _question(scene: Scene) -> Question:
+    scene.require_in_space("stability is asked about meshes only")
+    require_in_range(scene)
     placed = [body for body in scene.bodies if body.transform is not None]
     if len(scene.bodies) != 2 or scene.unreadable or placed:
         raise SatcheckError("not-a-pair", "stability is asked about two mesh files of one unit")

@@ -62,13 +62,22 @@ class FamilyResult:
 
 @frozen
 class Stability:
-    """a, b: the names of the files. asked: the answer to the question as given."""
+    """a, b: the names of the files. asked: the answer to the question as given. band: up to this
+    gap or depth a plain check says `touching`; here nothing is within a band."""
 
     a: str
     b: str
     seed: int
     asked: Answer
     families: tuple[FamilyResult, ...]
+    band: float = 0.0
+
+    @property
+    def in_band(self) -> bool:
+        """Whether a plain check answers `touching` instead."""
+        asked = self.asked
+        most = asked.gap if asked.depth is None else asked.depth[1]
+        return asked.relation != "touching" and most is not None and most <= self.band
 
     @property
     def verdict(self) -> Verdict:

@@ -27,7 +27,7 @@ class OwnMemory:
 
     @property
     def grown(self) -> float | None:
-        """MiB, at most until now; None where nobody says."""
+        """The largest use so far, MiB; None where the system does not say."""
         if self._before is None:
             return None
         mark = _mark(_SELF)
@@ -46,7 +46,7 @@ def _fresh_mark() -> float | None:
 class ChildMemory:
     """Context manager that looks at all children of this process from time to time.
 
-    megabytes: the largest resident set that one of them had, in MiB; None where nobody says. A last
+    megabytes: the largest resident set that one of them had, in MiB; None where unknown. A last
     rise within 20 ms of a child's end can be missed.
     """
 

@@ -64,7 +64,7 @@ class Row:
 
     @property
     def standing(self) -> int:
-        """0: proven, 1: a guess that is right, or nobody knows, 2: wrong."""
+        """0: proven, 1: a guess that is right or cannot be judged, 2: wrong."""
         if self.right is False:
             return 2
         return 0 if self.proven else 1

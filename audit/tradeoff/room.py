@@ -1,6 +1,6 @@
 """How much room bodies take, and the shapes that a rung puts in their place: volumes, in the world.
 
-None: there is no such volume, or nobody knows it.
+None: there is no such volume, or it is unknown.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ def own_room(body: PlacedBody) -> float | None:
     """Of solids that cover no point twice."""
     if body.curved is not None or not body.solid or not body.shared.covers_once():
         return None
-    return abs(body.body.file.health.volume) * _growth(body)
+    file = body.body.file
+    return math.ldexp(abs(file.health.volume), -3 * file.exponent) * _growth(body)
 
 
 def room(rung: str, body: PlacedBody) -> float | None:

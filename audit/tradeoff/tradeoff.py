@@ -16,6 +16,7 @@ from satcheck.audit.tradeoff.result import PairTradeoff, Tradeoff
 from satcheck.audit.tradeoff.rungs import RUNGS
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
+from satcheck.scene.other_unit import require_in_range
 
 
 def tradeoff(
@@ -32,8 +33,10 @@ def tradeoff(
     has its share of what those before it have left. pairs: at most so many. Bodies stand as the
     scene places them; of its rules only exemptions are followed.
     progress(done, total) counts runs.
-    Raises SatcheckError (`no-pair`, `units-unknown`) where no boxes meet.
+    Raises SatcheckError (`no-pair`, `units-unknown`, `planar-only`) where no boxes meet, and for a
+    drawing.
     """
+    scene.require_in_space("tradeoff compares meshes in space only")
     scene.require_one_unit()
     clock = Budget(budget)
     met = _pairs(scene)
@@ -59,6 +62,7 @@ def tradeoff(
 def _pairs(scene: Scene) -> list[Bodies]:
     """Of two bodies the pair, wherever they are; of more the asked ones whose boxes meet."""
     if len(scene.bodies) == 2:
+        require_in_range(scene)
         a, b = scene.bodies
         return [(a, b)]
     settings = Settings()

@@ -69,7 +69,7 @@ def _of_samples(entries: list[dict[str, Any]], folder: Path) -> Iterator[Case]:
             continue
         seen.add(names)
         a, b = (str(folder / name) for name in names)
-        # Exit code 3: by its surfaces only, since one of the two has no inside.
+        # Exit code 3: the relation is not decided.
         known = entry["exit"] != 3
         stated = Stated(
             overlap=_overlap(entry["relation"]) if known else None, depth=entry["depth"]

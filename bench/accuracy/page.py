@@ -94,7 +94,7 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
     lines = [
         "# What accuracy costs in time",
         f"Every rung of the ladder was asked about the same {len(records)} pairs of meshes, and "
-        f"each answer was held against what is known and proven. {run.about}".strip(),
+        f"each answer was compared with what is known and proven. {run.about}".strip(),
         "Errors are in percent of the size of the smaller body:",
         "\n".join(
             [
@@ -105,8 +105,8 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
                 *_of_parts(concave),
             ]
         ),
-        "So a check goes from boxes over hulls to triangles, and makes convex parts only for who "
-        "asks for them (`--accuracy parts`).",
+        "So a check goes from boxes over hulls to triangles, and builds convex parts only on "
+        "request (`--accuracy parts`).",
         "Times are of a machine with much else to do: read ratios, not absolute times. An error is "
         "the signed distance that a rung gives (a gap, or minus the depth) less the nearest that "
         "the proof leaves open; the size of a body is the diagonal of its box.",
@@ -137,8 +137,8 @@ def _of_parts(concave: Sequence[Record]) -> list[str]:
         for one in dict.fromkeys((made[0], made[-1]))
     ]
     return [
-        "- **Convex parts**, made anew, take a multiple of the time of the proof on the same "
-        f"pairs: {', '.join(said)}."
+        "- **Convex parts**, built from nothing, take a multiple of the time of the proof on the "
+        f"same pairs: {', '.join(said)}."
     ]
 
 

@@ -57,10 +57,10 @@ def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record
             "## What the next factor of accuracy costs",
             _figure(folder, "ladder.svg", "Error against time, rung by rung"),
             f"The {len(concave)} pairs that boxes and hulls leave open. Across: CPU time on a "
-            "pair, everything made anew, over that of the exact rung on the same pair (1 x is the "
-            "proof; cached parts: wall time). Up: median error. Both with quartiles; in brackets "
-            "the number of pairs: convex parts count where there was time to make them, and of "
-            "bodies with an inside.",
+            "pair, everything built from nothing, over that of the exact rung on the same pair (1 "
+            "x is the proof; cached parts: wall time). Up: median error. Both with quartiles; in "
+            "brackets the number of pairs: convex parts count where there was time to make them, "
+            "and of bodies with an inside.",
             "Step by step, each over the pairs that both rungs answered: up to hulls of all pairs, "
             "beyond them of those that they leave open.",
             words.table(head, rows),
@@ -100,8 +100,8 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
             "## Cost and error of each rung, over all pairs",
             _figure(folder, "rungs.svg", "Time and error of every pair, rung by rung"),
             "Wall time, cold: from meshes in memory to the answer, with hulls, trees and parts "
-            "made anew; of the Boolean with the start of its child process. Cached: parts read "
-            "from disk, the child process running. CPU: median of the cold runs, children "
+            "built from nothing; of the Boolean with the start of its child process. Cached: parts "
+            "read from disk, the child process running. CPU: median of the cold runs, children "
             "included. Memory: of the child process, or by how much the process grows that asks, "
             "whichever is more; median. Volume error: of what stands for a body, without its "
             "sign; median of the bodies that have a volume. Convex parts count where they were "
@@ -135,8 +135,9 @@ def of_verdicts(folder: str, found: dict[str, RungSummary]) -> str:
         [
             "## Yes or no",
             _figure(folder, "verdicts.svg", "Right and wrong verdicts, rung by rung"),
-            "A false hit is an overlap that is none, a miss the contrary. Boxes and hulls may only "
-            f"err towards an overlap: {counted(misses, 'miss', 'misses')} in {judged} verdicts. "
+            "A false hit is a reported overlap of bodies that do not overlap, a miss the contrary. "
+            f"Boxes and hulls may only err towards an overlap: "
+            f"{counted(misses, 'miss', 'misses')} in {judged} verdicts. "
             "Convex parts may err either way, and call possible what they cannot prove. "
             f"Verdicts that a rung called proven and that are wrong: {proofs}.",
             words.table(head, rows),

@@ -19,6 +19,7 @@ import numpy as np
 from bench.opinions.crossing import cross_for_sure
 from bench.opinions.meshes import read
 from bench.opinions.surface import Mesh, Points, area, distances, rim, winding_numbers
+from bench.peers.ask_fcl_mesh import soup
 
 Standing = Literal["agrees", "false", "doubted", "no answer"]
 
@@ -82,7 +83,7 @@ def contacts(a: Mesh, b: Mesh) -> list[tuple[int, int]]:
     """Triangles of A and B that meet, by FCL in float64; at most CONTACTS pairs."""
     request = fcl.CollisionRequest(num_max_contacts=CONTACTS, enable_contact=True)
     result = fcl.CollisionResult()
-    fcl.collide(_bvh(a), _bvh(b), request, result)
+    fcl.collide(soup(a.vertices, a.triangles), soup(b.vertices, b.triangles), request, result)
     return [(contact.b1, contact.b2) for contact in result.contacts]
 
 
@@ -135,14 +136,6 @@ def common_volume(a: Mesh, b: Mesh) -> float | None:
             return None
         solids.append(solid)
     return float((solids[0] ^ solids[1]).volume())
-
-
-def _bvh(mesh: Mesh) -> fcl.CollisionObject:
-    model = fcl.BVHModel()
-    model.beginModel(len(mesh.vertices), len(mesh.triangles))
-    model.addSubModel(mesh.vertices, mesh.triangles)
-    model.endModel()
-    return fcl.CollisionObject(model)
 
 
 def answer(question: dict[str, Any]) -> Opinion:

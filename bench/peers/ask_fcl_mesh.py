@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import fcl
 
 from bench.peers.protocol import Answer, Body, serve
 
 
-def model(body: Body) -> fcl.CollisionObject:
+def soup(vertices: Any, triangles: Any) -> fcl.CollisionObject:
+    """vertices (n, 3), triangles (m, 3) as indices."""
     bvh = fcl.BVHModel()
-    bvh.beginModel(len(body.vertices), len(body.triangles))
-    bvh.addSubModel(body.vertices, body.triangles)
+    bvh.beginModel(len(vertices), len(triangles))
+    bvh.addSubModel(vertices, triangles)
     bvh.endModel()
     return fcl.CollisionObject(bvh)
 
 
 def ask(a: Body, b: Body) -> Answer:
-    found = fcl.collide(model(a), model(b), fcl.CollisionRequest(), fcl.CollisionResult())
+    soups = (soup(body.vertices, body.triangles) for body in (a, b))
+    found = fcl.collide(*soups, fcl.CollisionRequest(), fcl.CollisionResult())
     return Answer("ok", found > 0)
 
 

@@ -55,10 +55,13 @@ class _DefaultCommand(Command):
         with formatter.section("Exit codes"):
             formatter.write_dl(
                 [
-                    ("0", "everything asked was checked, nothing was found"),
-                    ("1", "bodies overlap, or are closer than --clearance"),
+                    ("0", "everything was checked, and no pair fails"),
+                    (
+                        "1",
+                        "bodies overlap more than rules allow, or are closer than their clearance",
+                    ),
                     ("2", "wrong usage, an unreadable input, or an internal error"),
-                    ("3", "nothing was found, but not everything asked could be checked"),
+                    ("3", "no pair is known to fail, but not everything could be checked"),
                 ]
             )
         with formatter.section("Other commands"):
@@ -98,13 +101,13 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show, pair by pair, what was tested, what it settled and cost. JSON always does.",
+    help="Show the steps of each pair: what ran, what it settled, what it cost. JSON always does.",
 )
 @click.option(
     "--depth/--no-depth",
     default=None,
-    help="Find how deep bodies overlap, and the shortest way out.  [default: depth for mesh files; "
-    "for a scene only where a rule asks]",
+    help="Find how deep bodies overlap, and the shortest way out.  [default: depth for mesh files "
+    "of one body each; otherwise only where a rule needs it]",
 )
 @click.option(
     "--contacts",
@@ -115,7 +118,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--clearance",
     type=length,
-    help="Also find pairs with a gap smaller than this, and report the gap.",
+    help="Also report pairs with a gap smaller than this, and the gap.",
 )
 @click.option(
     "--tolerance",
@@ -129,7 +132,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     default=ACCURACY,
     show_default=True,
     help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
-    "All but exact may report overlaps that are none, and say so.",
+    "All but exact may report false overlaps, and call them possible.",
 )
 @click.option(
     "--depth-width",
@@ -145,8 +148,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="SECONDS",
     default=DEPTH_BUDGET,
     show_default=True,
-    help="Stop narrowing after this much work a pair. The seconds, of a slow machine, stand for a "
-    "number of steps: the answer is the same everywhere.",
+    help="Stop narrowing after this much work on a pair. It is counted in steps, which a slow "
+    "machine does in that many seconds: the answer is the same everywhere.",
 )
 @planar_option
 @split_option
@@ -168,7 +171,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--certificate",
     is_flag=True,
-    help="Give the proven verdicts of a JSON report evidence that satcheck verify checks.",
+    help="Add evidence to the proven verdicts of a JSON report; satcheck verify checks it.",
 )
 @jobs_option
 @click.option(
@@ -187,7 +190,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     default=True,
     help="Leave out times: same input, same bytes.",
 )
-@click.option("--exit-zero", is_flag=True, help="Exit with 0 even when something was found.")
+@click.option("--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail.")
 @units_option
 @outside_option
 @package_option
@@ -205,13 +208,13 @@ def command(**options: Any) -> int:
     """Do these meshes collide? How deep, and which way out?
 
     A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), each one
-    body; scenes (TOML or JSON: satcheck.scene/1, satcheck-scene-1) with several; robots (URDF, and
-    the SRDF about it), each link of which is one; or drawings (SVG, DXF), with --planar. One GLB,
-    glTF, 3MF or 3DXML file alone is a scene too: each node with a mesh is a body. Every pair of
-    bodies is checked, in the coordinates of the files. A body inside another collides with it.
+    body; scenes (TOML or JSON: satcheck.scene/1, satcheck-scene-1) of several bodies; robots (URDF,
+    and the SRDF about it), each link a body; or drawings (SVG, DXF), with --planar. One GLB, glTF,
+    3MF or 3DXML file alone is a scene too: each node with a mesh is a body. Every pair of bodies is
+    checked, in the coordinates of the files. A body inside another collides with it.
 
-    A LENGTH is a number in the units of the files. Where a scene declares its units, it may
-    carry one of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
+    A LENGTH is a number in the units of the files. Where a scene declares its units, the number may
+    carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
     from satcheck.cli.checking import Choices, run
     from satcheck.cli.posing import Posing

@@ -85,7 +85,7 @@ output_option = click.option(
     type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
     metavar="FILE",
     callback=_file_or_nothing,
-    help="Write the report to FILE; - is standard output.",
+    help="Write the result to FILE; - is standard output.",
 )
 outside_option = click.option(
     "--allow-outside",
@@ -96,25 +96,25 @@ outside_option = click.option(
 split_option = click.option(
     "--split",
     type=click.Choice(SPLITS),
-    help="What a body is: a node of a GLB, glTF or 3MF file, a connected component, or a whole "
-    "file. [default: nodes for one file alone, otherwise none]",
+    help="What a body is: a node of a GLB, glTF, 3MF or 3DXML file, a connected component, or a "
+    "whole file. [default: nodes for one file alone, otherwise none]",
 )
 planar_option = click.option(
     "--planar",
     type=click.Choice(PLANES),
-    help="Take bodies as their outlines in this plane: flat layouts, SVG and DXF drawings too.",
+    help="Check the outlines of bodies in this plane: flat layouts, SVG and DXF drawings too.",
 )
 units_option = click.option(
     "--units",
     type=click.Choice(UNITS),
-    help="The unit of length of the inputs that state none: OBJ, STL, PLY, OFF, a scene without "
-    "`units`.",
+    help="The unit of length of the inputs that state none: OBJ, STL, PLY, OFF, XAML, a scene "
+    "without `units`.",
 )
 open_option = click.option(
     "--allow-open",
     is_flag=True,
-    help="Meshes that are not closed are meant to be so: what nobody can say of their inside does "
-    "not make the check incomplete.",
+    help="Meshes that are not closed are meant to be open: their open parts are sheets, which have "
+    "no inside, and not solids with holes.",
 )
 jobs_option = click.option(
     "-j",

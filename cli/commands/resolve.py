@@ -38,7 +38,7 @@ from satcheck.cli.output import form_of
     "pins",
     multiple=True,
     metavar="GLOB",
-    help="Leave bodies with such ids where they are; group:GLOB, those in such groups. Repeatable.",
+    help="Do not move bodies with such an id, or with group:GLOB in such a group. Repeatable.",
 )
 @click.option(
     "--clearance",
@@ -48,7 +48,7 @@ from satcheck.cli.output import form_of
 @click.option(
     "--tolerance",
     type=length,
-    help="Take it for touching when depth is at most this. "
+    help="Call it touching when the depth is at most this. "
     "[default: the precision of the input files]",
 )
 @click.option("--max-motion", type=length, help="Move no body farther than this.")
@@ -58,7 +58,7 @@ from satcheck.cli.output import form_of
     metavar="N",
     default=50,
     show_default=True,
-    help="Rounds of pushing; what overlaps after them is taken out to a free place.",
+    help="Rounds of pushing; bodies that overlap after them are taken out to a free place.",
 )
 @open_option
 @jobs_option
@@ -70,7 +70,7 @@ from satcheck.cli.output import form_of
     "--pose",
     multiple=True,
     metavar="FILE",
-    help="Values of the joints of a robot, as in a check: its links stay where they put them.",
+    help="Values of the joints of a robot, as in a check: its links stay there.",
 )
 @click.option(
     "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
@@ -81,13 +81,13 @@ from satcheck.cli.output import form_of
 def command(debug: bool, pose: tuple[str, ...], state: tuple[str, ...], **options: Any) -> int:
     """Move the bodies of a scene apart, by short translations.
 
-    SCENE is a scene file, or mesh files, also with robots. Static bodies and pinned ones stay, so
-    do the links of robots, and pairs that the scene allows. Of several ways one with a small sum of
-    squared lengths is taken. The moved scene is checked afresh, and with --moved it is the file
-    written that is checked: what still overlaps is said.
+    SCENE is a scene file or mesh files, with or without robots. Static and pinned bodies stay, and
+    so do the links of robots and pairs that the scene allows. Among several ways resolve takes one
+    with a small sum of squared lengths. The moved scene is checked again (with --moved the file
+    that was written), and what still overlaps is reported.
 
     Exit codes: 0, nothing overlaps any more; 1, something does; 2, wrong usage, an unreadable
-    input, or an internal error; 3, nothing that is known overlaps, but not everything could be
+    input, or an internal error; 3, nothing is known to overlap, but not everything could be
     checked.
     """
     from satcheck.cli.posing import Posing

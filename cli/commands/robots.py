@@ -32,7 +32,8 @@ package_option = click.option(
     multiple=True,
     metavar="NAME=DIR",
     callback=_packages,
-    help="Where the ROS package NAME lies that a URDF names, or its folder NAME/DIR. Repeatable.",
+    help="The folder of the ROS package NAME that a URDF names; NAME can also be a folder in a "
+    "package (arm/meshes). Repeatable.",
 )
 
 
@@ -44,27 +45,27 @@ def pose_options(command: _Command) -> _Command:
                 "--pose",
                 multiple=True,
                 metavar="FILE",
-                help='Values of joints, {"joint": value} as a JSON file or as such: radians, '
-                "metres. Several, or a list of them, are checked one by one. Joints that are not "
-                "named are at 0.",
+                help='Values of joints, {"joint": value}: a JSON file, or the text; radians, '
+                "metres. Several poses, or a list of them, are checked one by one. Joints that are "
+                "not named are at 0, or at the limit nearest to 0.",
             ),
             click.option(
                 "--state",
                 multiple=True,
                 metavar="NAME",
-                help="A state that the SRDF names; several are put together, --pose goes on top.",
+                help="A state that the SRDF names. Several are combined; --pose overrides them.",
             ),
             click.option(
                 "--sample",
                 type=click.IntRange(min=1),
                 metavar="N",
-                help="Check N random poses within the limits; joints of --pose and --state stay.",
+                help="Check N random poses within the limits; joints in --pose and --state stay.",
             ),
             click.option(
                 "--seed",
                 type=click.IntRange(min=0),
                 metavar="N",
-                help="Which random poses: the same number draws the same ones.  [default: 0]",
+                help="Which random poses: the same seed draws the same poses.  [default: 0]",
             ),
         )
     ):

@@ -21,8 +21,11 @@ DOCUMENTS = (
 @click.command("schema", cls=Command, context_settings=HELP_NAMES)
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def command(document: str) -> None:
-    """Print the JSON Schema of a report: of a check, of resolve, of robots in many poses, of
-    stability, of suggestions, of tradeoff, of verify; or that of a scene file."""
+    """Print the JSON Schema of the report of a command, or of a scene file.
+
+    report is that of a check, samples that of a robot in many poses, resolution that of resolve,
+    suggestions that of suggest, verification that of verify.
+    """
     from satcheck.cli.output import Document
     from satcheck.cli.report.schema import text
 

@@ -35,12 +35,12 @@ from satcheck.cli.output import form_of
     metavar="N",
     default=0,
     show_default=True,
-    help="Which variants: the same number makes the same ones.",
+    help="Which variants: the same seed makes the same variants.",
 )
 @click.option("--depth/--no-depth", default=True, help="Compare depths as well.  [default: depth]")
 @form_option
 @output_option
-@click.option("--explain", is_flag=True, help="Show every variant, not only what went wrong.")
+@click.option("--explain", is_flag=True, help="Show every variant, not only those that went wrong.")
 @units_option
 @outside_option
 @debug_option
@@ -49,11 +49,10 @@ def command(debug: bool, **options: Any) -> int:
 
     The mesh files A and B are scaled by powers of two, stored in another order of vertices and
     faces, given other axes, swapped, moved, given other triangles, turned, and disturbed by one
-    unit in the last place, N samples of each. What changed is held against what may change, by
-    proof.
+    unit in the last place, N samples of each. Each change is compared with its proven bound.
 
-    Exit codes: 0, all is within its bound; 1, something is not; 2, wrong usage, an unreadable
-    input, or an internal error; 3, something could not be decided.
+    Exit codes: 0, everything is within its bound; 1, something is not; 2, wrong usage, an
+    unreadable input, or an internal error; 3, something could not be decided.
     """
     from satcheck.cli.stability import Choices, run
 

@@ -33,13 +33,13 @@ def _form_of(output: Path | None) -> str:
 @click.option(
     "--never",
     is_flag=True,
-    help="Suggest pairs too that met in none of the poses. That they never do is not proven.",
+    help="Also suggest pairs that met in none of the poses. It is not proven that they never do.",
 )
 @click.option(
     "--format",
     "form",
     type=click.Choice(FORMATS),
-    help="Rules for a scene file, data, or disable_collisions for the SRDF of a robot. "
+    help="toml: rules for a scene; json: data; srdf: disable_collisions for a robot. "
     "[default: as the name after -o ends; else toml]",
 )
 @output_option
@@ -53,10 +53,10 @@ def _form_of(output: Path | None) -> str:
 def command(debug: bool, **options: Any) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
-    These are the pairs in contact as they are placed, links of a robot with a joint between them,
-    and with --sample, or several poses, those that are in contact in every pose. One pose places
-    the robot. The evidence stands in the reason of each rule: whether the contact is meant is yours
-    to confirm.
+    These are the pairs in contact as they are placed, and links of a robot with a joint between
+    them. With --sample, or several poses, pairs in contact in every pose are added; a single pose
+    places the robot. The reason of each rule has the evidence. Confirm each rule: an intended
+    contact and a fault look the same.
 
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
     error; 3, something could not be decided.

@@ -37,7 +37,7 @@ from satcheck.cli.output import form_of
     metavar="SECONDS",
     default=60.0,
     show_default=True,
-    help="For the whole run; pairs share it. Rungs that do not fit are shown as not run.",
+    help="Time for the whole run, shared by all pairs. Rungs that do not fit are shown as not run.",
 )
 @click.option(
     "--pairs",
@@ -45,7 +45,7 @@ from satcheck.cli.output import form_of
     metavar="N",
     default=10,
     show_default=True,
-    help="Of a scene: at most so many of the pairs whose boxes meet.",
+    help="At most this many pairs of a scene, of those whose boxes meet.",
 )
 @click.option(
     "--plot",
@@ -63,8 +63,8 @@ def command(debug: bool, **options: Any) -> int:
     """What accuracy costs in time: every rung of the ladder on one pair.
 
     Boxes, oriented boxes, hulls, convex parts from coarse to fine, triangles and the Boolean of
-    manifold3d answer about the same bodies. Each answer is held against what the triangles prove.
-    A and B are mesh files, or a scene.
+    manifold3d answer about the same bodies. Each answer is compared with what the triangles prove.
+    A and B are mesh files; a scene can take their place.
 
     Exit codes: 0, every rung has answered; 2, wrong usage, an unreadable input, or an internal
     error; 3, a rung failed or was not run, or the truth is not known.

@@ -34,12 +34,12 @@ from satcheck.cli.output import form_of
 def command(debug: bool, **options: Any) -> int:
     """Re-check the certificates of a report from the mesh files.
 
-    REPORT is what satcheck --certificate -o REPORT.json A B wrote. Its verdicts are checked in
-    rational arithmetic by code of its own, which shares nothing with the solver. A verdict without
-    a certificate (an estimate below --accuracy exact, for instance) is not certified, and no pass.
+    satcheck --certificate -o REPORT.json A B writes such a report. Its verdicts are checked in
+    rational arithmetic, without the solver. A verdict without a certificate (an estimate below
+    --accuracy exact, for instance) is not certified and does not pass.
 
-    Exit codes: 0, every verdict is accepted; 1, one is rejected or not certified; 2, wrong usage,
-    an unreadable report, no certificate in it, a mesh file that is not there, or an internal error.
+    Exit codes: 0, every verdict is accepted; 1, a verdict is rejected or not certified; 2, wrong
+    usage, an unreadable report, no certificate in it, a missing mesh file, or an internal error.
     """
     from satcheck.cli.verifying import Choices, run
 

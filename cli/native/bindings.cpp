@@ -16,7 +16,7 @@ using namespace satcheck::cli;
 
 namespace {
 
-// Bytes of what is written at once, as a rule, and of a piece of a long document, at least.
+// Bytes that are usually written at once, and the least size of a piece of a long document.
 constexpr std::size_t kUsual = 4096, kPiece = 1 << 16;
 constexpr std::size_t kStep = 2;  // blanks that a depth more takes
 

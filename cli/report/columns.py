@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from rich.cells import cell_len, chop_cells
 
 from satcheck.audit.report.report import OVERLAPS
-from satcheck.cli.report.numbers import duration, number, vector
+from satcheck.cli.report.numbers import bounds, duration, number, vector
 from satcheck.cli.report.words import contacts, depth, in_motion
 from satcheck.core.frozen import frozen
 from satcheck.scene.units import unit_of
@@ -65,6 +65,7 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
     """Columns that would be empty in every row are left out."""
     known, some_deep = unit_of(units), any(finding.depth is not None for finding in findings)
     unit = f" ({known})" if known else ""
+    placed = " as placed" if any(finding.motion is not None for finding in findings) else ""
 
     def column(
         name: str, cell: Callable[[Finding], str], *, right: bool = False, folds: bool = False
@@ -83,8 +84,8 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
             folds=True,
         ),
         column(f"move A by{unit}", _mtv, folds=True),
-        column(f"volume ({known}^3)" if known else "volume", _volume, right=True),
-        column("contact", contacts, folds=True),
+        column(f"volume{placed}{f' ({known}^3)' if known else ''}", _volume, right=True),
+        column(f"contact{placed}", contacts, folds=True),
         column("in motion", lambda finding: in_motion(finding, known), folds=True),
         column("quality", lambda finding: finding.quality or ""),
     ]
@@ -151,7 +152,10 @@ def _broken_names(columns: Sequence[Column], width: int) -> Layout:
 
 
 def _gap(finding: Finding) -> str:
-    return "" if finding.distance is None or finding.distance <= 0 else number(finding.distance)
+    if finding.distance is None or finding.distance <= 0:
+        return ""
+    between = finding.distance_bounds
+    return number(finding.distance) if between is None else bounds(*between)
 
 
 def _unasked(finding: Finding) -> str:

@@ -1,4 +1,4 @@
-"""`--explain`: what was computed for whom, what is known about each body, the plan of each pair."""
+"""`--explain`: what was computed and why, the known facts of each body, the plan of each pair."""
 
 from __future__ import annotations
 

@@ -17,9 +17,9 @@ from satcheck.audit.report.report import (
 )
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
-    by_surfaces,
     counted,
     issue_line,
+    past_holes,
     place,
     with_unit,
 )
@@ -145,20 +145,21 @@ def _no_opinion(report: Report) -> Iterator[str]:
 def _of_bodies(report: Report) -> Iterator[str]:
     """A line for each body that something was left out for."""
     pairs: Counter[str] = Counter()
-    surfaces: Counter[str] = Counter()
+    swept: Counter[str] = Counter()
     for finding in report.findings:
         for id_ in (finding.a, finding.b):
             pairs[id_] += 1
-            surfaces[id_] += by_surfaces(finding)
+            swept[id_] += past_holes(finding)
     for body in report.bodies:
-        yield from _body(body, pairs[body.id], surfaces[body.id])
+        yield from _body(body, pairs[body.id], swept[body.id])
 
 
-def _body(body: BodyReport, pairs: int, surfaces: int) -> list[str]:
+def _body(body: BodyReport, pairs: int, swept: int) -> list[str]:
     if is_lost(body):
         return [f"{body.id}: could not be used, its {counted(pairs, 'pair')} not checked"]
-    if body.health is None or body.health.get("solid", True) or not surfaces:
+    if body.health is None or not body.health.get("holes") or not swept:
         return []
-    what = "no solid" if body.health.get("closed") else "not closed"
-    verb = "was" if surfaces == 1 else "were"
-    return [f"{body.id} is {what}: {counted(surfaces, 'pair')} {verb} checked by surfaces only"]
+    verb = "moves" if swept == 1 else "move"
+    return [
+        f"{body.id} has holes: {counted(swept, 'pair')} {verb} past them, and they may be filled"
+    ]

@@ -39,7 +39,7 @@ def render(found: Resolution, page: Page, output: str | None) -> str:
             f"{counted(found.flush, 'pair')} within the tolerance: they count as touching."
         )
     subject = "The moved scene" if output is None else output
-    console.print(f"{subject}, checked: {summary_line(found.report)}")
+    console.print(f"{subject}, checked: {summary_line(found.report, offers_depth=False)}")
     return console.text()
 
 
@@ -61,22 +61,29 @@ def _moves(moves: Sequence[Move], *, unicode: bool) -> Table:
 
 
 def _left_line(left: Left) -> str:
-    how = _RELATIONS.get(left.relation, left.relation)
-    return f"not resolved: {left.a} and {left.b} {how}: {left.reason}"
+    return f"not resolved: {_RELATIONS[left.relation].format(a=left.a, b=left.b)}: {left.reason}"
 
 
 _RELATIONS = {
-    "penetrating": "penetrate",
-    "coincident": "coincide",
-    "near": "are closer than their clearance",
+    "separated": "{a} and {b} are separated",
+    "near": "{a} and {b} are closer than their clearance",
+    "touching": "{a} and {b} touch",
+    "penetrating": "{a} and {b} penetrate",
+    "contains": "{a} contains {b}",
+    "inside": "{a} lies inside {b}",
+    "coincident": "{a} and {b} coincide",
+    "indeterminate": "{a} and {b} are indeterminate",
 }
 
 
 def _found(found: Resolution) -> str:
-    """`2 overlaps, 3 gaps below their clearance`."""
-    gaps = counted(found.gaps, "gap below its clearance", "gaps below their clearance")
-    overlaps = counted(found.overlaps, "overlap")
-    return ", ".join([overlaps] * (found.overlaps > 0) + [gaps] * (found.gaps > 0))
+    """`2 overlaps, 3 gaps below their clearance, 1 pair left open by a hole`."""
+    kinds = {
+        counted(found.overlaps, "overlap"): found.overlaps,
+        counted(found.gaps, "gap below its clearance", "gaps below their clearance"): found.gaps,
+        counted(found.open, "pair") + " left open by a hole": found.open,
+    }
+    return ", ".join(text for text, count in kinds.items() if count)
 
 
 def _motion_line(found: Resolution) -> str:

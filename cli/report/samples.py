@@ -12,7 +12,7 @@ from rich.text import Text
 
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.summary import doubts
+from satcheck.cli.report.summary import doubts, nothing_checked
 from satcheck.cli.report.words import counted, depth, in_motion, issue_line, with_unit
 from satcheck.scene.units import unit_of
 
@@ -73,7 +73,10 @@ def summary_line(found: Samples) -> str:
     line = (
         f"{counted(len(found.samples), kind)}{seed}, "
         f"{counted(len(found.bodies), 'body', 'bodies')}, "
-        f"{counted(len(found.pairs), 'pair')}: {', '.join(parts)}."
+        f"{counted(found.counts.total, 'pair')}"
+        f"{f', {found.counts.allowed:,} allowed' if found.counts.allowed else ''}"
+        f"{f', {found.counts.exempt:,} more exempt' if found.counts.exempt else ''}"
+        f": {', '.join(parts)}."
     )
     overlapping = sum(pair.overlaps > 0 for pair in found.pairs)
     if overlapping:
@@ -81,7 +84,7 @@ def summary_line(found: Samples) -> str:
         line += f" {counted(overlapping, 'pair')} {verb}."
     elif found.verdict == "pass":
         line += " No collision."
-    return " ".join([line, *doubts(found.issues)])
+    return " ".join([line, *nothing_checked(found.issues), *doubts(found.issues)])
 
 
 def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Table:

@@ -33,6 +33,9 @@ def render(found: Stability, page: Page, *, explain: bool) -> str:
     """The whole text, final newline included."""
     console = Canvas(page)
     console.print(f"{found.a} against {found.b}: {answer_line(found.asked)}")
+    if found.in_band:
+        band = f"the tolerance {number(found.band)}, and stability uses none"
+        console.print(f"A plain check says touching: that is within {band}.")
     console.print(_families(found, unicode=page.unicode))
     for family in found.families:
         for sample in family.samples:

@@ -22,6 +22,8 @@ _RULES_ALONE = """\
 schema = "satcheck.scene/1"
 bodies = []
 """
+# Of pairs that are not decided at most so many are named.
+_NAMED = 5
 # As the MoveIt setup assistant calls them.
 _SRDF_REASONS: dict[Why, str] = {
     "adjacent": "Adjacent",
@@ -100,17 +102,20 @@ def evidence(pair: Suggestion, found: Suggestions) -> str:
 
 
 def remark(found: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> str:
-    """One sentence for standard error."""
+    """A few lines for standard error."""
     said = counted(len(list(pairs)), "pair") + " suggested: confirm each before you allow it."
     left = sum(pair.why == "never" for pair in found.pairs)
     if left and not never:
         poses = _poses(found)
-        said += f" {counted(left, 'more pair')} never met in {poses}, which is no proof: --never."
+        said += f" {counted(left, 'more pair')} never met in {poses}, which proves nothing:"
+        said += " --never suggests them."
     if left_out := sum(one.adjacent for one in found.unchecked):
         pairs_left = counted(left_out, "pair")
         said += f" Not suggested, as not checked: {pairs_left} with a joint between the links."
-    if found.undecided:
-        said += f" Of {counted(found.undecided, 'pair')} something could not be decided."
+    for one in found.undecided[:_NAMED]:
+        said += f"\nNot decided: {one.a} and {one.b}: {one.reason.removeprefix('undecided: ')}"
+    if (more := len(found.undecided) - _NAMED) > 0:
+        said += f"\nNot decided: {counted(more, 'more pair')}"
     return said
 
 

@@ -9,40 +9,43 @@ from typing import TYPE_CHECKING
 from satcheck.audit.report.report import (
     CROSS_CHECK,
     INTERNAL_ERROR,
+    NOTHING_TO_CHECK,
     OVERLAPS,
     RELATIONS,
     SIZES_DIFFER,
     TOLERANCE_LARGE,
 )
-from satcheck.cli.report.words import by_surfaces, counted, depth, is_hit, with_unit
+from satcheck.audit.summary import exempt_by
+from satcheck.cli.report.words import counted, depth, is_hit, past_holes, with_unit
 from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import Issue, Report
+    from satcheck.audit.report.report import Finding, Issue, Report
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
 
 
-def summary_line(report: Report) -> str:
-    """`3 bodies, 3 pairs: 2 separated, 1 penetrating. Depth 1 mm.`"""
+def summary_line(report: Report, *, offers_depth: bool = True) -> str:
+    """`3 bodies, 3 pairs: 2 separated, 1 penetrating. Depth 1 mm.` offers_depth: the command has
+    the option --depth."""
     pairs = report.summary.pairs
     bodies = counted(len(report.bodies), "body", "bodies")
-    if pairs.total == pairs.allowed:
-        exempts = f"the scene exempts all {counted(pairs.exempt, 'pair')}"
-        why = "all are allowed by the scene" if pairs.total else exempts
-        line = f"{bodies}, {counted(pairs.total, 'pair')}. No pair was checked: {why}."
-        return " ".join([line, *_errors(report), *doubts(report.issues)])
+    if not pairs.asked:
+        line = f"{bodies}, {counted(pairs.total, 'pair')}."
+        unchecked = nothing_checked(report.issues)
+        return " ".join([line, *unchecked, *_errors(report), *doubts(report.issues)])
     found = _found(report)
     if pairs.allowed:
         found.append(f"{pairs.allowed:,} allowed by the scene")
-    line = f"{bodies}, {counted(pairs.total, 'pair')}: {', '.join(found)}."
+    exempt = _exempt(report)
+    line = f"{bodies}, {counted(pairs.total, 'pair')}: {', '.join(found)}{exempt}."
     return " ".join(
         [
             line,
             *_hits(report),
-            *_worst(report),
+            *_worst(report, offers_depth=offers_depth),
             *_left_open(report),
             *_cross_check(report),
             *_errors(report),
@@ -51,20 +54,51 @@ def summary_line(report: Report) -> str:
     )
 
 
+def nothing_checked(issues: Iterable[Issue]) -> list[str]:
+    """`No pair was checked: 1 within one link.`, where that is so."""
+    said = [issue.message for issue in issues if issue.code == NOTHING_TO_CHECK]
+    return [f"{text[0].upper()}{text[1:]}." for text in said]
+
+
+def _exempt(report: Report) -> str:
+    """`; 1 pair exempt (static)`: of pairs that no other count includes."""
+    count = report.summary.pairs.exempt
+    if not count:
+        return ""
+    still = sum(body.static for body in report.bodies) if report.exempt.static_pairs else 0
+    static, in_group = exempt_by(report.summary.pairs, still)
+    if static and in_group:
+        why = f"{static:,} static, {in_group:,} within ignored groups"
+    else:
+        why = "static" if static else "within ignored groups"
+    return f"; {counted(count, 'pair')} exempt ({why})"
+
+
 def _found(report: Report) -> list[str]:
     """`2 separated`, `1 possibly penetrating (not proven at --accuracy aabb)`."""
-    estimates = Counter(f.relation for f in report.findings if f.quality == "estimate")
     accuracy = report.settings["accuracy"]
     why = "" if accuracy == "exact" else f" (not proven at --accuracy {accuracy})"
+    guesses = [f for f in report.findings if f.quality == "estimate"]
+    overlaps = Counter(f.relation for f in guesses if _surely_overlaps(f, report))
+    estimates = Counter(f.relation for f in guesses) - overlaps
     found = []
     for name in RELATIONS:
         word, unproven = _WORDS.get(name, name), estimates[name]
-        proven = report.summary.by_relation.get(name, 0) - unproven
+        proven = report.summary.by_relation.get(name, 0) - unproven - overlaps[name]
         if proven:
             found.append(f"{proven:,} {word}")
         if unproven:
             found.append(f"{unproven:,} possibly {word}{why}")
+    if count := overlaps.total():
+        found.append(f"{count:,} overlapping in a way that is not proven")
     return found
+
+
+def _surely_overlaps(estimate: Finding, report: Report) -> bool:
+    """Whether only open is how: one body may hold the other."""
+    settings = report.settings
+    is_strict = settings["accuracy"] == "exact" and not settings["allow_open"]
+    return is_strict and estimate.at_rest in OVERLAPS and estimate.undecided != "relation"
 
 
 def _hits(report: Report) -> list[str]:
@@ -78,34 +112,37 @@ def _hits(report: Report) -> list[str]:
     return [f"{' and '.join(said)} while moving."] if said else []
 
 
-def _worst(report: Report) -> list[str]:
+def _worst(report: Report, *, offers_depth: bool) -> list[str]:
     """The deepest overlap; where only some have a depth, of how many it is the deepest."""
     overlaps = [f for f in report.findings if f.at_rest in OVERLAPS]
     deep = [f for f in overlaps if f.depth is not None]
     if not deep:
-        return ["Depth not asked: --depth."] if overlaps else []
+        return ["Depth not asked: --depth."] if overlaps and offers_depth else []
     worst = max(deep, key=lambda f: f.depth_bounds or (0.0, f.depth or 0.0))
     figure = with_unit(depth(worst, bounded="at most "), unit_of(report.units))
     if len(overlaps) == 1:
         return [f"Depth {figure}."]
-    pair = f"{worst.a} and {worst.b}, {figure}"
+    names = f"{worst.a} and {worst.b}"
     sure = worst.depth_bounds is not None and all(
         f is worst or (f.depth or 0.0) <= worst.depth_bounds[0] for f in deep
     )
     if len(deep) == len(overlaps):
-        return [f"{'The' if sure else 'Possibly the'} deepest: {pair}."]
+        first = "The deepest" if sure else "None is known to be deeper than"
+        return [f"{first}: {names}, {figure}." if sure else f"{first} {names}: {figure}."]
     known = f"Depth known of {len(deep):,} of {len(overlaps):,} overlaps"
     if len(deep) == 1:
-        return [f"{known}: {pair}."]
-    return [f"{known}, {'' if sure else 'possibly '}the deepest of these: {pair}."]
+        return [f"{known}: {names}, {figure}."]
+    if sure:
+        return [f"{known}, the deepest of these: {names}, {figure}."]
+    return [f"{known}, none of these known to be deeper than {names}: {figure}."]
 
 
 def _left_open(report: Report) -> list[str]:
     """`No collision.` only where everything that was asked was checked."""
     limits = []
-    if surfaces := sum(by_surfaces(finding) for finding in report.findings):
-        verb = "was" if surfaces == 1 else "were"
-        limits.append(f"{counted(surfaces, 'pair')} {verb} checked by surfaces only")
+    if swept := sum(past_holes(finding) for finding in report.findings):
+        verb = "moves" if swept == 1 else "move"
+        limits.append(f"{counted(swept, 'pair')} {verb} past holes that may be filled")
     unsure = Counter(f.relation in OVERLAPS for f in report.findings if f.undecided == "limit")
     for overlap, what in ((True, "exceed {} limits"), (False, "be closer than {} clearance")):
         if count := unsure[overlap]:
@@ -121,10 +158,17 @@ def _left_open(report: Report) -> list[str]:
         limits.append(
             f"{counted(undecided, 'pair')} {'is' if undecided == 1 else 'are'} indeterminate"
         )
-    if limits:
-        return [f"No collision found, but {' and '.join(limits)}."]
-    ruled = any(finding.rule is not None for finding in report.findings)
-    return ["No collision beyond what rules allow." if ruled else "No collision."]
+    ruled = any(map(_is_ruled, report.findings))
+    none = "No collision beyond what rules allow" if ruled else "No collision"
+    was = " was" if ruled else ""
+    return [f"{none}{was} found, but {' and '.join(limits)}." if limits else f"{none}."]
+
+
+def _is_ruled(finding: Finding) -> bool:
+    """Of a check that does not fail: whether a rule allows the pair what it has, or may."""
+    if finding.relation in OVERLAPS:
+        return finding.undecided != "relation"
+    return finding.rule is not None and finding.undecided != "limit"
 
 
 def _why_failed(report: Report) -> list[str]:
@@ -141,7 +185,7 @@ def _why_failed(report: Report) -> list[str]:
 
 def _cross_check(report: Report) -> list[str]:
     """`Cross-check: 5 answers agree, 1 disagrees, 1 pair not asked.`, an answer being that of one
-    library on a pair. An opinion that could not be had is said, and is no agreement."""
+    library on a pair. A missing answer is counted apart, not as agreement."""
     if not report.settings.get("cross_check"):
         return []
     standings: Counter[str] = Counter()

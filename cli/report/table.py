@@ -11,7 +11,7 @@ from satcheck.cli.report.explain import explain as print_explanation
 from satcheck.cli.report.grid import Grid
 from satcheck.cli.report.remarks import is_lost, remarks
 from satcheck.cli.report.summary import summary_line
-from satcheck.cli.report.words import by_surfaces, counted
+from satcheck.cli.report.words import counted, past_holes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,4 +52,4 @@ def _shown(report: Report) -> Sequence[Finding]:
 def _is_told(finding: Finding) -> bool:
     if finding.relation != "separated":
         return True
-    return finding.reason is not None and not by_surfaces(finding)
+    return finding.reason is not None and not past_holes(finding)

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 # A lower bound below this share of the upper one is left out: it tells a person nothing.
 NEGLIGIBLE = 1e-3
-# The result of the step "containment", and of no other, where a body has no inside to check.
 
 
 def counted(count: int, one: str, many: str | None = None) -> str:
@@ -42,7 +41,7 @@ def depth(finding: Finding, *, bounded: str = "<= ") -> str:
 
 
 def contacts(finding: Finding) -> str:
-    """`1 loop of length 4.25`, `2 patches of area 3, 1 point`; empty when nobody asked."""
+    """`1 loop of length 4.25`, `2 patches of area 3, 1 point`; empty when not computed."""
     if finding.contacts is None:
         return ""
     curves, totals = finding.contacts.curves, finding.contacts.totals
@@ -58,8 +57,8 @@ def contacts(finding: Finding) -> str:
     return ", ".join(found) or "none"
 
 
-def by_surfaces(finding: Finding) -> bool:
-    """Whether one body may come, on the way, to lie inside the other, which is open."""
+def past_holes(finding: Finding) -> bool:
+    """Whether one body may come to lie in the other on the way, by what fills a hole."""
     swept = finding.motion
     return swept is not None and swept.relation != "indeterminate" and swept.reason is not None
 
@@ -94,5 +93,5 @@ def place(one: Place, unit: str | None) -> str:
 
 
 def with_unit(figure: str, unit: str | None) -> str:
-    """`2.5 mm`; the figure alone where nobody says what it is in."""
+    """`2.5 mm`; the figure alone where its unit is unknown."""
     return f"{figure} {unit}" if unit else figure

@@ -108,4 +108,5 @@ def _sheet_file(
         issues=issues,
         part=sheet["name"],
         deviation=sheet["deviation"],
+        inscribed=sheet["inscribed"],
     )

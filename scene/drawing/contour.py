@@ -26,18 +26,19 @@ class Contour:
     """A closed polygon, drawing units; the last corner joins the first.
 
     deviation: the curve that it stands for is nowhere farther from it than this; 0.0: a polygon.
+    inscribed: it lies within that curve, as in a circle.
     """
 
     points: tuple[Point, ...]
     deviation: float = 0.0
+    inscribed: bool = False
 
     def mapped(self, affine: Affine) -> Contour:
         """Raises MeshFileError: it does not stay finite."""
         a, b, c, d, e, f = affine
         points = tuple((a * x + b * y + c, d * x + e * y + f) for x, y in self.points)
         refuse_non_finite(points)
-        # No length is stretched by more than the Frobenius norm.
-        return Contour(points, self.deviation * math.hypot(a, b, d, e))
+        return Contour(points, self.deviation * _stretch(a, b, d, e), self.inscribed)
 
 
 @frozen
@@ -139,6 +140,16 @@ class Tracer:
 
     def _rotated(self) -> list[Point]:
         return [*self._points[1:], self._points[0]]
+
+
+def _stretch(a: float, b: float, d: float, e: float) -> float:
+    """No length is stretched by more: the square of the largest singular value of M is at most the
+    largest row sum of |M^T M|."""
+    largest = max(map(abs, (a, b, d, e)))
+    if largest == 0:
+        return 0.0
+    a, b, d, e = (c / largest for c in (a, b, d, e))
+    return largest * math.sqrt(max(a * a + d * d, b * b + e * e) + abs(a * b + d * e))
 
 
 def refuse_non_finite(points: Iterable[Point]) -> None:

@@ -12,6 +12,7 @@ import io
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from satcheck.core.frozen import replace
 from satcheck.scene.drawing.contour import (
     Affine,
     Contour,
@@ -169,8 +170,10 @@ class _Reading:
         for outline in outlines:
             tracer = Tracer(outline.points[0])
             tracer.points(list(outline.points[1:]), outline.deviation)
-            contours.append(tracer.closed())
-        return tuple(contour for contour in contours if contour is not None)
+            contour = tracer.closed()
+            if contour is not None:
+                contours.append(replace(contour, inscribed=outline.inscribed))
+        return tuple(contours)
 
 
 def _affines(insert: Any) -> list[Affine]:

@@ -19,6 +19,7 @@ _PICTURES = frozenset({"DGNUNDERLAY", "DWFUNDERLAY", "IMAGE", "OLE2FRAME", "PDFU
 _HELP = frozenset({"CAMERA", "LIGHT", "POINT", "RAY", "SUN", "VIEWPORT", "XLINE"})
 ANNOTATIONS = _MEASURES | _WORDS | _PICTURES | _HELP
 _CURVES = frozenset({"LINE", "CIRCLE", "ARC", "ELLIPSE", "SPLINE"})
+_ROUND = frozenset({"CIRCLE", "ARC", "ELLIPSE"})
 _POLYLINES = frozenset({"LWPOLYLINE", "POLYLINE"})
 _FILLED = frozenset({"SOLID", "TRACE", "3DFACE"})
 _FITTED = 2 | 4  # of a POLYLINE: its vertices are not corners, or not all of them
@@ -26,15 +27,17 @@ _FITTED = 2 | 4  # of a POLYLINE: its vertices are not corners, or not all of th
 
 @frozen
 class Outline:
-    """closed: a line, the last point next to the first; open: a line; filled: an area."""
+    """closed: a line, the last point next to the first; open: a line; filled: an area. inscribed:
+    as of a Contour."""
 
     points: tuple[Point, ...]
     deviation: float
     kind: Literal["closed", "open", "filled"]
+    inscribed: bool = False
 
     def mapped(self, affine: Affine) -> Outline:
         moved = Contour(self.points, self.deviation).mapped(affine)
-        return Outline(moved.points, moved.deviation, self.kind)
+        return Outline(moved.points, moved.deviation, self.kind, self.inscribed)
 
 
 def outline_of(entity: Any) -> Outline | None:
@@ -88,7 +91,8 @@ def _curve(entity: Any) -> Outline:
     is_closed = entity.dxftype() == "CIRCLE" or (
         entity.dxftype() != "LINE" and math.dist(points[0], points[-1]) <= JOIN * size
     )
-    return Outline(tuple(points), deviation, "closed" if is_closed else "open")
+    inscribed = is_closed and entity.dxftype() in _ROUND
+    return Outline(tuple(points), deviation, "closed" if is_closed else "open", inscribed)
 
 
 def _corners(entity: Any) -> tuple[list[Point], float]:

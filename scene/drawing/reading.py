@@ -2,8 +2,8 @@
 
 request: a line with the format and "whole" or "shapes", then the file's bytes. reply: JSON,
 {"refusal": [code, message]} or {"units", "ignored", "sheets": [{"name", "points", "triangles",
-"deviation"}]}, one for all shapes together or one each, where a shape that cannot be used has a
-"refusal" in the place of its points.
+"deviation", "inscribed"}]}, one for all shapes together or one each, where a shape that cannot be
+used has a "refusal" in the place of its points.
 """
 
 from __future__ import annotations
@@ -87,4 +87,5 @@ def _reply(sheet: Sheet) -> dict[str, Any]:
         "points": sheet.points.tolist(),
         "triangles": sheet.triangles.tolist(),
         "deviation": sheet.deviation,
+        "inscribed": sheet.inscribed,
     }

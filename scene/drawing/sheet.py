@@ -11,7 +11,7 @@ import itertools
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.core.frozen import frozen
+from satcheck.core.frozen import frozen, replace
 from satcheck.scene.drawing.contour import Contour, DrawnShape, Point
 from satcheck.scene.errors import MeshFileError
 
@@ -22,12 +22,14 @@ if TYPE_CHECKING:
 
 @frozen
 class Sheet:
-    """points: (n, 2); triangles: (m, 3), signed as above. deviation: as of the contours."""
+    """points: (n, 2); triangles: (m, 3), signed as above. deviation, inscribed: as of a contour, of
+    the whole area."""
 
     name: str
     points: npt.NDArray[np.float64]
     triangles: npt.NDArray[np.int64]
     deviation: float
+    inscribed: bool
 
 
 def sheet_of(shape: DrawnShape) -> Sheet:
@@ -53,7 +55,8 @@ def united(sheets: list[Sheet]) -> Sheet:
         count += len(sheet.points)
     points = np.concatenate([sheet.points for sheet in sheets])
     deviation = max(sheet.deviation for sheet in sheets)
-    return Sheet(sheets[0].name, points, np.concatenate(triangles), deviation)
+    inscribed = all(sheet.inscribed or not sheet.deviation for sheet in sheets)
+    return Sheet(sheets[0].name, points, np.concatenate(triangles), deviation, inscribed)
 
 
 def _upward(sheet: Sheet) -> npt.NDArray[np.int64]:
@@ -88,7 +91,8 @@ def _sheet_of(shape: DrawnShape) -> Sheet:
             f"shape {shape.name!r}: outlines that cross under the even-odd rule are not read",
         )
     deviation = max(contour.deviation for contour in contours)
-    return Sheet(shape.name, points, triangles, deviation)
+    inscribed = len(contours) == 1 and contours[0].inscribed  # a hole within its curve adds area
+    return Sheet(shape.name, points, triangles, deviation, inscribed)
 
 
 def _covers_once(points: npt.NDArray[np.float64], triangles: npt.NDArray[np.int64]) -> bool:
@@ -128,7 +132,7 @@ def _alternating(contours: tuple[Contour, ...]) -> list[Contour]:
         depth = sum(other is not contour and _holds(other.points, corner) for other in contours)
         outward = _area(contour.points) > 0
         if outward != (depth % 2 == 0):
-            contour = Contour(contour.points[::-1], contour.deviation)
+            contour = replace(contour, points=contour.points[::-1])
         turned.append(contour)
     return turned
 

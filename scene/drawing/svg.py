@@ -1,8 +1,9 @@
 """SVG by a reader of our own: every shape that is filled or closed is a body's outline.
 
-Coordinates are the user units of the outermost element, y as in the file: no conversion to pixels,
-which would round them. An element that cannot be read is a shape that cannot be used, with all that
-it holds. Source: W3C, "Scalable Vector Graphics (SVG) 1.1".
+Coordinates are the user units of the outermost element, in the unit that its width and height state
+(`svg_size`), and y is as in the file: no conversion to pixels, which would round them. An element
+that cannot be read is a shape that cannot be used, with all that it holds.
+Source: W3C, "Scalable Vector Graphics (SVG) 1.1".
 """
 
 from __future__ import annotations
@@ -16,10 +17,9 @@ from satcheck.core.frozen import frozen, replace
 from satcheck.scene.drawing.contour import Affine, Drawing, DrawnShape, RefusedShape
 from satcheck.scene.drawing.expansion import refuse_explosion
 from satcheck.scene.drawing.svg_shapes import SHAPES, outlines
+from satcheck.scene.drawing.svg_size import drawn_size
 from satcheck.scene.drawing.svg_style import Style, StyleSheets
 from satcheck.scene.drawing.svg_values import (
-    IDENTITY,
-    NUMBER,
     Viewport,
     bad,
     compose,
@@ -34,7 +34,7 @@ from satcheck.scene.loading.xml_guard import guarded_parser, parse_xml
 
 _NAMESPACE = "http://www.w3.org/2000/svg"
 _HREFS = ("href", "{http://www.w3.org/1999/xlink}href")
-_UNIT = re.compile(rf"\s*({NUMBER})\s*(um|mm|cm|m|in)\s*")
+_SIZE = frozenset({"width", "height"})
 _GROUPS = frozenset({"a", "g"})
 _ANIMATIONS = frozenset({"animate", "animateMotion", "animateTransform", "set"})
 # Drawn only where something else refers to them, or never.
@@ -55,7 +55,7 @@ def read_svg(data: bytes) -> Drawing:
         raise MeshFileError("not-this-format", "not an SVG file: its root is no svg element")
     reading = _Reading(root)
     shapes = tuple(reading.shapes())
-    return Drawing(shapes, _units(root), tuple(sorted(reading.warnings)))
+    return Drawing(shapes, reading.drawn.units, tuple(sorted(reading.warnings)))
 
 
 def _check_xml(data: bytes) -> None:
@@ -68,12 +68,6 @@ def _check_xml(data: bytes) -> None:
 
     parser.ProcessingInstructionHandler = check_instruction
     parse_xml(lambda: parser.Parse(data, True))
-
-
-def _units(root: Element) -> str | None:
-    """The unit of one user unit, where width and viewBox agree on one."""
-    width, box = _UNIT.fullmatch(root.get("width", "")), view_box(root.get("viewBox", ""))
-    return width[2] if width and box and box[2] == float(width[1]) else None
 
 
 def _kind(element: Element) -> str:
@@ -104,6 +98,8 @@ class _Reading:
         parents = {child: parent for parent in root.iter() for child in parent}
         sheets = (e for e in root.iter() if _kind(e) == "style" and _is_css(e))
         self._sheets = StyleSheets(("".join(e.itertext()) for e in sheets), parents)
+        styled = not _SIZE.isdisjoint(self._sheets.values_of(root))
+        self.drawn = drawn_size(root.attrib, styled)
         self._number = 0
         self.warnings: set[str] = set()
 
@@ -113,7 +109,8 @@ class _Reading:
         if self._root.get("transform"):
             raise unread("<svg>: a transform of the whole drawing is not read")
         _check_still(self._root)
-        waiting = self._children(self._root, _Place(IDENTITY, self._outermost(), style))
+        outermost = _Place(self.drawn.affine, self._outermost(), style)
+        waiting = self._children(self._root, outermost)
         if not style.is_displayed:
             return
         while waiting:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from xml.etree.ElementTree import Element
 
+from satcheck.core.frozen import replace
 from satcheck.scene.drawing.contour import Contour, Tracer
 from satcheck.scene.drawing.svg_path import contours_of
 from satcheck.scene.drawing.svg_values import Viewport, bad, numbers, unread
@@ -76,7 +77,8 @@ def _ellipse(sizes: _Sizes, rx: float | None, ry: float | None) -> Contour | Non
     x, y = sizes.place("cx", "x"), sizes.place("cy", "y")
     tracer = Tracer((x + rx, y))
     tracer.ellipse((x, y), (rx, 0.0), (0.0, ry), 0.0, 2 * math.pi, tracer.here)
-    return tracer.closed()
+    contour = tracer.closed()
+    return None if contour is None else replace(contour, inscribed=True)
 
 
 def _rectangle(sizes: _Sizes) -> Contour | None:

@@ -16,9 +16,10 @@ IDENTITY: Affine = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 
 _ONE = re.compile(NUMBER)
 _BETWEEN = re.compile(r"[\s,]*")
-_LONGEST_LENGTH = 64  # characters
+LONGEST_LENGTH = 64  # characters
 _LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-z%]*)\s*")
-_USER_UNITS = {
+# User units of a length with a unit, where the drawing is not scaled.
+PIXELS = {
     "": 1.0,
     "px": 1.0,
     "in": 96.0,
@@ -82,14 +83,14 @@ class Viewport:
 
     def length(self, text: str, along: str, what: str) -> float:
         """User units. along: "x", "y", or "d" for what is neither. Raises MeshFileError."""
-        found = _LENGTH.fullmatch(text) if len(text) <= _LONGEST_LENGTH else None
+        found = _LENGTH.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
         if found is None:
             raise bad(f"{what}: {text[:40]!r} is no length")
         if found[2] == "%":
             return float(found[1]) / 100 * self._whole(along, what)
-        if found[2] not in _USER_UNITS:
+        if found[2] not in PIXELS:
             raise unread(f"{what}: the unit of {text[:40]!r} is not read")
-        value = float(found[1]) * _USER_UNITS[found[2]]
+        value = float(found[1]) * PIXELS[found[2]]
         if not math.isfinite(value):
             raise MeshFileError("non-finite", f"{what}: non-finite length")
         return value
@@ -154,7 +155,7 @@ def _function(name: str, given: list[float]) -> Affine:
         case "skewY", [angle]:
             return (1.0, 0.0, 0.0, math.tan(math.radians(angle)), 1.0, 0.0)
         case _:
-            raise bad(f"transform: {name} of {len(given)} numbers is none")
+            raise bad(f"transform: {name} does not take {len(given)} numbers")
 
 
 def view_box(text: str) -> tuple[float, float, float, float] | None:
@@ -167,17 +168,35 @@ def view_box(text: str) -> tuple[float, float, float, float] | None:
     return (found[0], found[1], found[2], found[3])
 
 
+@frozen
+class AspectRatio:
+    """left, top: the share of the room that is left over before the drawing. slices: the larger
+    scale is taken, and the drawing reaches beyond its room."""
+
+    left: float
+    top: float
+    slices: bool
+
+
+def aspect_ratio(text: str) -> AspectRatio | None:
+    """A preserveAspectRatio; None: it is not preserved. Raises MeshFileError."""
+    if text.strip() == "none":
+        return None
+    found = _ALIGNED.fullmatch(text.strip() or "xMidYMid")
+    if found is None:
+        raise bad(f"preserveAspectRatio: {text[:40]!r} is not read")
+    return AspectRatio(_SHARE[found[1]], _SHARE[found[2]], found[3] == "slice")
+
+
 def fitted(
     box: tuple[float, float, float, float], width: float, height: float, aligned: str
 ) -> Affine:
     """From the coordinates of a viewBox to (0, 0, width, height), by preserveAspectRatio."""
     x, y = width / box[2], height / box[3]
-    if aligned.strip() == "none":
+    ratio = aspect_ratio(aligned)
+    if ratio is None:
         return (x, 0.0, -box[0] * x, 0.0, y, -box[1] * y)
-    found = _ALIGNED.fullmatch(aligned or "xMidYMid")
-    if found is None:
-        raise bad(f"preserveAspectRatio: {aligned[:40]!r} is not read")
-    scale = max(x, y) if found[3] == "slice" else min(x, y)
-    left = (width - box[2] * scale) * _SHARE[found[1]] - box[0] * scale
-    top = (height - box[3] * scale) * _SHARE[found[2]] - box[1] * scale
+    scale = max(x, y) if ratio.slices else min(x, y)
+    left = (width - box[2] * scale) * ratio.left - box[0] * scale
+    top = (height - box[3] * scale) * ratio.top - box[1] * scale
     return (scale, 0.0, left, 0.0, scale, top)

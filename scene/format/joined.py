@@ -52,7 +52,7 @@ class JoinedScenes:
         ]
 
     def motions(self, scales: Mapping[str, float]) -> tuple[Motion, ...]:
-        """scales: what lengths of a scene are multiplied by, by its path; left out: 1."""
+        """scales: path of a scene -> the factor of its lengths; 1 where left out."""
         if not self._motions:
             return ()
         from satcheck.scene.motion import scaled_motion
@@ -86,13 +86,14 @@ def _own_rules(
     """A rule whose selectors match the same bodies among all as in its file and among the bare ones
     stays; another one is written out, pair by pair."""
     known: dict[Selector, tuple[bool, list[str]]] = {}
+    known_here = (*scene.bodies, *bare)
+    final = {id(b): ids[b.id] for b in scene.bodies} | {id(b): b.id for b in bare}
 
     def chosen(selector: Selector) -> tuple[bool, list[str]]:
         """(whether it matches among all what it matches in the file, these)."""
         if selector not in known:
-            own = [ids[b.id] for b in scene.bodies if selector.matches(b.id, b.groups)]
-            own += [b.id for b in bare if selector.matches(b.id, b.groups)]
-            among_all = {b.id for b in everybody if selector.matches(b.id, b.groups)}
+            own = [final[id(b)] for b in selector.select(known_here)]
+            among_all = {b.id for b in selector.select(everybody)}
             known[selector] = among_all == set(own), own
         return known[selector]
 
@@ -101,7 +102,9 @@ def _own_rules(
         if a_stays and b_stays:
             yield rule
         elif not a or not b:
-            yield replace(rule, a=Selector.of_nobody())  # the check says that it is about no pair
+            yield replace(
+                rule, a=Selector.of_nobody()
+            )  # the check then warns that it selects no pair
         elif len(a) * len(b) > MOST_PAIRS:
             message = (
                 f"{rule.name}: beside the other inputs this rule has to be written out for "

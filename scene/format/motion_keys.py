@@ -59,7 +59,7 @@ def _ids(
 ) -> tuple[str, ...]:
     ids: dict[str, None] = {}
     for one in selectors:
-        chosen = [body for body in bodies if one.matches(body.id, body.groups)]
+        chosen = one.select(bodies)
         if not chosen:
             table.wrong(f"no body matches {shown(one.text)}", "bodies", code="bad-motion")
         fixed = next((body for body in chosen if body.static), None)

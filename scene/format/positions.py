@@ -1,4 +1,4 @@
-"""Where the values of a document are written in its text, asked for when there is an error."""
+"""Where the values of a document are written in its text; needed only for errors."""
 
 from __future__ import annotations
 

@@ -53,12 +53,16 @@ def length_in(units: str | None) -> Reader[float]:
     """Reads 0.5, and "2mm" where the scene declares units."""
 
     def read(value: Any) -> float:
+        if not isinstance(value, str):
+            return _not_negative(value, "length")
         try:
-            if isinstance(value, str):
-                return parse_length(value).in_units_of(units)
+            length = parse_length(value)
         except ValueError as error:
             raise Wrong(str(error)) from None
-        return _not_negative(value, "length")
+        try:
+            return length.in_units_of(units)
+        except ValueError as error:
+            raise Wrong(f"{error}, or declare `units` in this file") from None
 
     return read
 

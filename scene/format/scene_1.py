@@ -1,7 +1,7 @@
 """The scene form `satcheck.scene/1`, in TOML or JSON; docs/scenes.md describes its keys.
 
-A scene that is wrong is refused as a whole: half a scene has no meaning, and a key that nobody
-knows would have said something that nobody heard.
+A scene with errors is refused as a whole: half a scene has no meaning, and an unknown key may be
+important.
 """
 
 from __future__ import annotations

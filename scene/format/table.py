@@ -43,7 +43,7 @@ class Table:
         return self.read(key, reader, default)
 
     def only(self, known: frozenset[str]) -> None:
-        """Every other key is wrong: misspelt, it would say something that nobody hears."""
+        """Reports every other key as wrong: a misspelt key would be ignored."""
         if not self.values.keys() <= known:
             for key in self.values.keys() - known:
                 hint = meant(key, known - self.values.keys())

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from satcheck.core import Mesh
 from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.health import examine, examine_bytes
+from satcheck.scene.health import Examined, examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
@@ -18,6 +21,8 @@ from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.resolution import file_resolution, placement_step
+
+Made = TypeVar("Made")
 
 
 @frozen
@@ -107,12 +112,25 @@ def _only_mesh(scene: RawScene) -> RawMesh:
     return part.mesh
 
 
-def mesh_of(source: Source, raw: RawMesh) -> Mesh:
-    """Raises MeshFileError for what a reader let through."""
+def mesh_of(source: Source, raw: RawMesh) -> tuple[RawMesh, Mesh]:
+    """The mesh, and what it was made of: `raw`, or `raw` brought into the range of the core.
+
+    Raises MeshFileError for what a reader let through.
+    """
     try:
-        return Mesh.from_bytes(raw.vertices, raw.triangles)
+        return _in_range(raw, lambda raw: Mesh.from_bytes(raw.vertices, raw.triangles))
     except (MemoryError, OverflowError, ValueError) as error:
         raise _refusal(source, error) from error
+
+
+def _in_range(raw: RawMesh, make: Callable[[RawMesh], Made]) -> tuple[RawMesh, Made]:
+    try:
+        return raw, make(raw)
+    except OverflowError:
+        from satcheck.scene.loading.into_range import into_range
+
+        scaled = into_range(raw)
+        return scaled, make(scaled)
 
 
 def mesh_file(
@@ -129,11 +147,7 @@ def mesh_file(
     """
     path = source.path
     try:
-        resolution = partial(_resolution, raw)
-        if mesh:
-            examined = examine(mesh, resolution=resolution)
-        else:
-            examined = examine_bytes(raw.vertices, raw.triangles, resolution)
+        raw, examined = _in_range(raw, partial(_examined, mesh))
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from error.__cause__
     except (MemoryError, OverflowError, ValueError) as error:
@@ -142,7 +156,7 @@ def mesh_file(
         path=path,
         sha256=source.sha256,
         format=source.format,
-        resolution=_resolution(raw, examined.mesh),
+        resolution=resolution_of(raw, examined.mesh),
         units=raw.units,
         mesh=examined.mesh,
         topology=examined.topology,
@@ -152,13 +166,22 @@ def mesh_file(
         ),
         part=part,
         placement_step=placement_step(raw, by_file=placed),
+        exponent=raw.exponent,
     )
 
 
-def _resolution(raw: RawMesh, mesh: Mesh) -> float:
-    """How finely the coordinates of the mesh are known, in file units."""
+def _examined(mesh: Mesh | None, raw: RawMesh) -> Examined:
+    resolution = partial(resolution_of, raw)
+    if mesh:
+        return examine(mesh, resolution=resolution, exponent=raw.exponent)
+    return examine_bytes(raw.vertices, raw.triangles, resolution, raw.exponent)
+
+
+def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
+    """How finely the coordinates of the mesh are known, in its units."""
     low, high = mesh.bounds
-    return file_resolution(raw, max(map(abs, (*low, *high))))
+    largest = math.ldexp(max(map(abs, (*low, *high))), raw.exponent)
+    return math.ldexp(file_resolution(raw, largest), -raw.exponent)
 
 
 def _refusal(source: Source, error: Exception) -> MeshFileError:

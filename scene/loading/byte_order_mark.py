@@ -6,7 +6,7 @@ import codecs
 
 from satcheck.scene.errors import MeshFileError
 
-# The longer ones first: that of UTF-32 begins like that of UTF-16.
+# The longer marks first: the mark of UTF-32 begins like that of UTF-16.
 _WIDE = (
     (codecs.BOM_UTF32_LE, "utf-32-le"),
     (codecs.BOM_UTF32_BE, "utf-32-be"),
@@ -16,7 +16,7 @@ _WIDE = (
 
 
 def without_byte_order_mark(data: bytes) -> bytes:
-    """Raises MeshFileError, without a file name, for text that is not what its mark says."""
+    """Raises MeshFileError, without a file name, for text that its mark does not fit."""
     if data.startswith(codecs.BOM_UTF8):
         return data[len(codecs.BOM_UTF8) :]
     for mark, encoding in _WIDE:

@@ -1,4 +1,4 @@
-"""COLLADA through pycollada, which must deliver every triangle that the file promises."""
+"""COLLADA through pycollada. Its result must have every triangle that the file lists."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def read_collada(data: bytes) -> RawMesh:
 
     import collada
 
-    # What it cannot read it leaves out, such as lights; that nothing else is missing the promise
-    # shows. A mesh whose material cannot be read would be left out, too.
+    # It leaves out what it cannot read, such as lights, or a mesh with an unreadable material. The
+    # count of triangles shows that no mesh is missing.
     bare = _MATERIALS.sub(b"", data)
     document: Any = collada.Collada(io.BytesIO(bare), ignore=[collada.common.DaeError])
     meshes = list(_scene_meshes(document)) if document.scene is not None else []

@@ -13,8 +13,8 @@ IDENTITY = np.eye(4)
 
 
 def walk(roots: Sequence[tuple[Any, Floats]]) -> Iterator[tuple[Any, Floats]]:
-    """The roots and all below them, depth first, each with the matrix to the world of what holds
-    it: of a node its own matrix comes on top, see `world_of`."""
+    """The roots and all below them, depth first, each with the matrix from its parent to the world.
+    The own matrix of a node comes on top, see `world_of`."""
     stack = list(reversed(roots))
     while stack:
         node, matrix = stack.pop()
@@ -26,7 +26,7 @@ def walk(roots: Sequence[tuple[Any, Floats]]) -> Iterator[tuple[Any, Floats]]:
 
 
 def world_of(node: Any, matrix: Floats) -> Floats:
-    """From the coordinates of a node to the world. matrix: of what holds it."""
+    """From the coordinates of a node to the world. matrix: that of its parent."""
     return matrix @ np.asarray(node.matrix, dtype=np.float64)
 
 

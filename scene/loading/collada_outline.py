@@ -20,8 +20,8 @@ _READ = frozenset({"triangles", "polylist", "polygons", "tristrips", "trifans"})
 _ONE_P_EACH = frozenset({"polygons", "tristrips", "trifans"})
 _NO_TRIANGLES = frozenset({"lines", "linestrips"})
 _NOT_READ = frozenset({"ph"})
-# Transformations that the parser takes for others, and those that it leaves out where their numbers
-# are not as many as here.
+# Transformations that the parser misreads, and those that it ignores unless they have this many
+# numbers.
 _BENDS = frozenset({"lookat", "skew"})
 _MOVES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
 _TEXTS = frozenset({"p", "vcount", "float_array", *_MOVES})

@@ -99,7 +99,7 @@ def _joints(instance: Any, scene: Sequence[tuple[Any, Floats]]) -> dict[str, Flo
 
 def _skinned(skin: Any, matrices: Mapping[str, Floats], bind: Floats) -> Shape:
     """matrices: of each joint, from the vertices of the file to the world."""
-    # The last of them is that of _NO_JOINT, as an index of -1 says.
+    # The index _NO_JOINT, -1, takes the last matrix.
     of_joint = np.array([*(matrices[name] for name in skin.weight_joints), bind])
     weights = np.asarray(skin.weights.data, dtype=np.float64).ravel()
     counts = np.array([len(influences) for influences in skin.joint_index], dtype=np.int64)

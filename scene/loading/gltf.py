@@ -165,7 +165,7 @@ class _Scene:
         return Shape(mesh, self._meshes.weights(mesh, node), skin)
 
     def _mesh(self, shape: Shape) -> RawMesh | MeshFileError:
-        """A mesh that cannot be used counts: its nodes must not get lost."""
+        """A mesh that cannot be used is an error here, so that its nodes do not get lost."""
         try:
             skin = None if shape.skin is None else self._skin(shape.skin)
             return self._meshes.read(shape, skin)

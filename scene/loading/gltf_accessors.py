@@ -26,7 +26,7 @@ _COMPONENTS = {
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _INDEX_TYPES = frozenset("BHI")
 
-# The elements of the vertex attribute of a name and a type, None where there is none of this name.
+# (attributes, name, type) -> the elements of that vertex attribute; None if there is none.
 Columns = Callable[[str, str], Sequence[tuple[float, ...]] | None]
 
 

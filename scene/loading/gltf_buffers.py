@@ -97,7 +97,7 @@ def extension(owner: dict[str, Any], name: str) -> dict[str, Any] | None:
 
 
 class BufferViews:
-    """The buffer views of a glTF document; buffers are read when first asked for."""
+    """The buffer views of a glTF document; a buffer is read when it is first used."""
 
     def __init__(
         self,

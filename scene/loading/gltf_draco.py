@@ -68,7 +68,7 @@ class Unpacked:
         return [tuple(row) for row in found.tolist()]
 
     def _columns(self, name: str, count: int) -> Any:
-        """An attribute that Draco packed, its integers as the accessor says what they stand for."""
+        """An attribute that Draco packed; the accessor says what its integers stand for."""
         id_ = self._ids.get(name)
         if id_ is None:
             return None

@@ -26,8 +26,8 @@ class NeedsChild(Exception):
 
 @frozen
 class Shape:
-    """A mesh, and what gives it its shape at a node: the weights of its morph targets, and the
-    number of its skin."""
+    """A mesh in the shape that it has at a node: with these weights of its morph targets and this
+    skin, by its number."""
 
     mesh: int
     weights: tuple[float, ...] = ()
@@ -112,6 +112,7 @@ class Meshes:
             triangles = unpacked.triangles
             columns: Columns = unpacked.columns
         else:
+            self._refuse_unread(primitive, attributes, where)
             positions = self._accessors.positions(integer(attributes, "POSITION", -1))
             triangles = self._triangles(primitive, mode, len(positions) // _VERTEX_BYTES, where)
             columns = self._accessors.columns(attributes)
@@ -131,10 +132,18 @@ class Meshes:
     ) -> dict[str, Any] | None:
         """What Draco packed, unless the file has the same without it."""
         packed = extension(primitive, DRACO)
-        needed = [*(value for key, value in attributes.items() if key == "POSITION")]
-        needed += [primitive["indices"]] if "indices" in primitive else []
-        plain = all(type(n) is int and self._accessors.has_data(n) for n in needed)
+        plain = all(map(self._accessors.has_data, _needed(primitive, attributes)))
         return None if plain and not self._requires_draco else packed
+
+    def _refuse_unread(
+        self, primitive: dict[str, Any], attributes: dict[str, Any], where: str
+    ) -> None:
+        """Without data all positions are 0, and so are all corners: an extension that is not read
+        has the geometry, most likely."""
+        if not all(map(self._accessors.has_data, _needed(primitive, attributes))):
+            raise MeshFileError(
+                "unsupported-feature", f"{where}: the positions or indices are not in the file"
+            )
 
     def _triangles(self, primitive: dict[str, Any], mode: int, count: int, where: str) -> bytes:
         if "indices" in primitive:
@@ -159,6 +168,12 @@ class Meshes:
             if weight and isinstance(target, dict) and "POSITION" in target
         ]
         return morphed(positions, moves)
+
+
+def _needed(primitive: dict[str, Any], attributes: dict[str, Any]) -> list[int]:
+    """The accessors that triangles are made of."""
+    owners = ((attributes, "POSITION"), (primitive, "indices"))
+    return [integer(owner, key, -1) for owner, key in owners if key in owner]
 
 
 def _as_list(numbers: bytes, mode: int, where: str) -> bytes:

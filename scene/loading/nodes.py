@@ -9,6 +9,7 @@ from satcheck.core import Mesh
 from satcheck.core.frozen import frozen, replace
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.health import CRACK_WIDTH
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading import (
     ReadLimits,
@@ -17,6 +18,7 @@ from satcheck.scene.loading import (
     mesh_of,
     open_source,
     read_scene,
+    resolution_of,
 )
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawPart
 from satcheck.scene.loading.reading_children import ReadingChildren
@@ -60,9 +62,9 @@ def load_nodes(
 ) -> Nodes:
     """Reads one mesh file and takes it apart.
 
-    components: each node once more, into parts that share no edge. They are numbered by their
-    lowest corners, so that the order of the triangles in the file does not matter. Raises
-    MeshFileError where nothing can be used.
+    components: each node once more, into parts that share no edge once cracks are closed. They are
+    numbered by their lowest corners, so that the order of the triangles in the file does not
+    matter. Raises MeshFileError where nothing can be used.
     """
     source = open_source(path, location, allowed)
     scene = read_scene(source, allowed, children, flat=False)
@@ -109,12 +111,16 @@ class _Splitter:
         if isinstance(raw, MeshFileError):
             return [("", self._named(part, raw))]
         try:
-            mesh = mesh_of(self._source, raw)
-            pieces = mesh.welded().sorted().components() if self._components else []
+            raw, mesh = mesh_of(self._source, raw)
+            pieces = self._connected(raw, mesh) if self._components else []
             found = self._pieces(part, raw, pieces) if len(pieces) > 1 else []
             return found or [("", self._file(part, raw, mesh))]
         except MeshFileError as error:
             return [("", self._named(part, error))]
+
+    @staticmethod
+    def _connected(raw: RawMesh, mesh: Mesh) -> list[Mesh]:
+        return mesh.welded().sorted().components(CRACK_WIDTH * resolution_of(raw, mesh))
 
     def _pieces(
         self, part: RawPart, raw: RawMesh, pieces: list[Mesh]

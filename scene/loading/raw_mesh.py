@@ -18,8 +18,9 @@ class RawMesh:
     """What a reader found, in file units, not welded.
 
     vertices: little-endian float64 x, y, z of each vertex; triangles: little-endian uint32 vertex
-    numbers, three a triangle. decimals: most digits after the point in a coordinate written
-    without exponent; significant: most significant digits in one written with an exponent.
+    numbers, three a triangle. exponent: vertices times 2**exponent are those of the file; 0 but
+    where the core could not hold these. decimals: most digits after the point in a coordinate
+    written without exponent; significant: most significant digits in one written with an exponent.
     units: as the file declares them, or None. warnings: (code, message).
     """
 
@@ -30,6 +31,7 @@ class RawMesh:
     significant: int = 0
     units: str | None = None
     warnings: tuple[tuple[str, str], ...] = ()
+    exponent: int = 0
 
 
 @frozen

@@ -1,7 +1,7 @@
 """The child processes that read the files of a run: one for each reader, file after file.
 
-A child imports large parsers, which takes longer than most files. A file that stops its child, or
-kills it, costs itself alone: the next one gets a fresh child.
+A child imports large parsers, which takes longer than reading most files. If a file stops or kills
+its child, only this file is lost: the next one gets a new child.
 """
 
 from __future__ import annotations

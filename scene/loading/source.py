@@ -70,7 +70,7 @@ class Source:
 
     path: as given, for messages. location: where it was read from. sha256: of the file, hex; None:
     not asked for. data: its bytes; of text without a byte order mark, which is UTF-8 if there was
-    one. size: of the data; of a large binary STL file whose SHA-256 nobody wants only the first
+    one. size: of the data; of a large binary STL file whose SHA-256 is not needed only the first
     bytes are there, as its reader reads it in pieces.
     """
 
@@ -187,7 +187,7 @@ def _is_binary_stl(size: int, data: bytes) -> bool:
 
 
 def _other_text(data: bytes) -> str | None:
-    """What text that is no ASCII STL looks like; None for STL and for what is not text.
+    """What a text that is not ASCII STL looks like; None for STL and for data that is not text.
 
     Only the head is looked at. A binary STL has a 0 there: its facet count, short of 2^24 facets.
     """

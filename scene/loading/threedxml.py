@@ -19,7 +19,7 @@ from satcheck.scene.plain_ids import UniqueNames
 
 _URN = "urn:3DXML:"
 _UNITS = "millimeter"
-_PASSED_OVER = frozenset(  # no area, or how it looks
+_PASSED_OVER = frozenset(  # without area, or about looks
     ("Edges", "SurfaceAttributes", "LineAttributes", "PointAttributes", "PolygonalLOD")
 )
 
@@ -132,8 +132,8 @@ def _matrix(element: Element | None) -> Matrix | None:
 
 
 def _refuse_moved_views(document: Element, root: str) -> None:
-    """A default view can place occurrences elsewhere. One of the root turns the whole product, as
-    an up axis does, and like that is not applied."""
+    """A default view can move occurrences. A view of the root only turns the whole product; like an
+    up axis, it is not applied."""
     for element in document.below():
         if element.tag == "DefaultViewProperty" and element.find("RelativePosition"):
             path = [_reference(id_) for id_ in element.below() if id_.tag == "id"]

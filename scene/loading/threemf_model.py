@@ -29,7 +29,7 @@ _CORE = frozenset(
 )
 _OBJECT = frozenset(f"{namespace} object" for namespace in _CORE)
 _BUILD = frozenset(f"{namespace} build" for namespace in _CORE)
-# What else has the namespace of the core specification in an object, or in the build, is misspelt.
+# Any other element of the core namespace in an object or in the build is misspelt.
 _KNOWN = frozenset({"mesh", "vertices", "triangles", "components", "metadatagroup", "metadata"})
 _PRODUCTION_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
 # Extensions a model may require and that leave its triangles as they are.

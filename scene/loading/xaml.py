@@ -122,7 +122,7 @@ def _transform(element: Element) -> Matrix:
 
 
 def _group(element: Element) -> Matrix:
-    """The first of its transforms comes first."""
+    """Its transforms are applied in the order in which they stand."""
     matrix = _IDENTITY
     holders = element.all("Transform3DGroup.Children") or [element]
     for holder in holders:

@@ -49,10 +49,10 @@ class Element:
             waiting.extend(reversed(element.children))
 
     def words(self, text: str, multiple: int) -> list[str]:
-        """Numbers apart by commas or spaces; as many as a multiple of that."""
+        """Numbers with commas or spaces between them, a multiple of `multiple` of them."""
         words = text.replace(",", " ").split()
         if len(words) % multiple:
-            self.refuse(f"{len(words)} numbers where a multiple of {multiple} belongs")
+            self.refuse(f"{len(words)} numbers, not a multiple of {multiple}")
         return words
 
     def floats(self, words: list[str]) -> list[float]:
@@ -68,7 +68,7 @@ class Element:
         """Vertex numbers below `count`."""
         words = self.words(text, multiple)
         if not all(word.isdecimal() for word in words):
-            self.refuse("a vertex number that is none")
+            self.refuse("a vertex number that is not a whole number")
         values = [int(word) for word in words]
         if values and max(values) >= count:
             self.refuse(f"vertex {max(values)} of {count}", "index-out-of-range")

@@ -10,7 +10,7 @@ from satcheck.scene.errors import MeshFileError
 
 _NAMESPACE_SEPARATOR = " "
 UNDECLARED = "undeclared:"
-_DECLARATION = "<?xml version="  # whoever stumbles within this many characters reads no XML at all
+_DECLARATION = "<?xml version="  # a parser that fails within this many characters has read no XML
 
 
 def guarded_parser(

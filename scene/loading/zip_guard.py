@@ -1,4 +1,4 @@
-"""Zip archives from strangers: what is damaged is said, and nothing unpacks to a flood."""
+"""Untrusted zip archives: damage is an error, and so is a part that unpacks too large."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from satcheck.scene.loading import limits
 
 @contextmanager
 def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]:
-    """kind: "a 3MF file" and the like, for messages. Raises MeshFileError for all that is wrong
-    with the archive, also while its parts are read in the block."""
+    """kind: "a 3MF file" and the like, for messages. Raises MeshFileError for any fault of the
+    archive, also while the block reads its parts."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             yield archive

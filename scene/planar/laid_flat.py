@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from satcheck.core import Mesh, largest_stretch
+from satcheck.core import Mesh, Surface, largest_stretch
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
 from satcheck.core.frozen import replace
@@ -17,6 +17,7 @@ from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.issue import issue
+from satcheck.scene.planar.fills import covers
 from satcheck.scene.planar.prism import prism
 from satcheck.scene.planar.region import (
     Region,
@@ -26,7 +27,6 @@ from satcheck.scene.planar.region import (
     fan_of,
     region_of,
 )
-from satcheck.scene.planar.turns import Floats
 from satcheck.scene.primitives import Primitive, is_curved, mesh_of, sag_of
 
 # How many times the width of the widest body the prisms reach up and down at least: nothing that
@@ -36,13 +36,20 @@ _REACH = 2.0
 _WIDEST = 1e44
 # Of the polygon of a ball: it is off the disc by about 1/13000 of its width.
 _SEGMENTS = 256
+# What rounding adds to how far a polygon is off its curve: by its own computation, relatively, and
+# by that of its corners, relative to the coordinates (sine, cosine, a sum, a placement: fewer than
+# 8 roundings).
+_ROUNDED = 2.0**-30
+_STEPS_OFF = 2.0**-50
 
 
-def laid_flat(scene: Scene, plane: Plane) -> Scene:
+def laid_flat(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene:
     """The bodies as they are placed, as prisms across the plane; answers lie in the plane.
 
     A body without an outline (all its triangles are seen edge on) is unreadable from then on, and
-    so is one that cannot be placed. A curved shape becomes a polygon, its corners on the outline.
+    so is one that cannot be placed, and one whose outline hangs on what fills its holes, unless
+    they are meant to be open (allow_open). A curved shape becomes a polygon, its corners on the
+    outline.
     Raises SatcheckError (`planar-motion`, `planar-volume`): bodies that move leave the plane, and
     a volume is none there.
     """
@@ -55,10 +62,10 @@ def laid_flat(scene: Scene, plane: Plane) -> Scene:
     placed, lost = [], []
     for body in scene.bodies:
         try:
-            placed.append((body, _region(body, plane)))
+            placed.append((body, _region(body, plane, allow_open=allow_open)))
         except MeshFileError as error:
             lost.append(_lost(body, error))
-    heights = _heights([region.points for _, region in placed])
+    heights = _heights([region for _, region in placed])
     bodies = [
         _flat(body, region, plane, height)
         for (body, region), height in zip(placed, heights, strict=True)
@@ -72,8 +79,9 @@ def laid_flat(scene: Scene, plane: Plane) -> Scene:
     )
 
 
-def _region(body: Body, plane: Plane) -> Region:
-    """Raises MeshFileError for a body without an outline, or beyond what is decided exactly."""
+def _region(body: Body, plane: Plane, *, allow_open: bool) -> Region:
+    """Raises MeshFileError for a body without an outline, one whose outline is open, or beyond what
+    is decided exactly."""
     try:
         region = _outline(body, plane)
     except OverflowError as error:
@@ -84,7 +92,21 @@ def _region(body: Body, plane: Plane) -> Region:
         raise MeshFileError("no-outline", f"no outline in the plane {plane}: it is seen edge on")
     if np.ptp(region.points, axis=0).max() > _WIDEST:
         raise MeshFileError("out-of-range", f"wider than {_WIDEST:g} in the plane {plane}")
+    if body.file.health.holes and not allow_open and not _covers_fills(body, region, plane):
+        message = f"what fills its holes decides its outline in the plane {plane}"
+        raise MeshFileError("open-outline", message)
     return region
+
+
+def _covers_fills(body: Body, region: Region, plane: Plane) -> bool:
+    _, hulls = Surface(body.file.mesh, solid=False).closed()
+    placed = [
+        hull.mesh if body.transform is None else hull.mesh.transformed(body.transform)
+        for hull in hulls
+        if hull.mesh.triangle_count
+    ]
+    outlines = [convex_region(mesh, plane) for mesh in placed]
+    return all(covers(region, one.points) for one in outlines if len(one.triangles))
 
 
 def _outline(body: Body, plane: Plane) -> Region:
@@ -101,12 +123,21 @@ def _fine_mesh(shape: Primitive) -> Mesh:
     return mesh_of(shape, _SEGMENTS)
 
 
-def _deviation(body: Body) -> float:
-    """How far the body may be off its outline's polygon, world units."""
+def _deviation(body: Body, region: Region) -> float:
+    """How far the body may be off its outline's polygon, world units; 0.0: not at all."""
     stretch = 1.0 if body.transform is None else largest_stretch(body.transform)
     if body.shape is None:
-        return body.file.deviation * stretch
-    return sag_of(body.shape, _SEGMENTS) * stretch
+        exact = body.file.deviation * stretch
+    else:
+        exact = sag_of(body.shape, _SEGMENTS) * stretch
+    if exact == 0:
+        return 0.0
+    return exact * (1 + _ROUNDED) + float(np.abs(region.points).max()) * _STEPS_OFF
+
+
+def _is_inscribed(body: Body) -> bool:
+    """Whether the polygon lies within the outline: the mesh of a curved shape lies within it."""
+    return body.file.inscribed if body.shape is None else is_curved(body.shape)
 
 
 def _lost(body: Body, error: MeshFileError) -> Unreadable:
@@ -114,12 +145,23 @@ def _lost(body: Body, error: MeshFileError) -> Unreadable:
     return Unreadable(body.id, body.file.path, found, body.groups, body.path, body.static)
 
 
-def _heights(outlines: Sequence[Floats]) -> list[float]:
-    """How far each prism reaches from the plane: all different, none twice as far as another."""
-    widest = max((float(np.ptp(points, axis=0).max()) for points in outlines), default=1.0)
+def _heights(regions: Sequence[Region]) -> list[float]:
+    """How far each prism reaches from the plane: all different, none twice as far as another.
+
+    They go by the outlines, so that the same bodies in another order have the same prisms.
+    """
+    widest = max((float(np.ptp(one.points, axis=0).max()) for one in regions), default=1.0)
     least = 2.0 ** math.ceil(math.log2(_REACH * widest)) if widest > 0 else 1.0
-    step = least / 2.0 ** len(outlines).bit_length()  # a power of two: every sum is exact
-    return [least + step * k for k in range(len(outlines))]
+    step = least / 2.0 ** len(regions).bit_length()  # a power of two: every sum is exact
+    ranks = sorted(range(len(regions)), key=lambda k: _coordinates(regions[k]))
+    heights = [0.0] * len(regions)
+    for rank, k in enumerate(ranks):
+        heights[k] = least + step * rank
+    return heights
+
+
+def _coordinates(region: Region) -> tuple[list[list[float]], list[list[int]]]:
+    return region.points.tolist(), region.triangles.tolist()
 
 
 def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
@@ -129,11 +171,13 @@ def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
     else:
         mesh = prism(corners, fan_of(len(corners)), height)
     examined = examine(_stood_up(mesh, plane), orient=False)
+    deviation = _deviation(body, region)
     file: MeshFile = replace(
         body.file,
         part=f"outline {plane} of {body.id}",
-        resolution=body.resolution_world + (_deviation(body) if body.shape else 0.0),
-        deviation=_deviation(body),
+        resolution=max(body.resolution_world + (deviation if body.shape else 0.0), deviation),
+        deviation=deviation,
+        inscribed=_is_inscribed(body),
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,

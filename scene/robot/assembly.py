@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from itertools import combinations, product
 from pathlib import Path
@@ -60,6 +61,11 @@ class SceneRobot:
 
     def bodies_of(self, link: str) -> list[str]:
         return [body.id for body in self.bodies if body.link == link]
+
+    @property
+    def pairs_within_links(self) -> int:
+        """How many pairs of bodies one link carries: they are never checked."""
+        return sum(n * (n - 1) // 2 for n in Counter(body.link for body in self.bodies).values())
 
     def neighbours(self) -> list[tuple[str, str]]:
         """Links with bodies that a joint connects, as (parent, child); links without any, which lie

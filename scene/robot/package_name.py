@@ -13,7 +13,7 @@ _MAX_BYTES = 1 << 20
 
 
 def name_in_manifest(folder: Path) -> str | None:
-    """None where there is no package.xml, or none that can be read: the folder's name counts."""
+    """None where there is no readable package.xml: then the name of the folder counts."""
     try:
         with (folder / _PACKAGE_XML).open("rb") as file:
             return _name(file.read(_MAX_BYTES))

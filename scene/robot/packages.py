@@ -165,7 +165,8 @@ def _existing(folder: Path, path: str, *, quoted: bool) -> Path:
         if place.is_file():
             return place
     above = places[-1].parent
-    what = f"the file is not in {above}" if above.is_dir() else f"there is no folder {above}"
+    where = f"{above.as_posix().rstrip('/')}/"
+    what = f"no such file in {where}" if above.is_dir() else f"there is no folder {above}"
     raise MeshFileError("missing-resource", what)
 
 

@@ -1,4 +1,4 @@
-"""What a file gets wrong without harm: one warning for each cause, however often it occurs."""
+"""Harmless mistakes of a file: one warning for each cause, however often it occurs."""
 
 from __future__ import annotations
 

@@ -140,7 +140,7 @@ def read_tree(path: str, location: Path, root: str) -> Element:
 
 
 def _refuse_macros(document: Element) -> None:
-    """Macros that may stand for geometry: nobody knows what a file holds before they expand."""
+    """Refuses macros that may stand for geometry: the file must be expanded first."""
     prefixes = tuple(
         f"{name.removeprefix('xmlns:')}:"
         for name, uri in document.attributes.items()
@@ -163,8 +163,8 @@ def _macros(element: Element, prefixes: tuple[str, ...]) -> Iterator[Element]:
 
 
 def first_tags(head: bytes, count: int) -> list[str]:
-    """The names of the first elements of a document that may be cut off; fewer of what is no XML
-    any more."""
+    """The names of the first elements of a document that may be cut off; fewer where it ends or is
+    not XML."""
     parser = guarded_parser(namespaces=False)
     tags: list[str] = []
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
@@ -174,8 +174,8 @@ def first_tags(head: bytes, count: int) -> list[str]:
 
 
 def _with_declaration_first(data: bytes) -> bytes:
-    """Lines or spaces before <?xml ...?>, a common slip, move behind it: lines keep their numbers
-    but for the first."""
+    """Moves lines or spaces before <?xml ...?>, a common mistake, behind it. All lines but the
+    first keep their numbers."""
     return _DECLARATION.sub(rb"\2\1", data)
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
-from satcheck.scene import load_scene
+from satcheck.scene import Scene, load_scene
 
 Point = tuple[float, float, float]
 Mesh = tuple[list[Point], list[tuple[int, ...]]]
@@ -57,11 +59,11 @@ def write(folder: Path, **meshes: Mesh) -> list[Path]:
     return paths
 
 
-def scene_of(folder: Path, **meshes: Mesh):
+def scene_of(folder: Path, **meshes: Mesh) -> Scene:
     return load_scene(write(folder, **meshes))
 
 
-def placed_scene(folder: Path, bodies, **extra):
+def placed_scene(folder: Path, bodies: Iterable[Sequence[Any]], **extra: object) -> Scene:
     """bodies: (id, mesh file name, 4x4 rows[, group])."""
     content = {
         "schema": "satcheck-scene-1",

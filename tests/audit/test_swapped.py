@@ -12,7 +12,7 @@ import pytest
 from satcheck import core
 from satcheck.audit import Settings, check
 from satcheck.audit.report.report import Finding
-from tests.audit.shapes import scene_of
+from tests.audit.shapes import bracket, moved, scene_of
 from tests.hard_cases import mesh_families
 from tests.hard_cases.case import Vertices
 from tests.hard_cases.families import angles, contact, gaps, sizes
@@ -63,3 +63,12 @@ def test_meshes(tmp_path: Path, family: Any) -> None:
             a = (pair.a.vertices, pair.a.triangles)
             b = (pair.b.vertices, pair.b.triangles)
             expect_mirrored(tmp_path, a, b, settings, pair.name)
+
+
+@pytest.mark.parametrize(("x", "y"), [(1.0, 1.0), (-1.5, 3.0), (3.0, -0.5), (0.25, 0.5)])
+def test_outlines_in_a_plane(tmp_path: Path, x: float, y: float) -> None:
+    """Two Ls that are hooked into each other, one of them upside down."""
+    points, faces = moved(bracket(), x, y, 0)
+    upturned = [(7.0 - u, 5.0 - v, w) for u, v, w in points], faces
+    settings = Settings(planar="xy", depth_budget=0.1)
+    expect_mirrored(tmp_path, bracket(), upturned, settings, f"{x}, {y}")

@@ -154,12 +154,14 @@ SOUP = replace(
     name="soup",
     file="soup.stl",
     triangles=1234,
-    health={"closed": False, "solid": False},
+    health={"closed": False, "solid": False, "holes": 1},
     convex=False,
     parts=3,
     part_error=PartError(0.25, 0.0),
 )
-OPEN = Issue("open-mesh", "warning", "soup", "soup.stl", "2 open edges: nothing can be inside it")
+OPEN = Issue(
+    "not-closed", "warning", "soup", "soup.stl", "1 hole, 2 across: there, nothing is inside"
+)
 MISSING = Issue("unreadable", "error", None, "gone.obj", "there is no such file")
 
 

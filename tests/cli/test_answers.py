@@ -123,7 +123,8 @@ def test_nothing_checked_is_no_pass(tmp_path: Path) -> None:
     scene |= {"allowed_pairs": [["base", "bolt", "bolted down"]]}
     (tmp_path / "scene.json").write_text(json.dumps(scene), encoding="utf-8")
     ran = satcheck(str(tmp_path / "scene.json"))
-    assert "No pair was checked: all are allowed by the scene." in ran.out
+    assert ran.code == 3
+    assert "No pair was checked: 1 allowed by rules." in ran.out
     assert "No collision" not in ran.out
 
 

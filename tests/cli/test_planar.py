@@ -90,3 +90,17 @@ def test_what_a_drawing_leaves_out_is_said_once(layout: Path) -> None:
     report = json.loads(satcheck(str(layout), "--planar", "xy", "--format", "json").out)
     codes = [issue["code"] for issue in report["issues"]]
     assert codes.count("ignored-geometry") == 1
+
+
+@pytest.mark.parametrize("command", [[], ["suggest"], ["resolve"], ["tradeoff"], ["stability"]])
+def test_no_command_takes_a_drawing_for_bodies_in_space(command: list[str], tmp_path: Path) -> None:
+    paths = []
+    for name, x in (("one", 0), ("two", 5)):
+        path = tmp_path / f"{name}.svg"
+        path.write_text(f'<svg xmlns="http://www.w3.org/2000/svg"><circle cx="{x}" r="3"/></svg>')
+        paths.append(str(path))
+    ran = satcheck(*command, *paths)
+    assert ran.code == 2
+    assert "[planar-only]" in ran.err
+    assert "one.svg: a drawing is flat" in ran.err
+    assert ("--planar" in ran.err) is (command in ([], ["suggest"]))

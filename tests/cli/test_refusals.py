@@ -32,6 +32,7 @@ from tests.cli.process import (
         (["--format", "yaml", *PUSHED], "yaml"),
         (["--no-such-option", *PUSHED], "no-such-option"),
         (["--clearance", "5mm", *PUSHED], "no units are declared"),
+        (["--clearance", "5mm", *PUSHED], "or state the unit with --units"),
         (["--clearance=-1", *PUSHED], "not a length"),
         (["--jobs", "-1", *PUSHED], "jobs"),
         (["box.obj", "gone.obj"], "gone.obj"),

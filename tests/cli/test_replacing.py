@@ -17,6 +17,9 @@ from satcheck.cli.replacing import replace_file
 from tests.cli.process import PUSHED, SAMPLES, SECONDS, command, environment, on_posix, satcheck
 
 OLD = b'{"an older": "report"}\n'
+as_a_user = pytest.mark.skipif(
+    os.name != "posix" or os.getuid() == 0, reason="root may write everything"
+)
 LIMIT = 200  # bytes of a file: less than any of the documents has
 WRITERS: dict[str, tuple[tuple[str, ...], str]] = {
     "check": (("-o", "{}", *PUSHED), "out.json"),
@@ -94,8 +97,7 @@ def test_permissions_stay(tmp_path: Path) -> None:
     assert stat.S_IMODE(out.stat().st_mode) == 0o640
 
 
-@on_posix
-@pytest.mark.skipif(os.name != "posix" or os.getuid() == 0, reason="root may write everything")
+@as_a_user
 def test_a_file_that_is_not_to_be_written_is_refused(tmp_path: Path) -> None:
     out = tmp_path / "out.json"
     out.write_bytes(OLD)
@@ -105,8 +107,7 @@ def test_a_file_that_is_not_to_be_written_is_refused(tmp_path: Path) -> None:
     assert out.read_bytes() == OLD
 
 
-@on_posix
-@pytest.mark.skipif(os.name != "posix" or os.getuid() == 0, reason="root may write everything")
+@as_a_user
 def test_a_folder_that_takes_no_new_file_is_written_in(tmp_path: Path) -> None:
     out = tmp_path / "out.json"
     out.write_bytes(OLD)

@@ -11,6 +11,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.cli.report.schema import text
+from tests.audit.shapes import open_box, unit_box, write
 from tests.cli.process import APART, PUSHED, SAMPLES, satcheck
 
 # The box from (0, 0, 0) to (1, 1, 1).
@@ -40,6 +41,33 @@ def test_a_dry_run_shows_the_moves() -> None:
     assert "1 overlap: 1 body moved, by 1 in total and 1 at most" in ran.out
     assert "1 body had to stay" in ran.out
     assert "1 touching. No collision." in ran.out
+
+
+def test_no_option_is_named_that_resolve_lacks(tmp_path: Path) -> None:
+    ran = satcheck("resolve", str(scene_of_boxes(tmp_path, 0, 0.7)), "--pin", "*")
+    assert ran.code == 1
+    assert "penetrating" in ran.out
+    assert "--depth" not in ran.out
+
+
+def test_what_was_moved_out_of_a_hole_is_counted(tmp_path: Path) -> None:
+    """A cube in the rim of a box without a lid."""
+    paths = [str(path) for path in write(tmp_path, tray=open_box(), cube=unit_box(1, 1, 3.5))]
+    ran = satcheck("resolve", *paths)
+    assert ran.code == 0, ran.err
+    assert "1 pair left open by a hole: 2 bodies moved, by 0.5 in total" in ran.out
+    assert "nothing was moved" not in ran.out
+    found = satcheck("resolve", *paths, "--format", "json").document
+    Draft202012Validator(SCHEMA).validate(found)
+    summary = found["summary"]
+    assert (summary["found"], summary["open"], summary["moved"]) == (1, 1, 2)
+
+
+def test_a_pair_that_is_left_is_named_as_it_is(tmp_path: Path) -> None:
+    paths = [str(path) for path in write(tmp_path, shell=unit_box(edge=4), cube=unit_box(1, 1, 1))]
+    ran = satcheck("resolve", *paths, "--pin", "*")
+    assert ran.code == 1
+    assert "not resolved: shell contains cube: both bodies stay" in ran.out
 
 
 def test_what_is_written_passes_a_check(tmp_path: Path) -> None:
@@ -179,11 +207,11 @@ def test_a_scene_that_could_not_be_read_is_not_written(tmp_path: Path) -> None:
     moved = tmp_path / "moved.json"
     ran = satcheck("resolve", *meshes, "--moved", str(moved))
     assert ran.code == 2
-    assert "lies outside of its folder" in ran.err
+    assert "write it into a folder that contains the meshes" in " ".join(ran.err.split())
     assert not moved.exists()
     ran = satcheck("resolve", *meshes, "--moved", str(moved), "--allow-outside")
     assert ran.code == 0, ran.err
-    assert "read with --allow-outside alone" in ran.err
+    assert "give --allow-outside" in ran.err
     assert satcheck("--no-depth", "--allow-outside", str(moved)).code == 0
 
 
@@ -200,7 +228,7 @@ def test_the_links_of_a_robot_are_said_to_stay(tmp_path: Path) -> None:
     assert "base and slide penetrate: links of a robot stay where" in " ".join(ran.out.split())
     assert satcheck("resolve", str(robot), "--pose", '{"j": 1.5}').code == 0
     refused = satcheck("resolve", str(robot), "--pose", '[{"j": 0}, {"j": 1}]')
-    assert "one pose at a time" in refused.err
+    assert "takes one pose" in refused.err
 
 
 def test_the_report_goes_where_that_of_any_command_goes(tmp_path: Path) -> None:

@@ -79,7 +79,8 @@ def test_few_poses_have_a_row_each() -> None:
     assert ran.code == 1, ran.err
     assert '{"turn": 0.0, "shoulder": 2.25, "elbow": 0.5, "grip": 0.125}' in ran.out
     assert "base and upper penetrating 0.0250251" in ran.out
-    assert ran.out.endswith("3 poses, 7 bodies, 12 pairs: 1 passes, 2 fail. 4 pairs overlap.\n")
+    counts = "3 poses, 7 bodies, 21 pairs, 9 allowed: 1 passes, 2 fail. 4 pairs overlap.\n"
+    assert ran.out.endswith(counts)
 
 
 def test_of_many_poses_the_pairs_are_listed_with_a_pose_to_paste() -> None:
@@ -89,7 +90,21 @@ def test_of_many_poses_the_pairs_are_listed_with_a_pose_to_paste() -> None:
     again = satcheck(*ARM, "--pose", row[row.index("{") : row.index("}") + 1], *JSON)
     relations = {(f["a"], f["b"]): f["relation"] for f in again.document["findings"]}
     assert relations["base", "upper"] == "penetrating"
-    assert "100 random poses (seed 4), 7 bodies, 12 pairs:" in ran.out
+    assert "100 random poses (seed 4), 7 bodies, 21 pairs, 9 allowed:" in ran.out
+
+
+def test_a_robot_of_one_link_passes_in_no_pose(tmp_path: Path) -> None:
+    shape = '<collision><geometry><box size="1 1 1"/></geometry></collision>'
+    robot = tmp_path / "robot.urdf"
+    robot.write_text(f'<robot name="r"><link name="base">{shape}{shape}</link></robot>')
+    for given in ((), ("--pose", "{}"), ("--sample", "3")):
+        ran = satcheck(str(robot), *given)
+        assert ran.code == 3
+        assert ran.out.endswith("No pair was checked: 1 within one link.\n")
+        found = satcheck(str(robot), *given, *JSON)
+        assert found.code == 3
+        assert [issue["code"] for issue in found.document["issues"]] == ["nothing-to-check"]
+        assert found.document["summary"]["pairs"]["allowed"] == 1
 
 
 def test_where_nothing_overlaps_there_is_no_example() -> None:
@@ -98,7 +113,7 @@ def test_where_nothing_overlaps_there_is_no_example() -> None:
     assert ran.code == 0, ran.err
     assert "21 (100 %)" in ran.out
     assert "the first overlap" not in ran.out
-    assert ran.out.endswith("12 pairs: 21 pass. No collision.\n")
+    assert ran.out.endswith("21 pairs, 9 allowed: 21 pass. No collision.\n")
 
 
 def test_samples_hold_on_to_what_is_given() -> None:
@@ -167,7 +182,7 @@ def test_a_missing_mesh_is_one_body_of_many(tmp_path: Path) -> None:
     for given in ((), ("--sample", "2")):
         ran = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf", *given, *JSON)
         assert ran.code == 2
-        assert "2 bodies, the first in line 58 (gone.obj): the file is not in" in ran.err
+        assert "2 bodies, the first in line 58 (gone.obj): no such file in " in ran.err
         assert len(ran.document["bodies"]) == 7
     table = satcheck(str(tmp_path / "arm.urdf"), "arm.srdf", "--sample", "1").out
     assert "7 pairs undecided" in table
@@ -179,13 +194,13 @@ def test_a_missing_mesh_is_one_body_of_many(tmp_path: Path) -> None:
         (("box.obj", "cube.off", "--pose", "{}"), "no robot to pose"),
         ((*ARM, "--seed", "1"), "add --sample N"),
         ((*ARM, "--sample", "0"), "--sample"),
-        ((*ARM, "--sample", "2", "--pose", "arm_poses.json"), "of --pose it takes one"),
+        ((*ARM, "--sample", "2", "--pose", "arm_poses.json"), "give one --pose at most"),
         ((*ARM, "--pose", '{"elbo": 1}'), "unknown joint 'elbo' (did you mean 'elbow'?)"),
         ((*ARM, "--pose", "gone.json"), "gone.json: no such file"),
         ((*ARM, "--pose", "box.obj"), "box.obj: line 1: not well-formed JSON"),
         ((*ARM, "--state", "flat"), "no state 'flat': the states are up, bowed, folded, open"),
-        ((*ARM, "--sample", "2", "--certificate", *JSON), "--certificate is about one pose"),
-        ((*ARM, "--sample", "2", "--explain"), "--explain is about one pose"),
+        ((*ARM, "--sample", "2", "--certificate", *JSON), "--certificate takes one pose"),
+        ((*ARM, "--sample", "2", "--explain"), "--explain takes one pose"),
         ((*ARM, "--package", "arm"), "should be NAME=DIR"),
         ((*ARM, "--package", "arm=gone"), "'gone' is no folder"),
         ((*ARM, "--pose", "arm_poses.json", "-o", "arm_poses.json"), "overwrite an input"),

@@ -57,6 +57,20 @@ def test_a_node_of_lines_is_no_pass(tmp_path: Path) -> None:
     ]
 
 
+def test_a_cube_beside_a_node_of_lines_is_no_pass_in_a_table_either(tmp_path: Path) -> None:
+    document, buffer = graphs.meshes("cube", "line")
+    document["meshes"][1]["primitives"] = [{"attributes": {"POSITION": 0}, "mode": 0}]
+    document["nodes"] = [{"name": "a", "mesh": 0}, {"name": "b", "mesh": 1}]
+    document["scenes"] = [{"nodes": [0, 1]}]
+    path = tmp_path / "points.glb"
+    path.write_bytes(files.glb(document, buffer))
+    ran = satcheck(str(path))
+    assert ran.code == satcheck("--format", "json", str(path)).code == 3
+    assert "b: could not be used, its 1 pair not checked" in ran.out
+    assert "[no-surface]" in ran.out
+    assert ran.out.endswith("No collision found, but 1 pair is indeterminate.\n")
+
+
 def test_components_of_a_plain_mesh(tmp_path: Path) -> None:
     path = tmp_path / "two.stl"
     path.write_bytes(files.binary_stl(files.TWO_CUBES_POINTS, files.TWO_CUBES))

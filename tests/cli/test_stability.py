@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 from jsonschema import Draft202012Validator
 
 from satcheck.cli.report.schema import text
+from tests.audit.shapes import unit_box, write
 from tests.cli.process import APART, PUSHED, satcheck
 
 SCHEMA = json.loads(text("stability"))
@@ -18,6 +20,17 @@ def test_a_stable_pair_exits_with_zero() -> None:
     assert ran.code == 0, ran.err
     assert "box.obj against box_pushed.stl: penetrating, depth 1" in ran.out
     assert "nothing changed beyond its bound" in ran.out
+
+
+def test_it_says_where_a_plain_check_says_touching(tmp_path: Path) -> None:
+    a, b = write(tmp_path, a=unit_box(), b=unit_box(1.0 + 1e-17))
+    assert "A plain check says" not in satcheck("stability", str(a), str(b)).out
+    a, b = write(tmp_path, a=unit_box(), b=unit_box(1.0 + 2.0**-52))
+    ran = satcheck("stability", str(a), str(b))
+    assert "a.obj against" in ran.out
+    assert "separated, gap 2.22045e-16" in ran.out
+    assert "A plain check says touching: that is within the tolerance" in ran.out
+    assert "1 touching." in satcheck(str(a), str(b)).out
 
 
 def test_the_document_follows_its_schema() -> None:

@@ -34,7 +34,7 @@ def test_a_name_that_no_report_has_is_refused(tmp_path: Path, more: tuple[str, .
     page = tmp_path / "report.html"
     ran = satcheck(*more, "-o", str(page), *PUSHED)
     assert ran.code == 2
-    assert "report.html: a report is a table or .json" in ran.err
+    assert "report.html: a report is JSON or a table" in ran.err
     assert not page.exists()
     assert satcheck("--format", "table", "-o", str(page), *PUSHED).code == 1
     assert page.read_text(encoding="utf-8").startswith("╭")

@@ -8,7 +8,13 @@ import pytest
 
 from satcheck.audit import Contacts
 from satcheck.audit.asked.settings import LISTED_PAIRS
-from satcheck.audit.report.report import INTERNAL_ERROR, Issue, Stage
+from satcheck.audit.report.report import (
+    INTERNAL_ERROR,
+    NOTHING_TO_CHECK,
+    Exempt,
+    Issue,
+    Stage,
+)
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import render
@@ -44,6 +50,14 @@ def test_a_row_says_it_all() -> None:
     row = next(line for line in shown(PENETRATING).splitlines() if "block_pushed" in line)
     cells = [cell.strip() for cell in row.strip("│").split("│")]
     assert cells == ["block", "block_pushed", "penetrating", "1", "(-1, 0, 0)", "exact", "11.8 us"]
+
+
+def test_figures_of_swept_pairs_are_those_as_placed() -> None:
+    swept = replace(CROSSING, motion=SWEPT.motion, placed_relation="penetrating", volume=0.5)
+    head = next(line for line in shown(swept).splitlines() if "relation" in line)
+    assert "volume as placed" in head
+    assert "contact as placed" in head
+    assert "as placed" not in shown(CROSSING)
 
 
 def test_columns_without_content_are_left_out() -> None:
@@ -191,7 +205,7 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
         explain=False,
         timings=True,
     )
-    assert "warning: soup: 2 open edges: nothing can be inside it [open-mesh]" in text
+    assert "warning: soup: 1 hole, 2 across: there, nothing is inside [not-closed]" in text
     assert "gone.obj" not in text
     assert "1 input could not be used." in text
 
@@ -208,8 +222,8 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
         ),
         (
             (PENETRATING, replace(BOUNDED, depth_bounds=(0.9, 1.2500004))),
-            "2 bodies, 2 pairs: 1 penetrating, 1 containing. Possibly the deepest: "
-            "block and block_pushed, 1.",
+            "2 bodies, 2 pairs: 1 penetrating, 1 containing. "
+            "None is known to be deeper than block and block_pushed: 1.",
         ),
         (
             (PENETRATING, replace(BOUNDED, depth=None, depth_bounds=None, quality="exact")),
@@ -231,9 +245,12 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             "2 bodies, 1 pair: 1 indeterminate. No collision found, but 1 pair is indeterminate.",
         ),
         (
-            (SWEPT, replace(SWEPT, motion=replace(SWEPT.motion, reason="surfaces only: ..."))),
+            (
+                SWEPT,
+                replace(SWEPT, motion=replace(SWEPT.motion, reason="what fills the holes ...")),
+            ),
             "2 bodies, 2 pairs: 2 separated. "
-            "No collision found, but 1 pair was checked by surfaces only.",
+            "No collision found, but 1 pair moves past holes that may be filled.",
         ),
         (
             (replace(SWEPT, severity="warning", undecided="limit"),),
@@ -241,9 +258,24 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
             "No collision found, but 1 pair may be closer than its clearance.",
         ),
         (
-            (replace(PENETRATING, severity="warning", undecided="limit"),),
+            (replace(ESTIMATE, severity="warning", undecided="relation"),),
+            "2 bodies, 1 pair: 1 possibly penetrating. Depth at most 2. "
+            "No collision found, but 1 pair is indeterminate.",
+        ),
+        (
+            (replace(ESTIMATE, severity="note", rule="cell.toml:3"),),
+            "2 bodies, 1 pair: 1 overlapping in a way that is not proven. Depth at most 2. "
+            "No collision beyond what rules allow.",
+        ),
+        (
+            (replace(PENETRATING, severity="warning", undecided="limit", rule="cell.toml:3"),),
             "2 bodies, 1 pair: 1 penetrating. Depth 1. "
-            "No collision found, but 1 pair may exceed its limits.",
+            "No collision beyond what rules allow was found, but 1 pair may exceed its limits.",
+        ),
+        (
+            (replace(SWEPT, severity="warning", undecided="limit", rule="clearance"),),
+            "2 bodies, 1 pair: 1 separated. "
+            "No collision found, but 1 pair may be closer than its clearance.",
         ),
     ],
 )
@@ -272,16 +304,35 @@ def test_opinions_that_could_not_be_had_are_told_once() -> None:
 def test_no_pair_checked_is_no_verdict() -> None:
     made = report()
     pairs = replace(made.summary.pairs, total=3, allowed=3)
-    made = replace(made, summary=replace(made.summary, verdict="pass", pairs=pairs))
+    why = Issue(NOTHING_TO_CHECK, "warning", None, None, "no pair was checked: 3 allowed by rules")
+    summary = replace(made.summary, verdict="incomplete", pairs=pairs)
+    made = replace(made, summary=summary, issues=(why,))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert text == "2 bodies, 3 pairs. No pair was checked: all are allowed by the scene.\n"
+    assert text.endswith("\n2 bodies, 3 pairs. No pair was checked: 3 allowed by rules.\n")
 
 
-def test_one_line_a_body_that_is_no_solid() -> None:
-    hollow = replace(SWEPT.motion, reason="surfaces only: ...")
+@pytest.mark.parametrize(
+    ("static", "exempt", "said"),
+    [
+        (2, 1, "1 separated; 1 pair exempt (static). No"),
+        (0, 3, "1 separated; 3 pairs exempt (within ignored groups). No"),
+        (2, 3, "1 separated; 3 pairs exempt (1 static, 2 within ignored groups). No"),
+    ],
+)
+def test_exempt_pairs_are_counted_apart(static: int, exempt: int, said: str) -> None:
+    made = report(SEPARATED)
+    pairs = replace(made.summary.pairs, exempt=exempt)
+    bodies = tuple(replace(body, static=k < static) for k, body in enumerate(made.bodies))
+    made = replace(made, summary=replace(made.summary, pairs=pairs), bodies=bodies)
+    made = replace(made, exempt=Exempt(static_pairs=True))
+    assert said in render(made, PLAIN_PAGE, explain=False, timings=True)
+
+
+def test_one_line_a_body_with_holes() -> None:
+    hollow = replace(SWEPT.motion, reason="what fills the holes ...")
     text = shown(*(replace(SWEPT, a=f"far{i}", b="soup", motion=hollow) for i in range(3)))
-    assert text.count("checked by surfaces only") == 2
-    assert "soup is not closed: 3 pairs were checked by surfaces only\n" in text
+    assert "soup has holes: 3 pairs move past them, and they may be filled\n" in text
+    assert "but 3 pairs move past holes that may be filled." in text
 
 
 def test_what_is_not_proven_is_called_possible() -> None:

@@ -13,8 +13,8 @@ from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satchec
 
 NOT_COVERED = (
     "Taken as stated: settings, which bodies there are.\n"
-    "Not covered: the version of satcheck, who asked for what, on how many pairs an effect ran, "
-    "times, plans.\n"
+    "Not covered: the version of satcheck, which flags and rules asked, "
+    "on how many pairs an effect ran, times, plans.\n"
 )
 
 
@@ -38,10 +38,12 @@ def test_paths_start_at_the_root(tmp_path: Path) -> None:
     elsewhere = satcheck("verify", str(path), cwd=tmp_path)
     assert elsewhere.code == 2
     assert elsewhere.err == (
-        f"satcheck: 2 files are not there, looked for from {tmp_path} on: box.obj, box_pushed.stl; "
+        f"satcheck: 2 files are missing below {tmp_path}: box.obj, box_pushed.stl; "
         "--root names the folder where the check ran\n"
     )
-    assert elsewhere.out == f"0 verdicts accepted, 1 not checked for want of files.\n{NOT_COVERED}"
+    assert (
+        elsewhere.out == f"0 verdicts accepted, 1 not checked, as files are missing.\n{NOT_COVERED}"
+    )
     assert satcheck("verify", "--root", str(SAMPLES), str(path), cwd=tmp_path).code == 0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from satcheck.core import Mesh, Surface, covers_once
+from satcheck.core import Mesh, Surface, covers_once, has_sheets
 from tests.core.test_mesh_relation import CELL, CUBE, HOLLOW, NAMED, SMALL, random_pair
 from tests.core.voxel_solids import IDENTITY, SHEAR, Matrix, mesh_of_soup
 
@@ -65,3 +65,13 @@ def test_two_lattice_solids_in_one_mesh() -> None:
         assert found == disjoint, seed
         seen.add(disjoint)
     assert seen == {False, True}
+
+
+def test_sheets_are_told_from_walls_and_cavities() -> None:
+    """A face and its reverse: within a solid they are no sheet, outside of it they are one."""
+    for solid in (CUBE.mesh(), HOLLOW.mesh(), both(CUBE.mesh(), CELL.mesh())):
+        assert not has_sheets(Surface(solid, True))
+    triangle = ((0.5, 0.5, 0.5), (0.75, 0.5, 0.5), (0.5, 0.75, 0.5))
+    sheet = mesh_of_soup((*triangle, *triangle[::-1]))
+    assert not has_sheets(Surface(both(CUBE.mesh(), sheet), True))
+    assert has_sheets(Surface(both(CUBE.mesh(), sheet.translated((9.0, 0.0, 0.0))), True))

@@ -95,10 +95,23 @@ def test_sparse_data_names_no_element_that_is_not_there(tmp_path, place, code):
     assert refusal(tmp_path, "a.glb", document.glb())[0] == code
 
 
+@pytest.mark.parametrize("accessor", [0, 1])
+def test_what_an_unknown_extension_holds_is_not_taken_for_zeros(tmp_path, accessor):
+    """Beside a primitive that is all there: what is missing would not be noticed."""
+    document = Document()
+    (whole,) = document.json["meshes"][0]["primitives"]
+    accessors = document.json["accessors"]
+    accessors.append({k: v for k, v in accessors[accessor].items() if k != "bufferView"})
+    key = {"attributes": {"POSITION": 2}} if accessor == 0 else {"indices": 2}
+    document.json["meshes"][0]["primitives"].append(whole | key)
+    assert refusal(tmp_path, "a.glb", document.glb())[0] == "unsupported-feature"
+
+
 def test_zeros_cost_no_more_than_the_limit(tmp_path):
     document = Document()
     del document.json["accessors"][0]["bufferView"]
     document.json["accessors"][0]["count"] = 10**12
+    document.json["accessors"][0]["sparse"] = {"count": 0}
     assert refusal(tmp_path, "a.glb", document.glb())[0] == "too-large"
 
 

@@ -82,6 +82,12 @@ def test_a_solid_with_each_face_twice_is_no_sheet(tmp_path):
     assert {issue.code for issue in file.issues} == {"duplicate-triangles", "not-manifold"}
 
 
+def test_a_solid_with_one_triangle_twice_did_not_face_inward(tmp_path):
+    file = loaded(tmp_path, "a.obj", files.obj(faces=[*files.CUBE, files.CUBE[0]]))
+    assert file.health.solid
+    assert {issue.code for issue in file.issues} == {"duplicate-triangles", "not-manifold"}
+
+
 def test_a_tilted_sheet_is_flat(tmp_path):
     points = [(0, 0, 0), (1, 0, 1), (0, 1, 1), (1, 1, 2)]
     health = loaded(tmp_path, "a.obj", files.obj(points, [(0, 1, 2), (1, 3, 2)])).health

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from satcheck.scene import MeshFileError
@@ -25,11 +27,21 @@ def test_the_hash_is_that_of_the_sizes():
     assert len(first.sha256) == 64
 
 
-@pytest.mark.parametrize("size", [1e46, 1e-90])
+@pytest.mark.parametrize("size", [(1e290, 1e290, 1e290), (1e-290, 1e-290, 1e-290)])
 def test_sizes_beyond_what_is_decided_exactly_are_refused(size):
     with pytest.raises(MeshFileError) as caught:
-        shape_file(Box((size, size, size)), "cell.toml")
+        shape_file(Box(size), "cell.toml")
     assert (caught.value.code, caught.value.file) == ("out-of-range", "cell.toml")
+
+
+@pytest.mark.parametrize("exponent", [-400, -160, 160, 400])
+def test_a_mesh_that_the_core_can_hold(exponent):
+    file = shape_file(Box((2.0**exponent, 2.0**exponent, 2.0**exponent)), "cell.toml")
+    assert abs(file.exponent - exponent) <= 1
+    (low, _, _), (high, _, _) = file.mesh.bounds
+    assert math.ldexp(high - low, file.exponent) == 2.0**exponent
+    volume = file.health.volume
+    assert volume == 2.0 ** (3 * exponent) if abs(exponent) < 300 else math.isnan(volume)
 
 
 def test_the_mesh_of_a_curved_shape_is_within_it():

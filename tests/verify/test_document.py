@@ -54,17 +54,21 @@ FORGED: dict[str, Callable[[Json], Any]] = {
 }
 
 
-def test_a_placement_out_of_range_proves_nothing() -> None:
-    """Its coordinates are finite, what they are rounded by is not: no box of it is apart."""
+@pytest.mark.parametrize(
+    ("scale", "fault"), [(1e300, "its resolution is"), (1.5e308, "a coordinate is not finite")]
+)
+def test_a_placement_out_of_range_proves_nothing(scale: float, fault: str) -> None:
     document = report_of("boxes-apart")
     document["findings"] = []
     document["bodies"][1]["transform"] = [
-        *(1e300, 0, 0, 9),
-        *(0, 1e300, 0, 0),
-        *(0, 0, 1e300, 0),
+        *(scale, scale, 0, 9),
+        *(-scale, scale, 0, 0),
+        *(0, 0, scale, 0),
         *(0, 0, 0, 1),
     ]
-    assert any("out of range" in fault for fault in verified(document).faults)
+    faults = verified(document).faults
+    assert any(fault in said for said in faults)
+    assert any("not apart by their boxes" in said for said in faults)
 
 
 @pytest.mark.parametrize("setting", ["tolerance", "clearance"])

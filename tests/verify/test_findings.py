@@ -153,3 +153,5 @@ def test_open_parts_are_sheets_only_where_the_settings_say_so(tmp_path: Path) ->
     assert verified(document).findings[0].outcome == "accepted"
     document["settings"]["allow_open"] = False
     assert verified(document).findings[0].outcome == "rejected"
+    document["findings"][0].update(severity="warning", undecided="inside")
+    assert verified(document).findings[0].outcome == "rejected"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
@@ -11,6 +12,10 @@ from typing import Any
 import pytest
 
 from satcheck.core.conventions import PLANES, Plane
+from satcheck.verify.bodies import Bodies
+from satcheck.verify.exact import Rejected
+from satcheck.verify.findings import pair_of
+from satcheck.verify.in_plane import CurveError, curve_error, reaching
 from tests.audit.shapes import bracket, unit_box, write
 from tests.verify.honest import body, document, meshes, placed
 from tests.verify.reports import PAIRS, Json, is_accepted, verified
@@ -46,13 +51,91 @@ def test_outlines_of_meshes(name: str, plane: Plane, tmp_path: Path) -> None:
 def test_outlines_of_shapes_as_they_are_placed(plane: Plane, tmp_path: Path) -> None:
     ball = body("ball", {"type": "sphere", "radius": 1.0}, 0.0)
     can = body("can", {"type": "cylinder", "radius": 1.0, "height": 2.0}, 2.5)
-    part = {"id": "part", "mesh": "part.obj", "position": [-2.0, -2.0, 0.0], "euler": [0, 0, 30]}
+    can["position"] = [2.5, 0.5, 0.0]  # else the ball seen along x fits the can
+    part = {"id": "part", "mesh": "part.obj", "position": [-1.0, 0.3, 0.0], "euler": [0, 0, 30]}
     made = placed(ball, can, part, settings={"planar": plane, "depth": True})(tmp_path)
     assert made["bodies"][0]["shape"] == {"type": "sphere", "radius": 1.0}
     assert made["bodies"][1]["transform"][3] == 2.5
     proven(json.loads(json.dumps(made)))
     made["bodies"][1]["transform"][7 if plane == "yz" else 3] = 2.0
     assert not is_accepted(made)
+
+
+CURVES: dict[str, Callable[[Json], Any]] = {
+    "a gap of polygons": lambda f: f.pop("distance_bounds"),
+    "an exact gap": lambda f: (f.pop("distance_bounds"), f.update(quality="exact")),
+    "bounds that are too narrow": lambda f: f["distance_bounds"].__setitem__(0, f["distance"]),
+    "a clearance that is kept": lambda f: f.update(severity="none", undecided=None, rule=None),
+}
+
+
+@pytest.mark.parametrize("lie", CURVES)
+def test_a_distance_of_polygons_is_not_that_of_curves(lie: str, tmp_path: Path) -> None:
+    """The polygons are 0.5225 apart, the balls may be closer by 0.3."""
+    one = body("one", {"type": "sphere", "radius": 1000.0}, 0.0)
+    two = body("two", {"type": "sphere", "radius": 1000.0}, 2000.5225)
+    made = placed(one, two, settings={"planar": "xy", "clearance": 0.5})(tmp_path)
+    (finding,) = made["findings"]
+    assert (finding["relation"], finding["undecided"]) == ("separated", "limit")
+    assert verified(made).findings[0].outcome == "accepted"
+    assert "findings[].distance" in verified(made).findings[0].left
+    CURVES[lie](finding)
+    assert verified(made).findings[0].outcome == "rejected"
+
+
+def test_convex_outlines_overlap_by_more_than_they_reach_out_of_their_curves(
+    tmp_path: Path,
+) -> None:
+    blob = "C-1 -1.2 1 -1.2 1 0 C1 1.2 -1 1.2 -1 0 Z"
+    svg = (
+        f'<svg xmlns="http://www.w3.org/2000/svg"><path d="M-1 0 {blob}"/>'
+        f'<path transform="translate(1 0.25)" d="M-1 0 {blob}"/></svg>'
+    )
+    (tmp_path / "blobs.svg").write_text(svg, "utf-8")
+    made = document([tmp_path / "blobs.svg"], planar="xy")
+    (finding,) = made["findings"]
+    assert finding["exact_relation"] == "penetrating"
+    assert verified(made).findings[0].outcome == "accepted"
+    a, b = Bodies(Path("/")).place_all(made["bodies"], "xy")
+    assert a.world is not None
+    assert b.world is not None
+    pair = pair_of(a, b, *reaching("penetrating", a.world, b.world, 2))
+    proof = finding["certificate"]["relation"]
+    error = curve_error(a, b)
+    error.check_overlap("penetrating", proof, pair, 2)
+    for forged in (proof | {"kind": "overlap"}, proof | {"faces": proof["faces"][:-1]}):
+        with pytest.raises(Rejected):
+            error.check_overlap("penetrating", forged, pair, 2)
+    with pytest.raises(Rejected):
+        CurveError(Fraction(2), Fraction(2)).check_overlap("penetrating", proof, pair, 2)
+
+
+def test_a_ball_within_a_ball_needs_room(tmp_path: Path) -> None:
+    one = body("one", {"type": "sphere", "radius": 1000.0}, 0.0)
+    two = body("two", {"type": "sphere", "radius": 999.0}, 0.0)
+    made = placed(one, two, settings={"planar": "xy"})(tmp_path)
+    assert made["findings"][0]["relation"] == "contains"
+    assert verified(made).findings[0].outcome == "accepted"
+    made["bodies"][1]["transform"] = [
+        *(1.0, 0.0, 0.0, 0.8, 0.0, 1.0, 0.0, 0.0),
+        *(0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0),
+    ]
+    assert verified(made).findings[0].outcome == "rejected"
+
+
+@pytest.mark.parametrize("key", ["depth_bounds", "mtv"])
+def test_a_depth_of_polygons_is_not_that_of_curves(key: str, tmp_path: Path) -> None:
+    one = body("one", {"type": "sphere", "radius": 1000.0}, 0.0)
+    two = body("two", {"type": "sphere", "radius": 1000.0}, 1999.0)
+    made = placed(one, two, settings={"planar": "xy", "depth": True})(tmp_path)
+    (finding,) = made["findings"]
+    checked = verified(made).findings[0]
+    assert (checked.outcome, checked.depth, checked.mtv) == ("accepted", True, True)
+    low, _ = finding["depth_bounds"]
+    if key == "mtv":
+        del finding["certificate"]["depth"]
+    finding.update(depth=low, depth_bounds=[low, low], quality="exact", mtv=[-low, 0.0, 0.0])
+    assert verified(made).findings[0].outcome == "rejected"
 
 
 @pytest.mark.parametrize("settings", SETTINGS)

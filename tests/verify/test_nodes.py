@@ -84,6 +84,8 @@ def test_each_mesh_is_read_and_prepared_once(monkeypatch: pytest.MonkeyPatch) ->
     prepared = []
     shape_of = bodies.shape_of
     document = certified(SAMPLES / "gripper.glb")
-    monkeypatch.setattr(bodies, "shape_of", lambda file: prepared.append(file) or shape_of(file))
+    monkeypatch.setattr(
+        bodies, "shape_of", lambda file, **how: prepared.append(file) or shape_of(file, **how)
+    )
     assert verified(document).accepted
     assert sorted(str(file.part) for file in prepared) == ["finger", "palm", "payload"]

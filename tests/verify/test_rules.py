@@ -109,6 +109,7 @@ FORGED: dict[str, tuple[str, Callable[[Json], Any]]] = {
     "the order": ("allowed, and taken back", lambda d: d["rules"].reverse()),
     "a severity": ("called a warning", lambda d: d["findings"][0].update(severity="none")),
     "a severity of a rule": ("called a warning", lambda d: d["rules"][0].update(severity=None)),
+    "a pass of nothing": ("allowed", lambda d: d["summary"].update(verdict="pass")),
     "what fails": ("called a warning", lambda d: d["settings"].update(fail_on="warning")),
     "undecided": ("too deep", lambda d: d["findings"][0].update(undecided="limit")),
     "a tolerance": ("within the tolerance", lambda d: d["rules"][0].update(tolerance=0.125)),
@@ -163,6 +164,23 @@ def test_the_same_as_the_rules_of_the_solver(seed: int) -> None:
         clearance = book.terms(i, j).clearance
         assert found.terms(a, b).get("clearance") == (clearance and clearance.clearance)
     assert found.count() == book.count()
+
+
+NAMES = ("br0", "br[0]", "br[[]0]", "a*", "a[*]", "ab", "group:x", "[g]roup:x", "x")
+TEXTS = (*NAMES, "[a]b", "br?", "[b]r[0]", "*x", "[!a]*")
+
+
+@pytest.mark.parametrize("text", [*TEXTS, *(f"group:{text}" for text in TEXTS)])
+def test_brackets_read_the_same_as_by_the_solver(text: str) -> None:
+    bodies = [Subject(name, (name,)) for name in NAMES]
+    book = RuleBook(bodies, [rule(text, "*", allowed=True)], check_static=True)
+    stated = {"a": text, "b": "*", "allowed": True}
+    placed = {one.id: _placed(one) for one in bodies}
+    found = Rules({"exempt": {"groups": [], "static_pairs": False}, "rules": [stated]}, placed)
+    for i, j in combinations(range(len(bodies)), 2):
+        exempt = found.is_exempt(placed[bodies[i].id], placed[bodies[j].id])
+        assert exempt == (not book.is_asked(i, j))
+    assert book.count()[1] > 0
 
 
 def _placed(body: Subject) -> Placed:

@@ -66,3 +66,7 @@ def test_what_is_closed_and_what_is_convex() -> None:
     assert not is_convex(*arrays(bracket()))
     points, triangles = arrays(unit_box())
     assert not is_convex(points, triangles[:, ::-1])  # inside out
+    backed = np.vstack([triangles, triangles[:2], triangles[:2, ::-1]])
+    assert is_convex(points, backed)  # a sheet flush with a face
+    assert is_convex(points, np.vstack([triangles, triangles]))
+    assert not is_convex(points, np.vstack([triangles, triangles[:, ::-1]]))

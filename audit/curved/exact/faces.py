@@ -1,7 +1,7 @@
-"""Where a body meets the plane that it reaches along an axis: its face there, a point as a rule.
+"""Where a body meets the plane that it reaches along an axis: its face there, usually a point.
 
 Two bodies that an axis separates with no gap have a common point exactly where their faces do, and
-these lie in one plane. Candidates are made here; whoever takes one asks both bodies about it.
+these lie in one plane. Candidates are made here; the caller tests each against both bodies.
 """
 
 from __future__ import annotations

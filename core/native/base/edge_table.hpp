@@ -22,6 +22,12 @@ class EdgeTable {
   bool ascends(std::uint32_t h) const {
     return triangles_[h / 3][h % 3] < triangles_[h / 3][(h % 3 + 1) % 3];
   }
+  // How much more often triangles run the edge upward than downward.
+  int balance(std::size_t edge) const {
+    int sum = 0;
+    for (const std::uint32_t h : half_edges(edge)) sum += ascends(h) ? 1 : -1;
+    return sum;
+  }
 
  private:
   const std::vector<Triangle>& triangles_;

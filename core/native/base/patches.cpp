@@ -1,6 +1,8 @@
 #include "base/patches.hpp"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "base/large_pages.hpp"
 
@@ -19,6 +21,21 @@ Labels number_sets(DisjointSets& sets, std::size_t triangle_count) {
   return labels;
 }
 
+struct SetAtEdge {
+  std::uint32_t set;
+  int balance;  // how much more often its triangles run the edge upward than downward
+};
+
+void find_sets_at(std::size_t edge, const Labels& labels, const EdgeTable& edges, std::vector<SetAtEdge>& sets) {
+  sets.clear();
+  for (const std::uint32_t h : edges.half_edges(edge)) {
+    const std::uint32_t set = labels.of_triangle[h / 3];
+    const auto known = std::find_if(sets.begin(), sets.end(), [&](const SetAtEdge& s) { return s.set == set; });
+    SetAtEdge& at = known == sets.end() ? sets.emplace_back(SetAtEdge{set, 0}) : *known;
+    at.balance += edges.ascends(h) ? 1 : -1;
+  }
+}
+
 }  // namespace
 
 DisjointSets::DisjointSets(std::size_t n) : parent_(with_room<std::uint32_t>(n)) {
@@ -30,6 +47,42 @@ std::vector<std::vector<std::uint32_t>> Labels::members() const {
   std::vector<std::vector<std::uint32_t>> result(count);
   for (std::uint32_t t = 0; t < of_triangle.size(); ++t) result[of_triangle[t]].push_back(t);
   return result;
+}
+
+std::vector<bool> find_open_sets(const Labels& labels, const EdgeTable& edges) {
+  std::vector<bool> open(labels.count, false);
+  std::vector<SetAtEdge> sets;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    find_sets_at(e, labels, edges, sets);
+    for (const auto& [set, balance] : sets) open[set] = open[set] || balance != 0;
+  }
+  return open;
+}
+
+std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges) {
+  std::vector<std::vector<SetAtEdge>> rims;  // edges that some set leaves open
+  std::vector<std::vector<std::size_t>> rims_of(labels.count);
+  std::vector<std::uint32_t> next;
+  std::vector<SetAtEdge> sets;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    find_sets_at(e, labels, edges, sets);
+    if (std::ranges::all_of(sets, [](const SetAtEdge& s) { return s.balance == 0; })) continue;
+    if (sets.size() == 1) next.push_back(sets[0].set);
+    for (const SetAtEdge& s : sets) rims_of[s.set].push_back(rims.size());
+    rims.push_back(sets);
+  }
+  std::vector<bool> is_flap(labels.count, false);
+  while (!next.empty()) {
+    const std::uint32_t set = next.back();
+    next.pop_back();
+    if (is_flap[set]) continue;
+    is_flap[set] = true;
+    for (const std::size_t rim : rims_of[set]) {
+      std::erase_if(rims[rim], [&](const SetAtEdge& s) { return s.set == set; });
+      if (rims[rim].size() == 1 && rims[rim][0].balance != 0) next.push_back(rims[rim][0].set);
+    }
+  }
+  return is_flap;
 }
 
 Labels label_components(const Mesh& welded, const EdgeTable& edges) {

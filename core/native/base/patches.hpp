@@ -37,6 +37,13 @@ struct Labels {
   std::vector<std::vector<std::uint32_t>> members() const;
 };
 
+// Which sets have a boundary: an edge that their triangles run more often in one direction than in the other.
+std::vector<bool> find_open_sets(const Labels& labels, const EdgeTable& edges);
+
+// Sets that are taken off one after the other, each while it has a rim of its own: an edge that it leaves open, and at
+// which no other set is left. A wall within a closed box is one, where it does not reach the box all around.
+std::vector<bool> find_flaps(const Labels& labels, const EdgeTable& edges);
+
 // Sets connected through shared edges, whatever the number of triangles at them.
 Labels label_components(const Mesh& welded, const EdgeTable& edges);
 

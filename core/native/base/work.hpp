@@ -1,5 +1,5 @@
-// What queries on this thread have cost so far, in steps of about a nanosecond: counted where the work is done, in
-// exact arithmetic too, and not by a clock. The same input counts the same on every machine.
+// The work of all queries on this thread so far, in steps of about a nanosecond. Steps are counted where the work is
+// done, also in exact arithmetic, and not by a clock: the same input has the same count on every machine.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,7 @@ ClimbRequest request_from(const PairTuple& pair, bool alone = false) {
 }
 
 void bind_geometry(nb::module_& m) {
-  nb::class_<Geometry>(m, "Geometry", R"(What all bodies of one mesh share, in file coordinates, made when asked for. solid: the mesh is closed and
+  nb::class_<Geometry>(m, "Geometry", R"(What all bodies of one mesh share, in file coordinates, made when needed. solid: the mesh is closed and
 consistently wound; surfaces raise ValueError where it is not. plain: the mesh is that of an Inspection whose topology
 is a plain solid; that is not proven again. sheets: where the mesh is open, it has no inside; else every hole is
 filled somehow.)")
@@ -61,13 +61,13 @@ filled somehow.)")
            "mesh"_a, "solid"_a, "plain"_a = false, "sheets"_a = false)
       .def_prop_ro("convex", &Geometry::convex, ReleaseGil(), R"(Closed, consistently outward, and exactly convex. An affine map keeps that, up to the one rounding of each
 world coordinate: the body is then taken as the hull of its world vertices.)")
-      .def_prop_ro("known_convex", &Geometry::known_convex, "None where nobody has asked yet.")
+      .def_prop_ro("known_convex", &Geometry::known_convex, "None until a pair needs it.")
       .def("surface", &Geometry::surface, ReleaseGil())
       .def("hull", &Geometry::hull, ReleaseGil())
       .def("hull_shape", &Geometry::hull_shape, ReleaseGil())
       .def_prop_ro("hierarchies", &Geometry::hierarchies, "How many trees were built for these bodies.")
       .def_prop_ro("refits", &Geometry::refits, "How many were fitted again to placed vertices.");
-  nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh and what is made of it when asked for.
+  nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh and what is made of it when needed.
 
 transform: 4x4, 16 numbers by rows, affine and not singular; None: as in the file. bounds: of the body in the world.
 resolution: how finely its coordinates are known, world units.)")
@@ -80,7 +80,7 @@ resolution: how finely its coordinates are known, world units.)")
       .def_prop_ro("mesh", &PlacedGeometry::mesh, ReleaseGil(), "Each coordinate rounded once. ValueError, OverflowError as Mesh.transformed.")
       .def("surface", &PlacedGeometry::surface, ReleaseGil())
       .def("hull", &PlacedGeometry::hull, ReleaseGil(), "Of all its vertices, with its faces.")
-      .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The same as a shape, as a rule without faces.")
+      .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The same as a shape, usually without faces.")
       .def("let_go", &PlacedGeometry::let_go, "Forget what was made; it is made again should somebody ask.");
 }
 
@@ -169,7 +169,7 @@ band_nanoseconds  what the touch band or the gap took. stages() says what the ru
       .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });
 }
 
-// A batch on its way up, in threads of its own; on one thread it climbs when it is asked for.
+// A batch on its way up, in threads of its own; on one thread it climbs when its result is taken.
 class Climbing {
  public:
   Climbing(nb::list pairs, const std::string& last, unsigned threads, bool alone) : pairs_(std::move(pairs)) {
@@ -208,7 +208,7 @@ void bind_climb(nb::module_& m) {
   bind_found(m);
   nb::class_<Climbing>(m, "Climbing", "Pairs on their way up the ladder; while they climb, the caller can do something else.")
       .def(nb::init<nb::list, const std::string&, unsigned, bool>(), "pairs"_a, "last"_a = "triangles", "threads"_a = 0,
-           "alone"_a = false, "As climb_all; on one thread nothing climbs before it is asked for.")
+           "alone"_a = false, "As climb_all; on one thread a batch climbs when its result is taken.")
       .def("found", &Climbing::found, "Waits, and hands over once.");
   m.def("climb_all",
         [](nb::list pairs, const std::string& last, unsigned threads, bool alone) {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bindings/tuples.hpp"
 #include "mesh_pair/covers_once.hpp"
 #include "mesh_pair/surface_intersection.hpp"
 
@@ -14,10 +15,6 @@ using namespace nb::literals;
 
 namespace satcheck {
 namespace {
-
-using Tuple3 = std::tuple<double, double, double>;
-
-Tuple3 to_tuple(Vec3 v) { return {v.x, v.y, v.z}; }
 
 std::vector<Tuple3> to_tuples(const std::vector<Vec3>& points) {
   std::vector<Tuple3> tuples;
@@ -73,6 +70,8 @@ predicates; points are exact intersections, each coordinate rounded once. Solid 
   m.def("covers_once", &covers_once, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
         R"(Whether winding numbers with respect to the solid are 0 and 1 only, so that its signed volume is that of what it
 covers. Told by exact samples beside every piece of the surface.)");
+  m.def("has_sheets", &has_sheets, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
+        R"(Whether a piece of the surface has no inside on either side; true also where a sample gives no answer.)");
 }
 
 }  // namespace satcheck

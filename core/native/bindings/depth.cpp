@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bindings/tuples.hpp"
 #include "depth/depth_search.hpp"
 
 namespace nb = nanobind;
@@ -13,8 +14,6 @@ using namespace nb::literals;
 
 namespace satcheck {
 namespace {
-
-using Tuple3 = std::tuple<double, double, double>;
 
 // Ctrl-C would not be heard before the end of a long search.
 void raise_interrupts() {
@@ -59,7 +58,7 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
 `work` steps, each about a nanosecond, are spent first. upper: a known way out is this long; lower: a known bound.
 across: an axis of the world along which nothing is moved, as bodies that are prisms along it need it; -1: none.
 The same input gives the same result on every machine. In the main thread a signal handler may raise, KeyboardInterrupt for one.
-ValueError on a length that is none, or an empty surface.)");
+ValueError for a length that is negative or not finite, or for an empty surface.)");
 }
 
 }  // namespace satcheck

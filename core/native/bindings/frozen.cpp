@@ -32,7 +32,7 @@ PyObject*& place(PyObject* self, Py_ssize_t offset) {
   return *reinterpret_cast<PyObject**>(reinterpret_cast<char*>(self) + offset);
 }
 
-// Its number; that of no field if there is none. guess: which one it is as a rule.
+// The number of the field, or the number of fields if there is none of this name. guess: where it usually is.
 std::size_t find(const Fields& fields, PyObject* name, std::size_t guess) {
   const std::size_t count = fields.names.size();
   if (guess < count && fields.names[guess] == name) return guess;

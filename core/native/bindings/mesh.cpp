@@ -1,4 +1,4 @@
-// The Python face of the mesh tier. Nothing but conversions.
+// The Python face of one mesh: its topology, its inspection, its convex hull. Nothing but conversions.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -15,24 +15,15 @@
 
 #include "base/large_pages.hpp"
 #include "base/parallel.hpp"
+#include "bindings/tuples.hpp"
 #include "convex/polytope.hpp"
 #include "mesh/convexity.hpp"
 #include "mesh/hull_points.hpp"
-#include "mesh/closing.hpp"
 #include "mesh/inspection.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "mesh/surface.hpp"
 #include "mesh/topology.hpp"
-#include "mesh_pair/boundary_contact.hpp"
-#include "mesh_pair/deviation.hpp"
-#include "mesh/nearest_point.hpp"
-#include "exact/translation.hpp"
-#include "mesh_pair/gap_comparison.hpp"
-#include "mesh_pair/mesh_distance.hpp"
-#include "mesh_pair/mesh_pair.hpp"
 #include "scene/placed_bounds.hpp"
 #include "scene/stretch.hpp"
-#include "scene/words.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -40,22 +31,12 @@ using namespace nb::literals;
 namespace satcheck {
 namespace {
 
-using Tuple3 = std::tuple<double, double, double>;
 using VertexArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 template <class Index>
 using IndexArray = nb::ndarray<const Index, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::uint32_t));
-
-Tuple3 to_tuple(Vec3 v) { return {v.x, v.y, v.z}; }
-Vec3 to_vec3(const Tuple3& t) { return {std::get<0>(t), std::get<1>(t), std::get<2>(t)}; }
-
-Vec3 finite_point(const Tuple3& t) {
-  const Vec3 p = to_vec3(t);
-  if (!is_finite(p)) throw std::invalid_argument("the point is not finite");
-  return p;
-}
 
 std::vector<Vec3> copy_vertices(const double* data, std::size_t count) {
   std::vector<Vec3> vertices(count);
@@ -136,6 +117,8 @@ when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing 
       .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, ReleaseGil(), "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
       .def("to_bytes", &mesh_to_bytes, "The inverse of from_bytes.")
       .def_prop_ro("vertex_count", [](const Mesh& mesh) { return mesh.vertices.size(); })
+      .def("vertex", [](const Mesh& mesh, std::size_t i) { return to_tuple(mesh.vertices.at(i)); }, "i"_a,
+           "One of the vertices; numpy is not needed for it. IndexError beyond the last.")
       .def_prop_ro("triangle_count", [](const Mesh& mesh) { return mesh.triangles.size(); })
       .def_prop_ro("bounds",
                    [](const Mesh& mesh) {
@@ -171,8 +154,9 @@ the winding. ValueError when the matrix is not affine, not finite or singular.)"
       .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
       .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding a component, outermost closed shells outward. Copies of a triangle are dropped
 where that closes the surface.)")
-      .def("components", &split_components, ReleaseGil(), "The parts that share no edge, in order of their first triangle.")
-      .def("is_flat", &is_flat, ReleaseGil(), "Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.")
+      .def("components", &split_components, "crack_width"_a = 0.0, ReleaseGil(), R"(The parts that share no edge, in order of their
+first triangle. crack_width: points within it may be the same; edges along such a crack count as shared.)")
+      .def("is_flat", [](const Mesh& mesh) { return is_flat(mesh); }, ReleaseGil(), "Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.")
       .def("convex_hull", [](const Mesh& mesh) { return convex_hull(mesh.vertices); }, ReleaseGil())
       .def("convexity_defect", &convexity_defect, "limit"_a, ReleaseGil(), R"(A proven upper bound of the distance from any point of the convex hull to the solid; 0.0 only when they are
 equal; inf when the mesh is not a solid or the bound exceeds `limit`.)");
@@ -201,7 +185,7 @@ void bind_placed_bounds(nb::module_& m) {
 raises. On `threads` threads, 0: one a core. ValueError when the lengths differ.)");
   m.def("largest_stretch", &largest_stretch, "matrix"_a,
         "How much longer the placement, 16 entries by rows, can make a length: its largest singular value. "
-        "OverflowError where its squares leave the range of numbers.");
+        "OverflowError where it leaves the range of numbers.");
   m.def("largest_placed", &largest_placed, "matrix"_a, "largest"_a,
         "An upper bound, but for rounding, of |world coordinate| for coordinates up to `largest` in the file.");
 }
@@ -276,118 +260,6 @@ void bind_polytope(nb::module_& m) {
       .def("to_mesh", [](const Polytope& p) { return Mesh{p.vertices, p.triangles}; });
 }
 
-void bind_surface(nb::module_& m) {
-  nb::class_<Surface>(m, "Surface", "A mesh with its tree: built once, immutable, shared by threads.")
-      .def("__init__",
-           [](Surface* self, const Mesh& mesh, bool solid, bool sheets) {
-             new (self) Surface(make_surface(mesh, solid));
-             if (sheets) self->open_parts = OpenParts::sheets;
-           },
-           "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: claimed to be closed; ValueError where it is not. sheets: what is open has no inside; else every hole is
-filled somehow.)")
-      .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
-                   nb::rv_policy::reference_internal)
-      .def_ro("solid", &Surface::solid)
-      .def_ro("refitted", &Surface::refitted, "Whether the tree has the form of another surface's.")
-      .def("closed",
-           [](const Surface& s) {
-             if (s.solid) return std::make_tuple(s, std::vector<Surface>{});
-             const auto closing = closing_of(s, s.open_parts);
-             return std::make_tuple(*closing->surface, closing->hulls);
-           },
-           ReleaseGil(), R"((surface, hulls): the surface closed, and for each of its holes a surface that every fill of it lies within. Away
-from these its winding numbers do not depend on the fill.)")
-      .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of this mesh with its vertices elsewhere, `mesh`: the tree is fitted again in linear time. Made anew
-where the triangles are others, or where rounding has put two vertices into one place.)")
-      .def("winding_number",
-           [](const Surface& s, const Tuple3& point) {
-             if (!s.solid) throw std::invalid_argument("the surface is not a solid");
-             return winding_number(s, finite_point(point));
-           },
-           "point"_a, ReleaseGil())
-      .def("is_boundary",
-           [](const Surface& s, std::size_t triangle) {
-             if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
-             return is_plain_boundary(s, static_cast<std::uint32_t>(triangle));
-           },
-           "triangle"_a, ReleaseGil(), R"(Whether the closed body ends on all of the triangle: it is no face inside the material, and meets no other
-triangle of the surface but at shared corners and edges.)")
-      .def("nearest",
-           [](const Surface& s, const Tuple3& point) {
-             const NearestPoint nearest = nearest_point(s, finite_point(point));
-             return std::make_tuple(nearest.distance, to_tuple(nearest.point));
-           },
-           "point"_a, ReleaseGil());
-}
-
-std::int64_t triangle_number(std::uint32_t triangle) {
-  return triangle == kNoTriangle ? -1 : static_cast<std::int64_t>(triangle);
-}
-
-void bind_mesh_relation(nb::module_& m) {
-  nb::class_<OpenHole>(m, "OpenHole", R"(A hole that leaves a relation open, world units. of_a: whether the first body has it; number: from 0 on, the
-largest hole of the body first; count: of its holes.)")
-      .def_ro("of_a", &OpenHole::of_a)
-      .def_ro("number", &OpenHole::number)
-      .def_ro("count", &OpenHole::count)
-      .def_prop_ro("centre", [](const OpenHole& hole) { return to_tuple(hole.centre); })
-      .def_ro("diameter", &OpenHole::diameter);
-  nb::class_<MeshRelation>(m, "MeshRelation", R"(proven: False where a degenerate contact was decided by samples, or where `hole` is the hole that leaves the
-relation open; the relation is then that of the surfaces as they are.)")
-      .def_prop_ro("relation", [](const MeshRelation& r) { return name_of(r.relation); })
-      .def_ro("proven", &MeshRelation::proven)
-      .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal)
-      .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
-      .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
-      .def_prop_ro("point",
-                   [](const MeshRelation& r) {
-                     return r.point ? std::optional(to_tuple(*r.point)) : std::nullopt;
-                   })
-      .def_ro("box_tests", &MeshRelation::box_tests)
-      .def_ro("triangle_tests", &MeshRelation::triangle_tests);
-  m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
-        R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
-"touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),
-"inside" (a strictly inside b), "coincident" (the same body, however triangulated). A body is the points of winding
-number other than 0, and its sheets: walls of no thickness, in which nothing can be, and which nothing can cross.)");
-}
-
-void bind_mesh_distance(nb::module_& m) {
-  nb::class_<MeshDistance>(m, "MeshDistance",
-                           "distance: inf when beyond the limit; witness points on a and b, triangle indices.")
-      .def_ro("distance", &MeshDistance::distance)
-      .def_prop_ro("witness_a", [](const MeshDistance& d) { return to_tuple(d.witness_a); })
-      .def_prop_ro("witness_b", [](const MeshDistance& d) { return to_tuple(d.witness_b); })
-      .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
-      .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
-  m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) { return mesh_distance(a, b, limit); }, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
-        R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
-another is at a distance from its surface all the same: ask mesh_relation first.)");
-  m.def("compare_gap",
-        [](const Surface& a, const Surface& b, double length) {
-          if (!(length >= 0)) throw std::invalid_argument("the length must not be negative");
-          return compare_gap(a, b, length);
-        },
-        "a"_a, "b"_a, "length"_a, ReleaseGil(),
-        R"(-1, 0 or 1: the distance of two surfaces without a common point is smaller than, equal to, or larger than the
-length. Decided exactly. Walls without thickness do not count.)");
-  m.def("moves_within",
-        [](const Mesh& mesh, const Tuple3& move, double length) {
-          return moves_within(mesh.vertices, finite_point(move), length);
-        },
-        "mesh"_a, "move"_a, "length"_a, ReleaseGil(),
-        R"(Whether a translation, added to the vertices with one rounding of each coordinate, takes none of them farther than
-`length`. Decided exactly where nothing is rounded.)");
-  m.def("deviation",
-        [](const Mesh& surface_of, const Surface& solid, double tolerance) {
-          const Deviation d = deviation(surface_of, solid, tolerance);
-          return std::make_tuple(d.lower, d.upper);
-        },
-        "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
-        R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
-most `tolerance` apart, unless the work limit was reached. Branch and bound over triangles: the distance is 1-Lipschitz.)");
-}
-
 }  // namespace
 
 void bind_mesh(nb::module_& m) {
@@ -395,9 +267,6 @@ void bind_mesh(nb::module_& m) {
   bind_polytope(m);
   bind_mesh_class(m);
   bind_placed_bounds(m);
-  bind_surface(m);
-  bind_mesh_relation(m);
-  bind_mesh_distance(m);
 }
 
 }  // namespace satcheck

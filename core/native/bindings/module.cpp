@@ -23,6 +23,7 @@ namespace satcheck {
 void bind_broad_phase(nb::module_& m);
 void bind_climb(nb::module_& m);
 void bind_resolve(nb::module_& m);
+void bind_surface(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
 void bind_frozen(nb::module_& m);
@@ -151,6 +152,7 @@ NB_MODULE(_native, m) {
   nb::set_leak_warnings(false);
   bind_frozen(m);
   bind_mesh(m);
+  bind_surface(m);
   bind_broad_phase(m);
   bind_resolve(m);
   bind_contacts(m);

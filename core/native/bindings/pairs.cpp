@@ -115,7 +115,7 @@ void bind_pair_result(nb::module_& m) {
       });
 }
 
-// An array over the field of all results, without a copy; of numbers that were not asked for, one row again and again.
+// An array over the field of all results, without a copy; for a field that the query does not compute, one row again and again.
 template <auto Member, class T, std::size_t Width>
 nb::object array(nb::handle self) {
   static_assert(sizeof(Field<Member>) == Width * sizeof(T));

@@ -28,7 +28,7 @@ Answer find_least_motion(const std::vector<bool>& movable, const std::vector<Pai
     throw std::invalid_argument("bodies, normals, least and multipliers differ in length");
   }
   const nb::gil_scoped_release release;
-  std::vector<Wall> walls;
+  std::vector<PairWall> walls;
   walls.reserve(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const auto [a, b] = bodies[k];
@@ -52,7 +52,7 @@ void bind_resolve(nb::module_& m) {
 movable: of each body; bodies: (a, b) of each wall, one of them movable; normals: unit; multipliers: those of an
 earlier answer to a similar question, or zeros. Returns the translations, (0, 0, 0) where a body is not movable,
 and the multipliers: each >= 0, how far a wall pushes its bodies. Walls that exclude each other are not all kept;
-the others are, to about 1e-6 of the largest `least` at worst and to rounding as a rule. ValueError for lists
+the others are, to about 1e-6 of the largest `least` at worst and usually to rounding. ValueError for lists
 that do not fit.)");
 }
 

@@ -32,7 +32,7 @@ SATCHECK_INLINE double proof_noise(double scale, const OrderedBoxes& o) {
   return proof_noise(scale, *o.a, *o.pose_a, *o.b, *o.pose_b);
 }
 
-// What the axis is, by LeastOverlap::kind; 3: there is none. In the order that was asked for.
+// What the axis is, by LeastOverlap::kind; 3: there is none. In the order of A and B as they were given.
 struct FoundFeature {
   Feature feature;
   std::uint32_t index_a, index_b;
@@ -115,7 +115,7 @@ SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, co
   const bool by_face = apart != 0;
   if (!by_face) measure_edges(boxes, axes);
   for (int i = 0; i < 3 && !by_face; ++i) {
-    // Against noise times the length, squared: of parallel edges that is 0 against 0, and in nobody's way.
+    // Against noise times the length, squared: of parallel edges that is 0 against 0, and excludes no axis.
     const Lanes overlap = signed_square(axes.overlap[2 + i]), short_of = limit * axes.length_squared[i];
     apart |= bits_of_three(overlap < -short_of) << (8 + 4 * i);
     open = open | (overlap < short_of);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFirstPoints = 64;  // of each set, evenly along its order
 constexpr int kRounds = 32;
-// Of the distance: the hulls proper would give all of it, which nobody is in need of.
+// Of the distance. The exact hulls would give all of it, but no caller needs that.
 constexpr double kGoodShare = 0.99;
 
 std::vector<Vec3> some_of(const std::vector<Vec3>& points) {

@@ -251,7 +251,7 @@ void settle_grown(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
   if (side == 0) result.distance = 0;
 }
 
-// What an axis that separates leaves open is the distance. Of boxes that are asked for it, it comes first.
+// An axis that separates leaves the distance open. For boxes whose distance is needed, the distance comes first.
 CoreAnswer from_sat_or_distance(const MinkowskiDifference& m, Query query, PairResult& result) {
   const bool distance_first = query == Query::distance && are_boxes(m.a, m.b);
   const auto distance = [&](double lower_bound) {
@@ -339,7 +339,7 @@ PairResult check_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const
 
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                       MethodChoice method) {
-  // Boxes that are asked for their distance are apart, most of them: GJK comes first.
+  // Most boxes whose distance is needed are apart: GJK comes first.
   if (are_boxes(a, b) && query != Query::distance && method != MethodChoice::gjk) {
     return check_boxes(a, pose_a, b, pose_b, query);
   }

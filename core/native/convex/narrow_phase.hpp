@@ -17,7 +17,7 @@ struct PairResult {
   Method method = Method::none;  // the stage that decided
   Feature feature = Feature::none;
   std::uint32_t index_a = Shape::kNoIndex, index_b = Shape::kNoIndex;
-  // Signed distance, > 0 a gap, < 0 a penetration, with bounds. NaN when it was not asked for.
+  // Signed distance, > 0 a gap, < 0 a penetration, with bounds. NaN when the query does not need it.
   bool has_distance = false;
   double distance = NAN, lower = NAN, upper = NAN;
   Vec3 normal{NAN, NAN, NAN};  // unit, from A to B, world

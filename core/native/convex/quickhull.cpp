@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// Steps of a facet that is made, of the faces and edges that the hull gets of it included, and of a point that is held
-// against a facet: measured.
+// Measured steps: of making a facet, with the faces and edges that the hull gets from it, and of testing a point
+// against a facet.
 constexpr std::uint64_t kFacetWork = 300, kHeightWork = 4;
 
 // The error bound of the 3x3 determinant, derived in predicates.cpp, with one more u because the

@@ -46,8 +46,8 @@ EdgeSigns signs_across(Vec2 from, Vec2 to, const std::vector<Vec2>& other) {
 
 }  // namespace
 
-Interval project(const std::vector<Vec2>& points, Vec2 axis) {
-  Interval interval{INFINITY, -INFINITY};
+Projection project(const std::vector<Vec2>& points, Vec2 axis) {
+  Projection interval{INFINITY, -INFINITY};
   for (Vec2 p : points) {
     const double value = p.x * axis.x + p.y * axis.y;
     interval = {std::min(interval.min, value), std::max(interval.max, value)};

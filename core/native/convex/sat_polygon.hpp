@@ -12,11 +12,11 @@ struct Vec2 {
 };
 
 // The projection of a set onto an axis: a closed interval.
-struct Interval {
+struct Projection {
   double min, max;
 };
 
-Interval project(const std::vector<Vec2>& points, Vec2 axis);
+Projection project(const std::vector<Vec2>& points, Vec2 axis);
 
 struct PolygonResult {
   Outcome outcome = Outcome::undecided;

@@ -35,7 +35,7 @@ struct Shape {
   double margin = 0;  // radius of the ball around the core: sphere and capsule
   Vec3 origin;
   double extent = 0;  // largest |coordinate| of the core, relative to `origin`
-  // Two points of the core, as a rule deep inside it, within 8 roundoffs of the extent: the first where it is A, the
+  // Two points of the core, usually deep inside it, within 8 roundoffs of the extent: the first where it is A, the
   // second where it is B. Off planes of symmetry: rays between such points of aligned shapes would graze edges.
   Vec3 inside[2];
   // Hull and box. Hull: coordinates are relative to `origin`, which brings a hull far from the world's

@@ -1,4 +1,4 @@
-// A ball around each core adds its radius: the signed distance of the cores is compared with the length and both radii.
+// Each shape is its core and a ball around it: the distance of the cores is compared with the length plus both radii.
 #include "convex/signed_comparison.hpp"
 
 #include "convex/exact_depth.hpp"

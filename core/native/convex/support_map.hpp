@@ -76,7 +76,7 @@ class SupportMap {
   std::vector<Vec3> points_;
 };
 
-// The map of a shape, made once the shape has been asked for so often that it pays. Copies share it.
+// The map of a shape, made when enough queries have used the shape that it pays. Copies share it.
 class LazySupportMap {
  public:
   LazySupportMap() = default;  // never made

@@ -1,4 +1,4 @@
-// A hull that stays where it was made is its own answer; any other is computed anew, because rounding bends its faces.
+// A hull that is not moved is its own world hull. Any other is computed again, because rounding bends its faces.
 #include "convex/world_hull.hpp"
 
 namespace satcheck {

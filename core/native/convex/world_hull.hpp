@@ -1,4 +1,4 @@
-// The core of a placed shape as exact arithmetic takes it.
+// The core of a placed shape for exact arithmetic.
 #pragma once
 
 #include "convex/shape.hpp"

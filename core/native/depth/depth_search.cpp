@@ -1,7 +1,7 @@
 // Method: branch and bound over boxes in the space of translations, least norm first. A box is dropped when
 // one convex set of translations that are proven to leave an overlap (overlap_proof.hpp) holds all of it,
-// or all that is short enough to matter. Where no set holds a point near the box's nearest one, the meshes
-// themselves are asked: free, and an upper bound is found; overlapping, and that proves one more set.
+// or all that is short enough to matter. Where no set holds a point near the box's nearest one, the search tests
+// the meshes there: if they are free, that is an upper bound; if they overlap, that proves one more set.
 #include "depth/depth_search.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include "base/work.hpp"
 #include "depth/corner_plane.hpp"
 #include "depth/exact_centre.hpp"
-#include "depth/forbidden_set.hpp"
+#include "depth/forbidden_union.hpp"
 #include "depth/overlap_proof.hpp"
 #include "depth/translation_box.hpp"
 #include "mesh_pair/mesh_pair.hpp"
@@ -25,9 +25,8 @@
 namespace satcheck {
 namespace {
 
-// Steps of a plane that a translation is held against, of a box, of a vertex that is moved: measured. And how many of them
-// lie between two calls of poll().
-constexpr std::uint64_t kPlaneWork = 2, kBoxWork = 300, kVertexWork = 10, kPollWork = 50'000'000;
+// Measured steps of a box and of moving a vertex, and the steps between two calls of poll().
+constexpr std::uint64_t kBoxWork = 300, kVertexWork = 10, kPollWork = 50'000'000;
 
 // Steps out of one set after another until the meshes are free.
 constexpr int kStepsOut = 8;
@@ -35,16 +34,10 @@ constexpr std::size_t kMostWalls = 24;
 // How far beyond the boundary of a set a step leads, so that rounding does not leave it inside: a share of
 // the known way out.
 constexpr double kBeyond = 1e-10;
-// Facets of a set that may cut a box of which other sets cover the rest.
-constexpr std::size_t kMostCuts = 4;
-// Sets that a point may be moved out of within its box.
-constexpr std::size_t kSetsLeft = 24;
-// From so many sets on each is made where the bodies overlap the most.
+// From this many sets on, each is made where the bodies overlap the most.
 constexpr std::size_t kManySets = 40;
-// How much deeper than the others a set has to hold a point to be kept beside them.
+// A new set on a seam is kept if it holds the point this many times deeper than the others.
 constexpr double kDeeper = 2;
-// How far into the open, in halves of the box.
-constexpr double kIntoTheOpen = 1.0 / 16;
 // A way out that ends at a face is shortened to that face where the two agree to this share of it.
 constexpr double kSnap = 1e-6;
 // Boxes below this share of the known way out lie on a seam of two sets, if no set holds them.
@@ -79,7 +72,8 @@ bool is_sum(double sum, double x, double y) {
 
 class Search {
  public:
-  Search(const Surface& a, const Surface& b, const DepthGoal& goal) : a_(a), b_(b), moved_(a), goal_(goal) {
+  Search(const Surface& a, const Surface& b, const DepthGoal& goal)
+      : a_(a), b_(b), moved_(a), goal_(goal), sets_(goal.across) {
     result_.upper = goal.upper;
   }
 
@@ -104,12 +98,13 @@ class Search {
       ++result_.boxes;
       poll();
       open_from = result_.upper;
-      if (is_covered(box) || is_covered_by_several(box)) continue;
-      Vec3 t = box.nearest_to_origin();
+      if (is_covered(box) || is_dropped(sets_.covered_by_several(box, enough()))) continue;
       if (is_on_seam(box)) {
-        fit(on_facets(box));
-      } else if (find_open(box, t) || is_open(box, t = box.centre)) {
-        ask_meshes(t);
+        fit(sets_.on_facets(box));
+      } else if (const auto t = sets_.nearest_open(box, box.nearest_to_origin(), enough())) {
+        ask_meshes(*t);
+      } else if (sets_.is_open(box, box.centre, enough())) {
+        ask_meshes(box.centre);
       }
       if (is_covered(box)) continue;
       split(box);
@@ -125,14 +120,7 @@ class Search {
 
  private:
   // Where translations lie in a plane, the boxes are flat, and so is whatever points at them.
-  Vec3 in_plane(Vec3 t) const {
-    switch (goal_.across) {
-      case 0: return {0, t.y, t.z};
-      case 1: return {t.x, 0, t.z};
-      case 2: return {t.x, t.y, 0};
-      default: return t;
-    }
-  }
+  Vec3 in_plane(Vec3 t) const { return satcheck::in_plane(t, goal_.across); }
 
   std::uint64_t work() const { return work_done - start_; }
 
@@ -159,98 +147,14 @@ class Search {
 
   // Whether one set forbids all translations in the box that are short enough to matter.
   bool is_covered(TranslationBox& box) {
-    const Aabb bounds = box.bounds();
-    for (; box.seen < sets_.size(); ++box.seen) {
-      if (meet(sets_[box.seen].box, bounds)) box.sets.push_back(box.seen);
-    }
-    double farthest = -INFINITY;
-    std::size_t kept = 0;
-    for (const std::uint32_t i : box.sets) {
-      work_done += kPlaneWork * sets_[i].normal.size();
-      const ForbiddenSet::Reach reach = sets_[i].reach(box.centre, box.half);
-      if (reach.meets) box.sets[kept++] = i;
-      farthest = std::fmax(farthest, reach.length);
-      if (farthest >= result_.upper) break;
-    }
-    if (farthest >= enough()) {
-      covered_to_ = std::fmin(covered_to_, farthest);
-      return true;
-    }
-    box.sets.resize(kept);
-    return false;
+    return is_dropped(sets_.covered_by_one(box, enough(), result_.upper));
   }
 
-  // The same by one set and, for each part of the box beyond a facet of that, one more. So two sets that overlap but
-  // little cover the seam between them in few boxes.
-  bool is_covered_by_several(const TranslationBox& box) {
-    if (box.sets.size() < 2) return false;
-    for (const std::uint32_t i : box.sets) {
-      const double length = length_covered_with(i, box);
-      if (length < enough()) continue;
-      covered_to_ = std::fmin(covered_to_, length);
-      return true;
-    }
-    return false;
-  }
-
-  double length_covered_with(std::uint32_t first, const TranslationBox& box) {
-    const ForbiddenSet& set = sets_[first];
-    work_done += kPlaneWork * set.normal.size();
-    cuts_.clear();
-    double length = INFINITY;
-    for (std::size_t k = 0; k < set.normal.size(); ++k) {
-      const Vec3 n = set.normal[k];
-      const double middle = dot(n, box.centre), at = set.offset[k];
-      const double spread = std::fabs(n.x) * box.half.x + std::fabs(n.y) * box.half.y + std::fabs(n.z) * box.half.z;
-      if (middle + spread < at) continue;
-      if (at >= enough()) {
-        length = std::fmin(length, at);
-      } else if (middle >= at || cuts_.size() == kMostCuts) {
-        return -INFINITY;
-      } else {
-        cuts_.push_back({n, at});
-      }
-    }
-    for (const Wall& cut : cuts_) {
-      double beyond = -INFINITY;
-      for (std::size_t j = 0; j < box.sets.size() && beyond < enough(); ++j) {
-        if (box.sets[j] == first) continue;
-        beyond = std::fmax(beyond, sets_[box.sets[j]].reach_beyond(box.centre, box.half, cut.normal, cut.offset, enough()));
-      }
-      length = std::fmin(length, beyond);
-      if (length < enough()) return -INFINITY;
-    }
-    return length;
-  }
-
-  // Whether no set holds t, and it is short enough to matter.
-  bool is_open(const TranslationBox& box, Vec3 t) {
-    return norm(t) < enough() && std::none_of(box.sets.begin(), box.sets.end(), [&](std::uint32_t i) {
-      work_done += kPlaneWork * sets_[i].normal.size();
-      return sets_[i].exit(t).depth > 0;
-    });
-  }
-
-  // The point nearest to t that no set holds, if it is in the box and short enough to matter.
-  bool find_open(const TranslationBox& box, Vec3& t) {
-    const Vec3 start = t;
-    const double beyond = kIntoTheOpen * max_abs(box.half);
-    std::vector<Wall> walls;
-    while (norm(t) < enough()) {
-      ForbiddenSet::Exit deepest;
-      for (const std::uint32_t i : box.sets) {
-        work_done += kPlaneWork * sets_[i].normal.size();
-        const ForbiddenSet::Exit exit = sets_[i].exit(t);
-        if (exit.depth > deepest.depth) deepest = exit;
-      }
-      if (!(deepest.depth > 0)) return box.contains(t);
-      if (walls.size() >= kSetsLeft) return false;
-      walls.push_back({deepest.normal, dot(deepest.normal, t - start) + deepest.depth + beyond});
-      const std::optional<Vec3> next = nearest_beyond(walls);
-      if (!next) return false;
-      t = in_plane(start + *next);
-    }
-    return false;
+  // Of a box in which all translations up to a length are forbidden: whether that is long enough.
+  bool is_dropped(double covered) {
+    if (covered < enough()) return false;
+    covered_to_ = std::fmin(covered_to_, covered);
+    return true;
   }
 
   void poll() {
@@ -284,7 +188,7 @@ class Search {
   void ask_meshes(Vec3 t) {
     std::vector<Wall> walls;
     for (int asked = 0; asked < kStepsOut && walls.size() < kMostWalls && work() < goal_.work;) {
-      ForbiddenSet::Exit exit = deepest_exit(t);
+      ForbiddenSet::Exit exit = sets_.deepest_exit(t);
       if (!(exit.depth > 0)) {
         ++asked;
         const MeshRelation relation = relation_at(t);
@@ -292,7 +196,7 @@ class Search {
         ForbiddenSet set = proof_at(t, relation);
         if (set.empty()) return;
         exit = set.exit(t);
-        sets_.push_back(std::move(set));
+        sets_.add(std::move(set));
       }
       walls.push_back({exit.normal, dot(exit.normal, t) + exit.depth + kBeyond * result_.upper});
       const std::optional<Vec3> next = nearest_beyond(walls);
@@ -306,19 +210,7 @@ class Search {
     return prove_overlap(a_, moved_.at(t), b_, t, relation, overlaps);
   }
 
-  ForbiddenSet::Exit deepest_exit(Vec3 t) {
-    ForbiddenSet::Exit deepest;
-    const Aabb point{t, t};
-    for (const ForbiddenSet& set : sets_) {
-      if (!meet(set.box, point)) continue;
-      work_done += kPlaneWork * set.normal.size();
-      const ForbiddenSet::Exit exit = set.exit(t);
-      if (exit.depth > deepest.depth) deepest = exit;
-    }
-    return deepest;
-  }
-
-  // A way out on the smallest of some spheres, for what is longer than it need not be searched.
+  // A way out on the smallest of some spheres: nothing longer has to be searched then.
   void scan_spheres(double radius) {
     scanned_ = true;
     for (; radius < result_.upper; radius *= kSphereRatio) {
@@ -326,25 +218,10 @@ class Search {
         if (!(in_plane(way) == way)) continue;
         if (work() >= goal_.work) return;
         const Vec3 t = way * radius;
-        const auto holds = [&](const ForbiddenSet& set) { return set.exit(t).depth > 0; };
-        if (std::any_of(sets_.begin(), sets_.end(), holds)) continue;
-        if (is_free(relation_at(t))) take(t);
+        if (!sets_.holds(t) && is_free(relation_at(t))) take(t);
       }
     }
     if (result_.found) ask_meshes(result_.way_out * (1 - kScanStep));
-  }
-
-  // The box's nearest point, shifted onto the facets that cut the box.
-  Vec3 on_facets(const TranslationBox& box) const {
-    Vec3 t = box.nearest_to_origin();
-    for (const std::uint32_t i : box.sets) {
-      for (std::size_t k = 0; k < sets_[i].normal.size(); ++k) {
-        const Vec3 n = sets_[i].normal[k];
-        const double spread = std::fabs(n.x) * box.half.x + std::fabs(n.y) * box.half.y + std::fabs(n.z) * box.half.z;
-        if (std::fabs(sets_[i].facet[k] - dot(n, box.centre)) <= spread) t = t + n * (sets_[i].facet[k] - dot(n, t));
-      }
-    }
-    return in_plane(t);
   }
 
   // Where forbidden sets only touch, A fits between the parts of B without play: t is shifted by less than
@@ -363,12 +240,12 @@ class Search {
     if (!deepen(t)) ask_meshes(t);
   }
 
-  // One more set that holds t, farther inside than those that are known.
+  // Adds a set that holds t deeper than all others do.
   bool deepen(Vec3 t) {
-    const double known = std::fmax(deepest_exit(t).depth, 0.0);
+    const double known = std::fmax(sets_.deepest_exit(t).depth, 0.0);
     ForbiddenSet set = proof_at(t, relation_at(t));
     if (!(set.exit(t).depth > kDeeper * known)) return false;
-    sets_.push_back(std::move(set));
+    sets_.add(std::move(set));
     return true;
   }
 
@@ -383,7 +260,7 @@ class Search {
     }
   }
 
-  // How much longer than t a translation may have to be: 0 where it is along an axis and adding it rounds nothing.
+  // What rounding may add to the length of t. 0 where t is along an axis and adding it rounds no coordinate.
   double rounding(Vec3 t) const {
     const int axes = (t.x != 0) + (t.y != 0) + (t.z != 0);
     double farthest = 0;
@@ -409,8 +286,7 @@ class Search {
   std::uint64_t start_ = work_done;
   DepthInterval result_;
   double covered_to_ = INFINITY;  // the boxes that were dropped hold no shorter way out
-  std::vector<ForbiddenSet> sets_;
-  std::vector<Wall> cuts_;  // of length_covered_with()
+  ForbiddenUnion sets_;
   std::priority_queue<TranslationBox, std::vector<TranslationBox>, Later> open_;
   std::uint64_t next_number_ = 0, next_poll_ = kPollWork;
   bool scanned_ = false;

@@ -29,7 +29,7 @@ struct DepthInterval {
   // when it is shorter than the way out that was known.
   bool found = false;
   Vec3 way_out;
-  // An upper bound of the depth: `upper`, and what rounding took from the moved coordinates and from that length.
+  // A proven upper bound of the depth: `upper` and the rounding of the moved coordinates and of that length.
   double bound = INFINITY;
   DepthStop stop = DepthStop::narrow;
   std::uint64_t work = 0;

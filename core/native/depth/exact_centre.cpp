@@ -7,7 +7,7 @@
 namespace satcheck {
 namespace {
 
-// Farther than so many times the size of both.
+// Meshes farther from the origin than this many sizes are moved near it.
 constexpr double kFar = 4;
 
 // c is a multiple of a power of two g >= the size, so for every coordinate x, at least 3.5 sizes from 0 and at most 1.5

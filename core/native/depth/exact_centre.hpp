@@ -5,9 +5,9 @@
 
 namespace satcheck {
 
-// A point that can be subtracted from every coordinate of both without rounding; 0 along an axis where the meshes are
-// no farther from the origin than some times their size. About it coordinates are as short as they can be: a moved
-// one is rounded less, and far fewer signs need exact arithmetic.
+// A point near the meshes that can be subtracted from every coordinate of both without rounding; 0 along an axis where
+// the meshes are near the origin anyway. Seen from it coordinates are short: moving them rounds less, and far fewer
+// signs need exact arithmetic.
 Vec3 exact_centre(const Surface& a, const Surface& b);
 
 }  // namespace satcheck

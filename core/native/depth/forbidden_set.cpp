@@ -15,7 +15,7 @@ constexpr double kFacetError = 7 * 1.1e-14;
 // Differences of vertices, dot products and sums over a box that the set holds.
 constexpr double kSetError = 128 * kUnitRoundoff;
 
-// Steps of a facet that a part of a box is held against: measured.
+// Measured steps of testing a part of a box against a facet.
 constexpr std::uint64_t kHeightWork = 6;
 // A facet nearly parallel to an axis bends the bound of a part far out, where rounding would count.
 constexpr double kMostFactor = 64;

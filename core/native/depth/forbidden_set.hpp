@@ -34,8 +34,8 @@ struct ForbiddenSet {
   };
   Reach reach(Vec3 centre, Vec3 half) const;
 
-  // The same length for the part of the box beyond one plane: normal . t >= offset, `normal` unit. Any number below
-  // `least` where it is less than that.
+  // The same length for the part of the box beyond a plane: normal . t >= offset, `normal` unit. Where that is less
+  // than `least`, any number below `least`.
   double reach_beyond(Vec3 centre, Vec3 half, Vec3 normal, double offset, double least) const;
 };
 

@@ -21,7 +21,7 @@
 namespace satcheck {
 namespace {
 
-// Steps of a box or triangle that is visited, and of a plane that it is held against: measured.
+// Measured steps of visiting a box or a triangle, and of testing it against a plane.
 constexpr std::uint64_t kVisitWork = 60, kPlaneWork = 3;
 
 constexpr int kBoxPlanes = 6;  // the first ones, of the surface's own box

@@ -18,19 +18,19 @@
 namespace satcheck {
 namespace {
 
-// Crossings that are tried, about.
+// About how many crossings are tried.
 constexpr std::size_t kPockets = 8;
-// A crossing this near to a common point, in its depths, is taken to belong to the same overlap.
+// A crossing this near to a common point, in units of its depth, counts as part of the same overlap.
 constexpr double kNear = 2;
 
-// A surface that may be open, closed.
+// The surface, closed where it is open.
 class Body {
  public:
   explicit Body(const Surface& surface)
-      : surface_(surface), closing_(surface.solid ? nullptr : closing_of(surface, surface.open_parts)) {}
+      : surface_(surface), closing_(surface.solid ? nullptr : closing_of(surface, OpenParts::filled)) {}
 
   const Surface& closed() const { return closing_ ? *closing_->surface : surface_; }
-  const Surface& walled() const { return closing_ ? *walled_surface(surface_, surface_.open_parts) : surface_; }
+  const Surface& walled() const { return closing_ ? *walled_surface(surface_, OpenParts::filled) : surface_; }
 
   // Is the point outside of the hulls of all holes?
   bool is_certain_at(Vec3 p) const {

@@ -11,7 +11,7 @@ namespace satcheck {
 // twice the time, and proves more where sets are many.
 enum class Overlaps { first, thickest };
 
-// A set that holds t, deeper than any other that was tried; empty: none does. `relation` of `moved`, which is `a`
+// A set that holds t: of the sets that were tried the one that holds it deepest; empty where none holds it. `relation` of `moved`, which is `a`
 // translated by t, to `b`: with a common interior.
 ForbiddenSet prove_overlap(const Surface& a, const Surface& moved, const Surface& b, Vec3 t,
                            const MeshRelation& relation, Overlaps overlaps);

@@ -21,6 +21,15 @@ bool TranslationBox::contains(Vec3 t) const {
   return std::fabs(d.x) <= half.x && std::fabs(d.y) <= half.y && std::fabs(d.z) <= half.z;
 }
 
+Vec3 in_plane(Vec3 t, int across) {
+  switch (across) {
+    case 0: return {0, t.y, t.z};
+    case 1: return {t.x, 0, t.z};
+    case 2: return {t.x, t.y, 0};
+    default: return t;
+  }
+}
+
 double root_half(double length) {
   int exponent = 0;
   const double fraction = std::frexp(kRootSize * length, &exponent);

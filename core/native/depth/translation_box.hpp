@@ -27,6 +27,9 @@ struct Later {
   }
 };
 
+// The part of a translation in the plane across an axis of the world, 0, 1 or 2; all of it for -1.
+Vec3 in_plane(Vec3 t, int across);
+
 // Half the side of a cube round the origin that holds all translations of at most this length, with few enough
 // digits that the centres of its halves are exact after some 90 halvings, 30 an axis.
 double root_half(double length);

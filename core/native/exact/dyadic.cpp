@@ -16,7 +16,7 @@ constexpr int kFractionBits = 52;
 constexpr int kExponentMask = 0x7FF;
 constexpr int kExponentBias = 1075;
 
-// Steps of a sum or product of any size, of a digit of a sum, of a pair of digits of a product: measured.
+// Measured steps: of any sum or product, of each digit of a sum, of each pair of digits of a product.
 constexpr std::uint64_t kNumberWork = 20, kDigitWork = 2, kDigitPairWork = 1;
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr double kOrientation2dBound = 5 * kRoundoff;
 // What rounded_normal() promises, relative to the length of the normal.
 constexpr double kNormalTolerance = 1e-14;
 
-// Steps of an exact determinant with two and with three rows: measured, on coordinates of full length.
+// Measured steps of an exact determinant with two and with three rows, of coordinates of full length.
 constexpr std::uint64_t kMinorWork = 60, kDeterminantWork = 700;
 
 // An unevaluated exact sum of nonoverlapping float64 terms, of increasing magnitude, none zero.
@@ -174,7 +174,7 @@ bool may_underflow(std::span<const Vec3> points) {
 }
 bool may_underflow(std::initializer_list<Vec3> points) { return may_underflow(std::span(points.begin(), points.size())); }
 
-// A difference of points in integers times powers of two, which know no underflow.
+// The difference of two points as integers times powers of two, which never underflow.
 class DyadicRow {
  public:
   DyadicRow(Vec3 tail, Vec3 head)
@@ -193,7 +193,8 @@ Dyadic dyadic_determinant(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2, Vec3 p3, Vec3 q3) 
   return a[0] * minor(b[1], b[2], c[1], c[2]) + a[1] * minor(b[2], b[0], c[2], c[0]) + a[2] * minor(b[0], b[1], c[0], c[1]);
 }
 
-// Times a power of two that keeps its longest component from underflow; its direction is what is asked for.
+// The normal of the triangle, scaled by a power of two so that its longest component does not underflow. Only the
+// direction matters.
 Vec3 normal_of_tiny(Vec3 a, Vec3 b, Vec3 c) {
   const DyadicRow u(a, b), v(a, c);
   const Dyadic n[3] = {minor(u[1], u[2], v[1], v[2]), minor(u[2], u[0], v[2], v[0]), minor(u[0], u[1], v[0], v[1])};

@@ -1,4 +1,4 @@
-// How long a translation is, with what rounding the moved coordinates adds to it.
+// How long a translation is, including the rounding of the moved coordinates.
 #pragma once
 
 #include <span>

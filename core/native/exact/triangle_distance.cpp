@@ -39,7 +39,7 @@ double nearest_place(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2) {
   return static_cast<double>(b * f - c * e) / static_cast<double>(a * e - b * b);
 }
 
-Witnesses segment_distance(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2) {
+NearestPoints segment_distance(Vec3 p1, Vec3 q1, Vec3 p2, Vec3 q2) {
   const Vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
   const double a = dot(d1, d1), e = dot(d2, d2), b = dot(d1, d2), c = dot(d1, r), f = dot(d2, r);
   const double area_squared = a * e - b * b;
@@ -86,7 +86,7 @@ Vec3 normal_of(const Corners& t) {
 
 Vec3 nearest_on_triangle(Vec3 p, const Corners& t) { return nearest_on_triangle(p, t, normal_of(t)); }
 
-Witnesses triangle_distance(const Corners& a, const Corners& b) {
+NearestPoints triangle_distance(const Corners& a, const Corners& b) {
   const auto box = [](const Corners& t) {
     Aabb result;
     for (const Vec3& p : t) result.include(p);
@@ -99,8 +99,8 @@ Witnesses triangle_distance(const Corners& a, const Corners& b) {
       return {p, p, 0};
     }
   }
-  Witnesses best{a[0], b[0], INFINITY};
-  const auto consider = [&](const Witnesses& w) {
+  NearestPoints best{a[0], b[0], INFINITY};
+  const auto consider = [&](const NearestPoints& w) {
     if (w.distance_squared < best.distance_squared) best = w;
   };
   const Vec3 normal_a = normal_of(a), normal_b = normal_of(b);

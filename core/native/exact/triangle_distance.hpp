@@ -8,13 +8,13 @@ namespace satcheck {
 // The point of a closed triangle nearest to p. Degenerate triangles are fine.
 Vec3 nearest_on_triangle(Vec3 p, const Corners& t);
 
-struct Witnesses {
+struct NearestPoints {
   Vec3 a, b;
   double distance_squared;
 };
 
 // Nearest points of two closed triangles. Exactly 0 apart when they have a common point.
-Witnesses triangle_distance(const Corners& a, const Corners& b);
+NearestPoints triangle_distance(const Corners& a, const Corners& b);
 
 // A lower bound of the squared distance of anything in the two boxes, short by rounding at most.
 inline double box_distance_squared(const Aabb& a, const Aabb& b) {

@@ -1,16 +1,16 @@
 #include "mesh/boundary.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "base/patches.hpp"
-#include "exact/predicates.hpp"
+#include "mesh/mesh_checks.hpp"
 
 namespace satcheck {
 namespace {
@@ -22,8 +22,7 @@ class BoundaryEdges {
  public:
   BoundaryEdges(const Mesh& welded, const EdgeTable& edges) {
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      int balance = 0;
-      for (const std::uint32_t h : edges.half_edges(e)) balance += edges.ascends(h) ? 1 : -1;
+      const int balance = edges.balance(e);
       if (balance == 0) continue;
       const std::uint32_t h = edges.half_edges(e)[0];
       const Triangle& t = welded.triangles[h / 3];
@@ -41,7 +40,7 @@ class BoundaryEdges {
     return result;
   }
 
-  // The end of an edge from this vertex, which is gone then.
+  // Takes an edge that starts at this vertex and returns its end.
   std::optional<std::uint32_t> take(std::uint32_t vertex) {
     auto& ends = starts_[vertex];
     if (ends.empty()) return std::nullopt;
@@ -114,57 +113,42 @@ std::vector<Hole> make_holes(const Mesh& mesh, const std::vector<BoundaryLoop>& 
   return holes;
 }
 
-// Which parts have an edge of the boundary.
-std::vector<bool> open_parts_of(const EdgeTable& edges, const Labels& parts) {
-  std::vector<bool> open(parts.count, false);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    int balance = 0;
-    for (const std::uint32_t h : edges.half_edges(e)) balance += edges.ascends(h) ? 1 : -1;
-    if (balance != 0) open[parts.of_triangle[edges.half_edges(e)[0] / 3]] = true;
+}  // namespace
+
+std::vector<std::uint32_t> flat_parts(const Mesh& welded) {
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  const Labels parts = label_vertex_components(welded);
+  const std::vector<bool> open = find_open_sets(parts, edges);
+  std::vector<std::uint32_t> flat;
+  std::uint32_t number = 0;
+  for (const auto& triangles : parts.members()) {
+    if (open[number++] && is_flat(welded, triangles)) flat.insert(flat.end(), triangles.begin(), triangles.end());
+  }
+  return flat;
+}
+
+std::vector<std::uint32_t> open_parts(const Mesh& welded) {
+  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  const Labels patches = label_manifold_patches(welded, edges);
+  const std::vector<bool> is_flap = find_flaps(patches, edges);
+  std::vector<bool> is_open(welded.triangles.size(), false);
+  for (const std::uint32_t t : flat_parts(welded)) is_open[t] = true;
+  std::vector<std::uint32_t> open;
+  for (std::uint32_t t = 0; t < is_open.size(); ++t) {
+    if (is_open[t] || is_flap[patches.of_triangle[t]]) open.push_back(t);
   }
   return open;
 }
 
-bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  const auto corners_of = [&](std::uint32_t t) {
-    const Triangle& v = mesh.triangles[t];
-    return std::array<Vec3, 3>{mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]]};
-  };
-  const auto has_area = [&](std::uint32_t t) {
-    const auto c = corners_of(t);
-    return !collinear(c[0], c[1], c[2]);
-  };
-  const auto first = std::find_if(triangles.begin(), triangles.end(), has_area);
-  if (first == triangles.end()) return true;
-  const auto plane = corners_of(*first);
-  return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
-    const auto c = corners_of(t);
-    return std::all_of(c.begin(), c.end(), [&](Vec3 p) { return orientation(plane[0], plane[1], plane[2], p) == 0; });
-  });
-}
-
-}  // namespace
-
-void double_flat_parts(Mesh& welded) {
-  const EdgeTable edges(welded.vertices.size(), welded.triangles);
-  const Labels parts = label_vertex_components(welded);
-  const std::vector<bool> open = open_parts_of(edges, parts);
-  std::vector<Triangle> backs;
-  std::uint32_t number = 0;
-  for (const auto& triangles : parts.members()) {
-    if (!open[number++] || !is_flat(welded, triangles)) continue;
-    for (const std::uint32_t t : triangles) {
-      const Triangle& v = welded.triangles[t];
-      backs.push_back({v[0], v[2], v[1]});
-    }
+void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  for (const std::uint32_t t : triangles) {
+    const Triangle v = mesh.triangles[t];
+    mesh.triangles.push_back({v[0], v[2], v[1]});
   }
-  welded.triangles.insert(welded.triangles.end(), backs.begin(), backs.end());
 }
 
 std::vector<Hole> find_holes(const Mesh& welded) {
-  Mesh mesh = welded;
-  double_flat_parts(mesh);
-  return make_holes(mesh, boundary_loops(mesh, EdgeTable(mesh.vertices.size(), mesh.triangles)));
+  return make_holes(welded, boundary_loops(welded, EdgeTable(welded.vertices.size(), welded.triangles)));
 }
 
 }  // namespace satcheck

@@ -1,11 +1,10 @@
 // Where a surface ends: its boundary, taken apart into simple loops.
 //
-// A directed edge belongs to the boundary as often as triangles run it more often than its reverse. So
-// besides the rim of a hole it holds what a surplus copy of a triangle or one with the wrong winding
-// leaves open. At every vertex as many boundary edges start as end, so the boundary is a set of loops.
+// Count how often triangles run an edge in each direction: the surplus of one direction belongs to the boundary.
+// So the boundary includes the rims of holes, and the edges of a surplus copy of a triangle or of a triangle with
+// the wrong winding. At every vertex as many boundary edges start as end, so the boundary is a set of loops.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "base/edge_table.hpp"
@@ -16,13 +15,13 @@ namespace satcheck {
 // Vertices in the direction of the surface; none comes twice. The last one leads back to the first.
 using BoundaryLoop = std::vector<std::uint32_t>;
 
-// In an order that depends on nothing but the order of vertices and triangles.
+// Their order depends only on the order of vertices and triangles.
 std::vector<BoundaryLoop> boundary_loops(const Mesh& welded, const EdgeTable& edges);
 
 // Triangles that close the loop: a fan about its first vertex, against the direction of the loop.
 std::vector<Triangle> fan(const BoundaryLoop& loop);
 
-// Loops that share a vertex can be taken apart in several ways, and be filled together, so they are one hole.
+// Loops that share a vertex are one hole: they can be taken apart in several ways, and one fill may close them all.
 struct Hole {
   std::vector<BoundaryLoop> loops;
   Aabb box;
@@ -31,11 +30,17 @@ struct Hole {
   Vec3 centre() const { return (box.min + box.max) * 0.5; }
 };
 
-// Turns each part of the mesh that is open and lies in one plane into a sheet: its triangles come in both windings
-// then. In the plane no other fill of its boundary exists. Parts are connected through vertices.
-void double_flat_parts(Mesh& welded);
+// The triangles of parts that are open and lie in one plane. These are sheets: in the plane no other fill of their
+// boundary exists. Parts are connected through vertices.
+std::vector<std::uint32_t> flat_parts(const Mesh& welded);
 
-// Of the mesh but for its flat parts; the largest first.
+// The triangles of flaps (base/patches.hpp), and of flat parts: sheets, where what is open is meant to be open.
+std::vector<std::uint32_t> open_parts(const Mesh& welded);
+
+// Makes sheets of these triangles: they come in both windings then.
+void double_triangles(Mesh& mesh, const std::vector<std::uint32_t>& triangles);
+
+// The largest first. Flat parts are holes too, unless they are doubled.
 std::vector<Hole> find_holes(const Mesh& welded);
 
 }  // namespace satcheck

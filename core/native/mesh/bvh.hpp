@@ -55,7 +55,7 @@ inline Aabb box_at(const Bvh& bvh, const Mesh& mesh, std::uint32_t place) {
   return place < bvh.boxes.size() ? bvh.boxes[place] : triangle_box(mesh, bvh.order[place]);
 }
 
-// Steps of a visit to a node: measured.
+// Measured steps of a visit to a node.
 inline constexpr std::uint64_t kNodeWork = 10;
 
 // Calls visit(triangle) -> bool for every triangle whose box meets `query`, until one returns false.

@@ -1,19 +1,24 @@
 #include "mesh/closing.hpp"
 
+#include <cstdint>
 #include <utility>
 
 #include "base/edge_table.hpp"
 #include "base/patches.hpp"
+#include "base/work.hpp"
 #include "convex/polytope.hpp"
 
 namespace satcheck {
 namespace {
 
-Closing fill_holes(const Mesh& welded) {
+// For each point of a rim.
+constexpr std::uint64_t kHullWork = 100;
+
+Closing fill_holes(const Surface& open) {
   Closing closing;
-  closing.holes = find_holes(welded);
-  Mesh closed = welded;
-  double_flat_parts(closed);
+  Mesh closed = open.mesh;
+  double_triangles(closed, open.sheets);
+  closing.holes = find_holes(closed);
   for (const Hole& hole : closing.holes) {
     for (const BoundaryLoop& loop : hole.loops) {
       const std::vector<Triangle> triangles = fan(loop);
@@ -21,30 +26,8 @@ Closing fill_holes(const Mesh& welded) {
     }
   }
   closing.surface = std::make_shared<const Surface>(make_surface(closed, true));
-  closing.hulls = hulls_of(welded, closing.holes);
+  closing.hulls = hulls_of(open.mesh, closing.holes);
   return closing;
-}
-
-// Of the sets of triangles that the labels tell apart: does a set run an edge more often one way than the other?
-std::vector<bool> are_open(const EdgeTable& edges, const Labels& labels) {
-  std::vector<bool> open(labels.count, false);
-  std::vector<std::pair<std::uint32_t, int>> balances;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    balances.clear();
-    for (const std::uint32_t h : edges.half_edges(e)) {
-      const std::uint32_t set = labels.of_triangle[h / 3];
-      const int direction = edges.ascends(h) ? 1 : -1;
-      auto of_set = balances.begin();
-      while (of_set != balances.end() && of_set->first != set) ++of_set;
-      if (of_set == balances.end()) {
-        balances.emplace_back(set, direction);
-      } else {
-        of_set->second += direction;
-      }
-    }
-    for (const auto& [set, balance] : balances) open[set] = open[set] || balance != 0;
-  }
-  return open;
 }
 
 // A triangle and its reverse have no winding number: the open parts become sheets. Of a part that is connected
@@ -52,12 +35,13 @@ std::vector<bool> are_open(const EdgeTable& edges, const Labels& labels) {
 Closing double_open_parts(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   const Labels parts = label_components(welded, edges), patches = label_manifold_patches(welded, edges);
-  const std::vector<bool> open_part = are_open(edges, parts), open_patch = are_open(edges, patches);
-  Mesh closed = welded;
+  const std::vector<bool> open_part = find_open_sets(parts, edges), open_patch = find_open_sets(patches, edges);
+  std::vector<std::uint32_t> sheets;
   for (std::uint32_t t = 0; t < welded.triangles.size(); ++t) {
-    const Triangle& v = welded.triangles[t];
-    if (open_part[parts.of_triangle[t]] && open_patch[patches.of_triangle[t]]) closed.triangles.push_back({v[0], v[2], v[1]});
+    if (open_part[parts.of_triangle[t]] && open_patch[patches.of_triangle[t]]) sheets.push_back(t);
   }
+  Mesh closed = welded;
+  double_triangles(closed, sheets);
   return {std::make_shared<const Surface>(make_surface(closed, true)), {}, {}};
 }
 
@@ -70,14 +54,15 @@ std::vector<Surface> hulls_of(const Mesh& mesh, const std::vector<Hole>& holes) 
     for (const BoundaryLoop& loop : hole.loops) {
       for (const std::uint32_t v : loop) points.push_back(mesh.vertices[v]);
     }
+    work_done += kHullWork * points.size();
     Polytope hull = convex_hull(points);
     hulls.push_back(make_surface(Mesh{std::move(hull.vertices), std::move(hull.triangles)}, true));
   }
   return hulls;
 }
 
-Closing close_surface(const Mesh& welded, OpenParts open) {
-  return open == OpenParts::filled ? fill_holes(welded) : double_open_parts(welded);
+Closing close_surface(const Surface& open, OpenParts parts) {
+  return parts == OpenParts::filled ? fill_holes(open) : double_open_parts(open.mesh);
 }
 
 }  // namespace satcheck

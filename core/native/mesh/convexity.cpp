@@ -165,7 +165,7 @@ Vec3 mean(const std::vector<Vec3>& points) {
 }
 
 // Are there corners on both sides of the plane of some triangle? Then the triangle is not in the boundary of
-// the hull. Only a few planes are tried: where it is so at all, a few of its triangles tell as a rule.
+// the hull. Only a few planes are tried: where it is so at all, a few of its triangles usually show it.
 bool is_dented(const Mesh& mesh) {
   constexpr std::size_t kPlanes = 32;
   const std::size_t step = std::max<std::size_t>(1, mesh.triangles.size() / kPlanes);

@@ -12,7 +12,7 @@
 namespace satcheck {
 namespace {
 
-// Of the size of a mesh: where the width of its cracks is more than this, rounding has left nothing of its shape.
+// Of the size of a mesh: cracks that may be wider than this are not closed, as rounding has left nothing of its shape.
 constexpr double kThinBeside = 0x1p-10;
 
 std::vector<BoundaryLoop> loops_of(const Mesh& welded) {
@@ -39,7 +39,7 @@ bool bounds_no_area(const Mesh& mesh, const BoundaryLoop& loop, double width) {
   return std::all_of(loop.begin(), loop.end(), [&](auto v) { return distance_to_segment(at(v), p, q) <= width; });
 }
 
-// For each vertex of the loops the first one within the width, by x, or itself.
+// For each vertex of the loops: the first vertex within the width, by x; the vertex itself where there is no other.
 std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::vector<BoundaryLoop>& loops, double width) {
   std::vector<std::uint32_t> vertices;
   for (const BoundaryLoop& loop : loops) vertices.insert(vertices.end(), loop.begin(), loop.end());
@@ -57,7 +57,7 @@ std::map<std::uint32_t, std::uint32_t> same_points(const Mesh& mesh, const std::
   return same;
 }
 
-// Joins each boundary edge whose ends have such a partner to the edge between these.
+// Joins each boundary edge whose two ends have such partners to the edge between the partners.
 void close_seams(Mesh& welded, const std::vector<BoundaryLoop>& loops, double width) {
   const auto same = same_points(welded, loops, width);
   const auto append = [&](const Triangle& t) {

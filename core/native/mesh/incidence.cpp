@@ -43,10 +43,10 @@ struct Facet {
     axis = projection_axis(normal);
   }
 
-  Feature edge(int i) const { return Feature::edge(vertex[i], vertex[(i + 1) % 3]); }
-  Feature feature(int place) const {
-    if (place == kFace) return {Feature::kInside, number};
-    return place < 3 ? Feature{vertex[place], vertex[place]} : edge(place - 3);
+  MeshFeature edge(int i) const { return MeshFeature::edge(vertex[i], vertex[(i + 1) % 3]); }
+  MeshFeature feature(int place) const {
+    if (place == kFace) return {MeshFeature::kInside, number};
+    return place < 3 ? MeshFeature{vertex[place], vertex[place]} : edge(place - 3);
   }
 
   std::uint32_t number;
@@ -91,8 +91,8 @@ class EdgeMeeting {
   // On the edge a corner of the triangle is behind where the edge enters it, and before it leaves.
   enum Rank { kStart, kEntry, kCorner, kExit, kEnd };
 
-  void add(Feature own, int place, Rank rank, Vec3 corner = {}) {
-    const Feature other = t_.feature(place);
+  void add(MeshFeature own, int place, Rank rank, Vec3 corner = {}) {
+    const MeshFeature other = t_.feature(place);
     const Incidence found = edge_is_of_a_ ? Incidence{own, other} : Incidence{other, own};
     if (count > 0 && node[0] == found) return;
     if (count == 2) return;  // convex: a third one is one of the two
@@ -107,7 +107,7 @@ class EdgeMeeting {
     return coordinates_less(corner_[i], corner_[k]) == coordinates_less(p_, q_);
   }
 
-  void place_end(Feature end, Vec3 point, Rank rank) {
+  void place_end(MeshFeature end, Vec3 point, Rank rank) {
     int side[3];
     for (int i = 0; i < 3; ++i) side[i] = flat(t_.corner[i], t_.corner[(i + 1) % 3], point);
     const int place = place_in_triangle(side);
@@ -140,7 +140,7 @@ class EdgeMeeting {
 
   int flat(Vec3 a, Vec3 b, Vec3 c) const { return orientation_2d(a, b, c, t_.axis); }
 
-  Feature own_, first_, last_;
+  MeshFeature own_, first_, last_;
   Vec3 p_, q_;
   const Facet& t_;
   bool edge_is_of_a_;
@@ -262,7 +262,7 @@ TriangleMeeting meet_triangles(const Mesh& mesh_a, std::uint32_t triangle_a, con
       for (int k = 0; k < m.count; ++k) add_once(result.nodes, m.node[k]);
       if (overlap == CoplanarOverlap::none || m.count < 2) continue;
       const bool backward = !of_a && result.opposed;
-      const Side side = backward ? Side{m.node[1], m.node[0]} : Side{m.node[0], m.node[1]};
+      const MeetingSide side = backward ? MeetingSide{m.node[1], m.node[0]} : MeetingSide{m.node[0], m.node[1]};
       if (std::find(result.sides.begin(), result.sides.end(), side) == result.sides.end()) {
         result.sides.push_back(side);
       }
@@ -294,7 +294,7 @@ ExactPoint locate(const Incidence& at, const Mesh& a, const Mesh& b) {
   }
   const bool edge_of_a = at.a.is_edge();
   const Mesh &of = edge_of_a ? a : b, &other = edge_of_a ? b : a;
-  const Feature edge = edge_of_a ? at.a : at.b, face = edge_of_a ? at.b : at.a;
+  const MeshFeature edge = edge_of_a ? at.a : at.b, face = edge_of_a ? at.b : at.a;
   const Corners t = corners(other, face.second);
   const Vec3 p = end(of, edge.first), q = end(of, edge.second);
   return divide(p, q, height(t, p), height(t, q));

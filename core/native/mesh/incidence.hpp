@@ -12,26 +12,26 @@
 namespace satcheck {
 
 // A vertex (v, v), an edge (u, v) with u < v, or the inside of a triangle (kInside, t) of one mesh.
-struct Feature {
+struct MeshFeature {
   static constexpr std::uint32_t kInside = 0xFFFFFFFF;
 
   std::uint32_t first = 0, second = 0;
 
-  static Feature edge(std::uint32_t u, std::uint32_t v) { return u < v ? Feature{u, v} : Feature{v, u}; }
+  static MeshFeature edge(std::uint32_t u, std::uint32_t v) { return u < v ? MeshFeature{u, v} : MeshFeature{v, u}; }
   bool is_vertex() const { return first == second; }
   bool is_edge() const { return first < second; }
-  auto operator<=>(const Feature&) const = default;
+  auto operator<=>(const MeshFeature&) const = default;
 };
 
 // The one point that is in both features and on the border of neither.
 struct Incidence {
-  Feature a, b;
+  MeshFeature a, b;
   auto operator<=>(const Incidence&) const = default;
 };
 
-struct Side {
+struct MeetingSide {
   Incidence from, to;
-  auto operator<=>(const Side&) const = default;
+  auto operator<=>(const MeetingSide&) const = default;
 };
 
 enum class MeetingKind {
@@ -44,7 +44,7 @@ enum class MeetingKind {
 struct TriangleMeeting {
   MeetingKind kind = MeetingKind::none;
   std::vector<Incidence> nodes;
-  std::vector<Side> sides;  // counter-clockwise about the normal of a's triangle, in no order
+  std::vector<MeetingSide> sides;  // counter-clockwise about the normal of a's triangle, in no order
   bool opposed = false;     // patch: the two normals point in opposite directions
 };
 

@@ -16,6 +16,12 @@ Topology measure_sorted(const Mesh& sorted) {
 
 bool has_boundary(const Topology& topology) { return !topology.closed || !topology.oriented; }
 
+std::vector<Hole> holes_but_flat_parts(const Mesh& welded) {
+  Mesh mesh = welded;
+  double_triangles(mesh, flat_parts(welded));
+  return find_holes(mesh);
+}
+
 void orient_mesh(Inspection& found) {
   Mesh oriented = orient(found.mesh);
   if (oriented.triangles == found.mesh.triangles && oriented.vertices == found.mesh.vertices) return;
@@ -31,8 +37,8 @@ Inspection inspect(MeshView mesh, bool orient_it) {
   found.mesh = weld_and_sort(mesh);
   found.topology = found.repaired = measure_sorted(found.mesh);
   if (found.topology.is_plain_solid()) return found;
-  if (orient_it && (found.topology.closed || !found.topology.oriented)) orient_mesh(found);
-  if (has_boundary(found.repaired)) found.holes = find_holes(found.mesh);
+  if (orient_it) orient_mesh(found);
+  if (has_boundary(found.repaired)) found.holes = holes_but_flat_parts(found.mesh);
   return found;
 }
 
@@ -41,8 +47,8 @@ Inspection with_cracks_closed(Inspection found, bool orient_it, double width) {
   found.cracks = seal_cracks(found.mesh, width);
   if (found.cracks == 0) return found;
   found.repaired = measure_topology(found.mesh);
-  if (orient_it && !has_boundary(found.repaired)) orient_mesh(found);
-  found.holes = has_boundary(found.repaired) ? find_holes(found.mesh) : std::vector<Hole>{};
+  if (orient_it) orient_mesh(found);
+  found.holes = has_boundary(found.repaired) ? holes_but_flat_parts(found.mesh) : std::vector<Hole>{};
   return found;
 }
 

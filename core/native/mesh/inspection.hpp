@@ -11,7 +11,7 @@
 namespace satcheck {
 
 struct Inspection {
-  Mesh mesh;               // welded and sorted; after that oriented, where that was asked for
+  Mesh mesh;               // welded and sorted, then oriented if the caller wants that
   bool turned = false;     // whether orienting it changed anything
   std::size_t cracks = 0;  // closed (mesh/cracks.hpp)
   Topology topology;       // welded and sorted

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -26,14 +27,25 @@ void require_valid(MeshView mesh) {
   }
 }
 
-bool is_flat(const Mesh& mesh) {
-  const auto corner = [&](const Triangle& t, int k) { return mesh.vertices[t[k]]; };
-  const auto wide = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  const auto corner = [&](std::uint32_t t, int k) { return mesh.vertices[mesh.triangles[t][k]]; };
+  const auto wide = std::find_if(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
     return !collinear(corner(t, 0), corner(t, 1), corner(t, 2));
   });
-  return wide == mesh.triangles.end() || std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](Vec3 p) {
-    return orientation(corner(*wide, 0), corner(*wide, 1), corner(*wide, 2), p) == 0;
+  if (wide == triangles.end()) return true;
+  const Vec3 p = corner(*wide, 0), q = corner(*wide, 1), r = corner(*wide, 2);
+  return std::all_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
+    for (int k = 0; k < 3; ++k) {
+      if (orientation(p, q, r, corner(t, k)) != 0) return false;
+    }
+    return true;
   });
+}
+
+bool is_flat(const Mesh& mesh) {
+  std::vector<std::uint32_t> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return is_flat(mesh, all);
 }
 
 }  // namespace satcheck

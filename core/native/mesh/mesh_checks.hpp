@@ -11,4 +11,7 @@ void require_valid(MeshView mesh);
 // Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.
 bool is_flat(const Mesh& mesh);
 
+// The same of some of its triangles.
+bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
+
 }  // namespace satcheck

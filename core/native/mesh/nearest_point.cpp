@@ -10,7 +10,7 @@
 namespace satcheck {
 namespace {
 
-// Steps of a triangle on the way: measured.
+// Measured steps of a triangle on the way.
 constexpr std::uint64_t kTriangleWork = 25;
 
 }  // namespace

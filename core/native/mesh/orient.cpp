@@ -8,6 +8,9 @@
 
 #include "base/patches.hpp"
 #include "exact/predicates.hpp"
+#include "exact/triangle_pair.hpp"
+#include "mesh/cracks.hpp"
+#include "mesh/mesh_checks.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/winding.hpp"
 
@@ -16,10 +19,11 @@ namespace {
 
 // A set of triangles connected through edges of exactly two triangles.
 struct Patch {
-  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> triangles, on_rim;
   bool shell = false;  // closed and consistently wound by itself
-  double volume = 0;   // signed, of a shell
-  Aabb box;
+  bool alone = true;   // shares no edge with another patch, so that it can be turned by itself
+  double volume = 0;   // signed; of an open patch that is closed by a cone over its boundary
+  Aabb box, rim;
 };
 
 void flip(Mesh& mesh, Patch& patch) {
@@ -36,14 +40,16 @@ struct Neighbour {
 
 using Neighbours = std::array<Neighbour, 3>;  // across edge 0, 1, 2
 
-bool is_run_twice_the_same_way(const EdgeTable& edges, std::size_t edge) {
+// By two triangles that are no copies of each other: these agree.
+bool is_run_twice_the_same_way(const Mesh& mesh, const EdgeTable& edges, std::size_t edge) {
   const auto h = edges.half_edges(edge);
-  return h.size() == 2 && edges.ascends(h[0]) == edges.ascends(h[1]);
+  const auto across = [&](std::uint32_t half_edge) { return mesh.triangles[half_edge / 3][(half_edge % 3 + 2) % 3]; };
+  return h.size() == 2 && edges.ascends(h[0]) == edges.ascends(h[1]) && across(h[0]) != across(h[1]);
 }
 
-bool has_mixed_winding(const EdgeTable& edges) {
+bool has_mixed_winding(const Mesh& mesh, const EdgeTable& edges) {
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (is_run_twice_the_same_way(edges, e)) return true;
+    if (is_run_twice_the_same_way(mesh, edges, e)) return true;
   }
   return false;
 }
@@ -53,7 +59,7 @@ std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges.half_edges(e);
     if (h.size() != 2) continue;
-    const bool same = is_run_twice_the_same_way(edges, e);
+    const bool same = is_run_twice_the_same_way(mesh, edges, e);
     neighbours[h[0] / 3][h[0] % 3] = {h[1] / 3, same};
     neighbours[h[1] / 3][h[1] % 3] = {h[0] / 3, same};
   }
@@ -63,7 +69,7 @@ std::vector<Neighbours> find_neighbours(const Mesh& mesh, const EdgeTable& edges
 // Makes the patches with mixed winding consistent, keeping the winding of the majority. A patch that
 // is not orientable stays as it is. Returns whether anything was turned: half-edges are others then.
 bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>& patches) {
-  if (!has_mixed_winding(edges)) return false;
+  if (!has_mixed_winding(mesh, edges)) return false;
   bool repaired = false;
   const auto neighbours = find_neighbours(mesh, edges);
   enum : signed char { kUnseen, kKeep, kFlip };
@@ -95,32 +101,37 @@ bool repair_patches(Mesh& mesh, const EdgeTable& edges, const std::vector<Patch>
   return repaired;
 }
 
+// The volume between the patch and the centre of its boundary. Rounded.
+double volume_over_rim(const Mesh& mesh, const Patch& patch) {
+  const Vec3 centre = (patch.rim.min + patch.rim.max) * 0.5;
+  double sum = 0;
+  for (const std::uint32_t t : patch.triangles) {
+    const Triangle& v = mesh.triangles[t];
+    const Vec3 p = mesh.vertices[v[0]] - centre, q = mesh.vertices[v[1]] - centre, r = mesh.vertices[v[2]] - centre;
+    sum += dot(p, cross(q, r));
+  }
+  return sum / 6;
+}
+
+void find_rims(const Mesh& mesh, const EdgeTable& edges, const Labels& labels, std::vector<Patch>& patches) {
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto half_edges = edges.half_edges(e);
+    if (half_edges.size() == 2) continue;
+    for (const std::uint32_t h : half_edges) {
+      Patch& patch = patches[labels.of_triangle[h / 3]];
+      patch.alone = patch.alone && half_edges.size() == 1;
+      patch.on_rim.push_back(h / 3);
+      for (int i = 0; i < 2; ++i) patch.rim.include(mesh.vertices[mesh.triangles[h / 3][(h % 3 + i) % 3]]);
+    }
+  }
+}
+
 // A patch is a shell when it runs each of its edges equally often in both directions.
 void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels,
                  std::vector<Patch>& patches) {
-  for (Patch& patch : patches) patch.shell = true;
-  struct Balance {
-    std::uint32_t patch;
-    int sum;
-  };
-  std::vector<Balance> balances;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    balances.clear();
-    for (const std::uint32_t h : edges.half_edges(e)) {
-      const std::uint32_t patch = labels.of_triangle[h / 3];
-      const int direction = edges.ascends(h) ? 1 : -1;
-      const auto known = std::find_if(balances.begin(), balances.end(),
-                                      [&](const Balance& b) { return b.patch == patch; });
-      if (known == balances.end()) {
-        balances.push_back({patch, direction});
-      } else {
-        known->sum += direction;
-      }
-    }
-    for (const Balance& balance : balances) {
-      if (balance.sum != 0) patches[balance.patch].shell = false;
-    }
-  }
+  const std::vector<bool> open = find_open_sets(labels, edges);
+  for (std::size_t p = 0; p < patches.size(); ++p) patches[p].shell = !open[p];
+  find_rims(mesh, edges, labels, patches);
   for (Patch& patch : patches) {
     std::vector<Triangle> triangles;
     triangles.reserve(patch.triangles.size());
@@ -128,7 +139,7 @@ void find_shells(const Mesh& mesh, const EdgeTable& edges, const Labels& labels,
       triangles.push_back(mesh.triangles[t]);
       patch.box.include(triangle_box(mesh, t));
     }
-    if (patch.shell) patch.volume = signed_volume(mesh.vertices, triangles);
+    patch.volume = patch.shell ? signed_volume(mesh.vertices, triangles) : volume_over_rim(mesh, patch);
   }
 }
 
@@ -137,32 +148,77 @@ bool within(const Aabb& inner, const Aabb& outer) {
          inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z;
 }
 
-// Is the patch inside, or on the surface of, the other shells? The box test spares the tree where
-// no other shell can hold it.
+// How a patch lies to the other ones.
 class Nesting {
  public:
   Nesting(const Mesh& mesh, const Labels& labels, const std::vector<Patch>& patches)
-      : mesh_(mesh), labels_(labels), patches_(patches) {}
+      : mesh_(mesh), labels_(labels), patches_(patches), on_rim_(mesh.triangles.size(), false) {
+    for (const Patch& patch : patches) {
+      for (const std::uint32_t t : patch.on_rim) on_rim_[t] = true;
+    }
+  }
 
+  // Is the patch inside, or on the surface of, the other shells? The box test spares the tree where
+  // no other shell can hold it.
   bool is_nested(std::uint32_t patch) {
     const bool possible = std::any_of(patches_.begin(), patches_.end(), [&](const Patch& other) {
       return &other != &patches_[patch] && other.shell && within(patches_[patch].box, other.box);
     });
     if (!possible) return false;
-    if (bvh_.nodes.empty()) bvh_ = build_bvh(mesh_);
     const Vec3 point = mesh_.vertices[mesh_.triangles[patches_[patch].triangles[0]][0]];
-    const auto winding = winding_number(mesh_, bvh_, point, [&](std::uint32_t t) {
+    const auto winding = winding_number(mesh_, tree(), point, [&](std::uint32_t t) {
       return labels_.of_triangle[t] != patch && patches_[labels_.of_triangle[t]].shell;
     });
-    return winding != 0;
+    return winding != 0 && !crosses_another(patch);
+  }
+
+  // Does another patch end where this one does, by the boxes of the triangles there? Then both may be pieces of one
+  // surface.
+  bool ends_near_another(std::uint32_t patch) {
+    const auto& ends = patches_[patch].on_rim;
+    return std::any_of(ends.begin(), ends.end(), [&](std::uint32_t t) {
+      return !visit_box(tree(), mesh_, triangle_box(mesh_, t),
+                        [&](std::uint32_t u) { return labels_.of_triangle[u] == patch || !on_rim_[u]; });
+    });
+  }
+
+  bool crosses_another(std::uint32_t patch) {
+    const auto& triangles = patches_[patch].triangles;
+    return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
+      const Corners mine = corners(t);
+      return !visit_box(tree(), mesh_, triangle_box(mesh_, t), [&](std::uint32_t u) {
+        return labels_.of_triangle[u] == patch || classify(mine, corners(u)) != TriangleContact::crossing;
+      });
+    });
   }
 
  private:
+  const Bvh& tree() {
+    if (bvh_.nodes.empty()) bvh_ = build_bvh(mesh_);
+    return bvh_;
+  }
+
+  Corners corners(std::uint32_t t) const {
+    const Triangle& v = mesh_.triangles[t];
+    return {mesh_.vertices[v[0]], mesh_.vertices[v[1]], mesh_.vertices[v[2]]};
+  }
+
   const Mesh& mesh_;
   const Labels& labels_;
   const std::vector<Patch>& patches_;
+  std::vector<bool> on_rim_;
   Bvh bvh_;
 };
+
+// Where a patch that faces inward crosses others, winding numbers would cancel: what both enclose would not be
+// material. An open one is turned only then, and only where it is no piece of a larger surface.
+bool has_to_turn(const Mesh& mesh, const std::vector<Patch>& patches, std::uint32_t p, Nesting& nesting) {
+  const Patch& patch = patches[p];
+  if (!(patch.volume < 0)) return false;
+  if (patch.shell) return !nesting.is_nested(p);
+  if (!patch.alone || is_flat(mesh, patch.triangles)) return false;
+  return !nesting.ends_near_another(p) && nesting.crosses_another(p);
+}
 
 std::vector<Patch> make_patches(const Labels& labels) {
   std::vector<Patch> patches(labels.count);
@@ -221,29 +277,32 @@ Mesh orient(const Mesh& mesh) {
   find_shells(result, *edges, labels, patches);
 
   double total = 0;
-  for (const Patch& patch : patches) total += patch.volume;
+  for (const Patch& patch : patches) total += patch.shell ? patch.volume : 0;
   if (total < 0) {
     for (Patch& patch : patches) flip(result, patch);
   }
   Nesting nesting(result, labels, patches);
   std::vector<std::uint32_t> inside_out;
   for (std::uint32_t p = 0; p < patches.size(); ++p) {
-    if (patches[p].shell && patches[p].volume < 0 && !nesting.is_nested(p)) inside_out.push_back(p);
+    if (has_to_turn(result, patches, p, nesting)) inside_out.push_back(p);
   }
   for (const std::uint32_t p : inside_out) flip(result, patches[p]);
   return result;
 }
 
-std::vector<Mesh> split_components(const Mesh& mesh) {
+std::vector<Mesh> split_components(const Mesh& mesh, double crack_width) {
   const Mesh welded = weld(mesh);
-  const EdgeTable edges(welded.vertices.size(), welded.triangles);
+  Mesh sealed = welded;
+  if (crack_width > 0) seal_cracks(sealed, crack_width);
+  const EdgeTable edges(sealed.vertices.size(), sealed.triangles);
   std::vector<Mesh> result;
   std::vector<std::uint32_t> place(welded.vertices.size());
   std::vector<std::uint32_t> part_of(welded.vertices.size(), none);
-  for (const auto& members : label_components(welded, edges).members()) {
+  for (const auto& members : label_components(sealed, edges).members()) {
     const auto part_number = static_cast<std::uint32_t>(result.size());
     Mesh& part = result.emplace_back();
     for (const std::uint32_t t : members) {
+      if (t >= welded.triangles.size()) break;  // it closes a crack
       Triangle corners = welded.triangles[t];
       for (std::uint32_t& v : corners) {
         if (part_of[v] != part_number) {

@@ -58,7 +58,7 @@ class Beheld {
   int turn(Vec3 p, Vec3 q, Vec3 r) const { return orientation_2d(p, q, r, axis_); }
 
   // Of a triangle across the edge p q: is its corner s in the plane, on the side of r? Neighbours in one plane
-  // lie on both sides of the edge as a rule, which is quickly seen.
+  // usually lie on both sides of the edge, which is quickly seen.
   bool folds_onto(Vec3 p, Vec3 q, Vec3 r, Vec3 s) const { return turn(p, q, r) == turn(p, q, s) && plane_.side(s) == 0; }
 
   // This one is p, q, r and the other p, s, t.

@@ -23,9 +23,7 @@ constexpr std::size_t kFewTriangles = 8192;  // that are not worth a second thre
 bool is_closed(const Mesh& welded) {
   const EdgeTable edges(welded.vertices.size(), welded.triangles);
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    int balance = 0;
-    for (const std::uint32_t h : edges.half_edges(e)) balance += edges.ascends(h) ? 1 : -1;
-    if (balance != 0) return false;
+    if (edges.balance(e) != 0) return false;
   }
   return true;
 }
@@ -60,7 +58,7 @@ bool has_triangles_of(const Mesh& a, const Mesh& b) {
 
 }  // namespace
 
-Surface make_surface(const Mesh& mesh, bool solid) {
+Surface make_surface(const Mesh& mesh, bool solid, OpenParts open) {
   Surface surface(std::make_shared<const Mesh>(weld(mesh)));
   // The tree first, which takes longest.
   const std::function<void()> tasks[] = {[&] { surface.bvh = build_bvh(surface.mesh); },
@@ -69,6 +67,8 @@ Surface make_surface(const Mesh& mesh, bool solid) {
   const unsigned threads = surface.mesh.triangles.size() < kFewTriangles ? 1 : 0;
   parallel_for(std::size(tasks), threads, [&](std::size_t i) { tasks[i](); });
   if (solid && !surface.solid) throw std::invalid_argument("not a solid: the surface is not closed and consistently wound");
+  surface.open_parts = open;
+  if (!surface.solid) surface.sheets = open == OpenParts::sheets ? open_parts(surface.mesh) : flat_parts(surface.mesh);
   return surface;
 }
 
@@ -82,9 +82,7 @@ Surface make_plain_surface(std::shared_ptr<const Mesh> inspected, const Aabb* re
 
 Surface refitted_surface(const Surface& like, Mesh mesh) {
   if (!has_triangles_of(like.mesh, mesh) || !is_welded(mesh)) {
-    Surface anew = make_surface(mesh, like.solid);
-    anew.open_parts = like.open_parts;
-    return anew;
+    return make_surface(mesh, like.solid, like.open_parts);
   }
   for (Vec3& p : mesh.vertices) p = p + Vec3{};  // -0.0 + 0.0 == +0.0, as in weld()
   Surface surface(std::make_shared<const Mesh>(std::move(mesh)));
@@ -93,6 +91,7 @@ Surface refitted_surface(const Surface& like, Mesh mesh) {
   surface.parts = like.parts;
   surface.solid = like.solid;
   surface.open_parts = like.open_parts;
+  surface.sheets = like.sheets;
   surface.refitted = true;
   return surface;
 }
@@ -100,7 +99,7 @@ Surface refitted_surface(const Surface& like, Mesh mesh) {
 std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts) {
   const std::lock_guard<std::mutex> lock(open.closings->mutex);
   auto& closing = open.closings->made[static_cast<std::size_t>(parts)];
-  if (!closing) closing = std::make_shared<const Closing>(close_surface(open.mesh, parts));
+  if (!closing) closing = std::make_shared<const Closing>(close_surface(open, parts));
   return closing;
 }
 

@@ -16,11 +16,11 @@ namespace satcheck {
 struct Closing;
 struct Surface;
 
-// Two ways to read an open surface. filled: each hole is filled somehow. sheets: what is open is meant to be open,
-// and has no inside.
+// Two ways to read an open surface. filled: each hole is filled somehow. sheets: what has a rim is meant to be open,
+// and has no inside; other holes are filled.
 enum class OpenParts : std::uint8_t { filled, sheets };
 
-// How an open surface is closed, either way; made when it is first asked for, by whichever thread.
+// How an open surface is closed, in each of the two ways; made by the first thread that needs it.
 struct LazyClosings {
   std::mutex mutex;
   std::shared_ptr<const Closing> made[2];
@@ -37,6 +37,9 @@ struct Surface {
   std::vector<std::uint32_t> parts;  // a triangle of each part that is connected through common vertices
   // Closed: every edge is run as often in one direction as in the other, so every point has a winding number.
   bool solid = false;
+  // Triangles of open parts that lie in one plane, or that are meant to be open. Rounding may bend them where the
+  // surface is placed; they stay sheets.
+  std::vector<std::uint32_t> sheets;
   bool refitted = false;  // the tree has the form of another surface's
   OpenParts open_parts = OpenParts::filled;
   std::shared_ptr<LazyClosings> closings = std::make_shared<LazyClosings>();
@@ -50,7 +53,7 @@ std::shared_ptr<const Closing> closing_of(const Surface& open, OpenParts parts);
 std::shared_ptr<const Surface> walled_surface(const Surface& open, OpenParts parts);
 
 // Throws std::invalid_argument when `solid` is claimed of a surface that is not closed.
-Surface make_surface(const Mesh& mesh, bool solid);
+Surface make_surface(const Mesh& mesh, bool solid, OpenParts open = OpenParts::filled);
 
 // The same of a mesh as inspect() left it, whose topology was that of a plain solid: nothing is proven again.
 // region: where queries will be, as build_bvh_near() takes it; nothing: anywhere.

@@ -1,7 +1,7 @@
-// Which of two surfaces comes first, whatever the order in which they were named.
+// Which of two surfaces comes first, independent of the order in which they are given.
 //
-// A query is answered for the first and the second, and its answer mirrored for the other order: what hangs on the
-// order of triangles or on rounding is then the same for A against B and B against A.
+// A query is always answered in this order, and its answer is mirrored for the other one. So rounding and the order of
+// triangles affect A against B and B against A in the same way.
 #pragma once
 
 #include "mesh/surface.hpp"

@@ -50,8 +50,9 @@ Mesh sort(const Mesh& mesh);
 // sort(weld(mesh)), for less.
 Mesh weld_and_sort(MeshView mesh);
 
-// The parts connected through shared edges of the welded mesh, in order of their first triangle.
-std::vector<Mesh> split_components(const Mesh& mesh);
+// The parts connected through shared edges of the welded mesh, in order of their first triangle. Edges on
+// the two sides of a crack of this width (mesh/cracks.hpp) count as shared.
+std::vector<Mesh> split_components(const Mesh& mesh, double crack_width = 0);
 
 // The welded mesh with one winding per component, outermost closed shells outward. Repeated copies
 // of a triangle are dropped when the surface is closed without them and not with them. Components with

@@ -1,6 +1,7 @@
 #include "mesh/winding.hpp"
 
 #include <limits>
+#include <numbers>
 
 namespace satcheck {
 namespace {
@@ -45,6 +46,17 @@ Vec3 outside_point(const Aabb& box, Vec3 from, Heading first, int attempt) {
     case 1: return {from.x + t * reach, wall, from.z + s * reach};
     default: return {from.x + s * reach, from.y + t * reach, wall};
   }
+}
+
+double generalized_winding_number(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, Vec3 point) {
+  double sum = 0;
+  for (const std::uint32_t number : triangles) {
+    const Triangle& t = mesh.triangles[number];
+    const Vec3 a = mesh.vertices[t[0]] - point, b = mesh.vertices[t[1]] - point, c = mesh.vertices[t[2]] - point;
+    const double x = norm(a), y = norm(b), z = norm(c);
+    sum += std::atan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y);
+  }
+  return sum / (2 * std::numbers::pi);
 }
 
 }  // namespace satcheck

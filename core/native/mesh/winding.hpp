@@ -169,4 +169,9 @@ std::optional<Beside> winding_beside(const Mesh& mesh, const Bvh& bvh, const Poi
   return std::nullopt;
 }
 
+// The winding number of some triangles, also of open ones, about a point on none of them: their solid angle over
+// 4 pi, in float64. Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
+// Numbers" (2013); a triangle by van Oosterom, Strackee, "The Solid Angle of a Plane Triangle" (1983).
+double generalized_winding_number(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, Vec3 point);
+
 }  // namespace satcheck

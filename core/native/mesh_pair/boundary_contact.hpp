@@ -11,7 +11,7 @@ namespace satcheck {
 // Does the closed body end everywhere on triangle t? False also where that takes more than one sample to tell.
 bool is_plain_boundary(const Surface& surface, std::uint32_t t);
 
-// By two triangles that meet and are boundary all over. Finds one as a rule, but not always.
+// By two triangles that meet and are boundary all over. Usually finds a pair, but not always.
 void find_plain_contact(const Surface& a, const Surface& b, const std::vector<ContactPair>& contacts,
                         Samples& samples);
 

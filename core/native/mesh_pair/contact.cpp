@@ -12,7 +12,7 @@
 //   need no cuts by S: from one cell of the other solid, or of its outside, to the next the way leads
 //   past no piece of S, or past one that has already shown both combinations. A sheet meets its own
 //   mesh, so it is always cut.
-// * Two sheets can cross along edges alone, where winding numbers show nothing: that is asked by itself.
+// * Two sheets can cross along edges alone, where winding numbers show nothing: a test of its own decides that.
 #include "mesh_pair/contact.hpp"
 
 #include <algorithm>

@@ -15,7 +15,7 @@ struct ContactPair {
 // What a generic point shows at which two triangles cross. Usually that settles the relation.
 PairFacts facts_at_crossing(const Surface& a, const Surface& b, ContactPair crossing);
 
-// Whether boundaries that only touch count, or common interiors alone.
+// Do boundaries that only touch count, or only common interiors?
 enum class Wanted { relation, overlap };
 
 // Settled or complete facts, of the contact only where that is wanted. `contacts` holds every pair with a common point.

@@ -11,7 +11,7 @@
 namespace satcheck {
 namespace {
 
-// Steps of a triangle that is joined to its neighbours: measured.
+// Measured steps of joining a triangle to its neighbours.
 constexpr std::uint64_t kTriangleWork = 10;
 
 template <class IsFree>

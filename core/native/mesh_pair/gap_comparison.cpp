@@ -37,7 +37,7 @@ class GapComparison {
   int sign() {
     const Aabb &box_a = a_.bvh.nodes[0].box, &box_b = b_.bvh.nodes[0].box;
     const double largest = std::max({max_abs(box_a.min), max_abs(box_a.max), max_abs(box_b.min), max_abs(box_b.max)});
-    // Nothing is taken as the nearest pair, so that every pair within the limit is seen; but for one that settles it.
+    // Records no nearest pair, so that the traversal visits every pair within the limit, or ends at one that settles it.
     mesh_distance(a_, b_, length_ + 2 * chain_rounding(largest), [this](std::uint32_t t, std::uint32_t u) {
       include(t, u);
       return least_ < 0;

@@ -100,7 +100,7 @@ class DistanceSearch {
         const Corners cb = corners(b_.mesh, tb);
         const double reach = std::sqrt(bound_) + rounding_;
         if (plane.holds(cb, reach) || Beyond(cb).holds(ca, reach)) continue;
-        const Witnesses w = triangle_distance(ca, cb);
+        const NearestPoints w = triangle_distance(ca, cb);
         const bool improves = w.distance_squared < bound_ ||
                               (w.distance_squared == bound_ && result_.triangle_a == kNoTriangle);
         if (!improves || (counts_ && !counts_(ta, tb))) continue;

@@ -67,7 +67,7 @@ MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vect
                              Wanted wanted) {
   MeshRelation result = make_relation(judge_contact(a, b, contacts, wanted));
   if (result.relation == Relation::separated && !contacts.empty()) {
-    // Triangles without area bound nothing, and are part of the surface all the same.
+    // Triangles without area bound nothing, but they are part of the surface.
     const Vec3 point = contact_point(corners(a.mesh, contacts[0].a), corners(b.mesh, contacts[0].b));
     result = make_relation(Relation::touching, Evidence{contacts[0].a, contacts[0].b, point});
   }
@@ -84,10 +84,17 @@ std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& 
   return judged_relation(a, b, {}, Wanted::relation);
 }
 
+bool overlaps(const MeshRelation& found) {
+  return found.relation != Relation::separated && found.relation != Relation::touching;
+}
+
 MeshRelation relation_of_closed(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
   if (const auto simple = simple_relation_of(a, b, found)) return *simple;
   if (!found.crossing) return judged_relation(a, b, found.contacts, wanted);
-  return judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts, wanted);
+  const MeshRelation judged = judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts, wanted);
+  // Each triangle bounds material, is within it, or is a sheet: where two cross, the bodies overlap, whatever samples
+  // fail to show.
+  return overlaps(judged) ? judged : crossing_relation(a, b, *found.crossing);
 }
 
 // Of two closed surfaces, whatever their triangles.
@@ -95,19 +102,22 @@ MeshRelation relation_of_points(const Surface& a, const Surface& b, Wanted wante
   return relation_of_closed(a, b, find_contacts(a, b, AtCrossing::stop), wanted);
 }
 
-bool overlaps(const MeshRelation& found) {
-  return found.relation != Relation::separated && found.relation != Relation::touching;
+// Do boundaries cross here, and not walls within a body?
+bool crosses_boundaries(const ClosedPair& pair, ContactPair crossing) {
+  return facts_at_crossing(pair.a(), pair.b(), crossing).settled();
 }
 
-// Where surfaces cross they do so however they are closed. Else the closed surfaces tell, as far as that does not
-// depend on what fills a hole; and as sheets open surfaces tell of an overlap that no fill undoes.
+// Where surfaces cross bodies overlap, however they are closed. Else the closed surfaces tell, as far as that does
+// not depend on what fills a hole; and as sheets open surfaces tell of an overlap that no fill undoes.
 MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
-  if (found.crossing) return crossing_relation(a, b, *found.crossing);
-  const bool as_sheets = are_read_as_sheets(a, b);
+  if (found.crossing && wanted == Wanted::overlap) return crossing_relation(a, b, *found.crossing);
   const ClosedPair filled(a, b, OpenParts::filled);
-  const Holes holes = as_sheets ? Holes{} : holes_between(filled);
+  if (found.crossing && crosses_boundaries(filled, *found.crossing)) {
+    return crossing_relation(a, b, *found.crossing);
+  }
+  const Holes holes = holes_between(filled);
   MeshRelation result;
-  if (as_sheets || holes.in_the_way) {
+  if (holes.in_the_way) {
     const ClosedPair sheets(a, b, OpenParts::sheets);
     result = relation_of_points(sheets.a(), sheets.b(), wanted);
     if (!overlaps(result)) result.hole = holes.in_the_way;

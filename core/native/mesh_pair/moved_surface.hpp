@@ -17,6 +17,7 @@ class MovedSurface {
     moved_.parts = still.parts;
     moved_.solid = still.solid;
     moved_.open_parts = still.open_parts;
+    moved_.sheets = still.sheets;
     if (!still.solid) closed_ = std::make_unique<MovedSurface>(*closing_of(still, OpenParts::filled)->surface);
   }
 
@@ -42,7 +43,7 @@ class MovedSurface {
     const Closing& still = *closing_of(still_, OpenParts::filled);
     const std::shared_ptr<const Surface> closed{std::shared_ptr<void>{}, &closed_->at(t)};
     auto closings = std::make_shared<LazyClosings>();
-    // The boxes of the holes stay where they were: only their size is asked for.
+    // The boxes of the holes are not moved: only their size is used.
     closings->made[static_cast<std::size_t>(OpenParts::filled)] =
         std::make_shared<const Closing>(Closing{closed, still.holes, hulls_of(*moved_mesh_, still.holes)});
     return closings;

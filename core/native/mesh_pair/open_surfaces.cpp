@@ -10,8 +10,8 @@ namespace {
 
 enum class Clearness { clear, touched, in_the_way };
 
-// A body that lies apart from the hull does not meet the fill. One that the hull lies within, without touching its
-// boundary, holds every fill.
+// A body apart from the hull does not meet the fill. A body that contains the hull, without touching it, contains
+// every fill.
 Clearness clearness_of(const MeshRelation& hull_to_body) {
   if (!hull_to_body.proven) return Clearness::in_the_way;
   switch (hull_to_body.relation) {
@@ -29,10 +29,10 @@ bool meets_a_triangle(const Aabb& box, const Surface& surface) {
 
 const Aabb& box_of(const Surface& hull) { return hull.bvh.nodes[0].box; }
 
-// The holes of one side, held against the other one.
-class Side {
+// The holes of one surface against the other surface.
+class HoledSide {
  public:
-  Side(const Closing& holed, const Surface& other, const Closing* closing_of_other, bool is_a)
+  HoledSide(const Closing& holed, const Surface& other, const Closing* closing_of_other, bool is_a)
       : holed_(holed), other_(other), closing_of_other_(closing_of_other), is_a_(is_a) {}
 
   void look(Holes& holes) const {
@@ -78,20 +78,16 @@ ClosedPair::ClosedPair(const Surface& a, const Surface& b, OpenParts open) : a_(
   if (!b.solid) of_b_ = closing_of(b, open);
 }
 
-bool are_read_as_sheets(const Surface& a, const Surface& b) {
-  const auto is_sheet = [](const Surface& s) { return !s.solid && s.open_parts == OpenParts::sheets; };
-  return is_sheet(a) || is_sheet(b);
-}
-
 Holes holes_between(const ClosedPair& pair) {
   Holes holes;
-  if (pair.closing_a()) Side(*pair.closing_a(), pair.b(), pair.closing_b(), true).look(holes);
-  if (pair.closing_b() && !holes.in_the_way) Side(*pair.closing_b(), pair.a(), pair.closing_a(), false).look(holes);
+  if (pair.closing_a()) HoledSide(*pair.closing_a(), pair.b(), pair.closing_b(), true).look(holes);
+  if (pair.closing_b() && !holes.in_the_way) {
+    HoledSide(*pair.closing_b(), pair.a(), pair.closing_a(), false).look(holes);
+  }
   return holes;
 }
 
 std::optional<double> distance_of_holes(const Surface& a, const Surface& b, double limit) {
-  if (are_read_as_sheets(a, b)) return {};
   const ClosedPair pair(a, b, OpenParts::filled);
   static const std::vector<Surface> none;
   const auto& hulls_a = pair.closing_a() ? pair.closing_a()->hulls : none;

@@ -9,14 +9,14 @@
 
 namespace satcheck {
 
-// The closed surfaces in the place of two that may be open.
+// Two surfaces, each closed where it is open.
 class ClosedPair {
  public:
   ClosedPair(const Surface& a, const Surface& b, OpenParts open);
 
   const Surface& a() const { return of_a_ ? *of_a_->surface : a_; }
   const Surface& b() const { return of_b_ ? *of_b_->surface : b_; }
-  // Nothing of a surface that is closed by itself.
+  // Null where the surface itself is closed.
   const Closing* closing_a() const { return of_a_.get(); }
   const Closing* closing_b() const { return of_b_.get(); }
 
@@ -24,9 +24,6 @@ class ClosedPair {
   const Surface &a_, &b_;
   std::shared_ptr<const Closing> of_a_, of_b_;
 };
-
-// Is what is open of either surface meant to be open?
-bool are_read_as_sheets(const Surface& a, const Surface& b);
 
 // in_the_way: the hull of a hole meets more of the other body than its boundary, so that fills exist which overlap
 // the body and others which do not. touched: no such hole exists, but the hull of one touches the other body.

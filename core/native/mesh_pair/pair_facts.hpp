@@ -1,4 +1,4 @@
-// What is known of two bodies, and which relation that amounts to.
+// The known facts about two bodies, and the relation that follows from them.
 //
 // A body is its solid part and its sheets. The solid part is the set of points of winding number != 0. A
 // sheet is a piece of a triangle with winding number 0 on both sides: material without an inside. Nothing

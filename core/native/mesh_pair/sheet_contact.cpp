@@ -19,6 +19,7 @@
 #include "base/edge_table.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
+#include "mesh/cuts.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh/winding.hpp"
 
@@ -31,7 +32,8 @@ struct Hinge {
   std::vector<Vec3> wings;
 };
 
-// Which triangles of a closed surface are sheets, by a point of each.
+// Which triangles of a closed surface are sheets, by every piece into which their own surface cuts them. One that is
+// a sheet in part counts as one, and unsure() tells of it.
 class Sheets {
  public:
   explicit Sheets(const Surface& surface) : surface_(surface) {}
@@ -42,17 +44,34 @@ class Sheets {
     return entry->second;
   }
 
+  bool unsure() const { return unsure_; }
+
  private:
-  // A triangle that meets no other one of its surface has material on one side.
-  bool is_sheet(std::uint32_t t) const {
+  bool is_sheet(std::uint32_t t) {
     const Corners c = corners(surface_.mesh, t);
-    if (collinear(c[0], c[1], c[2]) || !has_irregular_partners(surface_, t)) return false;
-    const auto sides = beside_inner(surface_, lazy_centroid(c), t);
-    return !sides || sides->is_sheet();
+    if (collinear(c[0], c[1], c[2])) return false;
+    const auto partners = irregular_partners(surface_, t);
+    if (partners.empty()) return false;  // it has material on one side
+    bool any = false, all = true;
+    visit_pieces(c, find_cuts(surface_.mesh, t, surface_.mesh, partners, Touching::left_out), Touching::left_out,
+                 [&](const Piece& piece) {
+                   bool sheet = false;
+                   const bool known = sample_piece(piece, partners.size(), [&](const ExactPoint& p) {
+                     const auto sides = beside(surface_, p, c);
+                     sheet = sides && sides->is_sheet();
+                     return sides.has_value();
+                   });
+                   any = any || sheet || !known;
+                   all = all && sheet;
+                   return true;
+                 });
+    unsure_ = unsure_ || any != all;
+    return any;
   }
 
   const Surface& surface_;
   std::unordered_map<std::uint32_t, bool> known_;
+  bool unsure_ = false;
 };
 
 // The hinges of sheets in contact, by triangle.
@@ -254,6 +273,7 @@ void find_sheet_crossing(const Surface& a, const Surface& b, const std::vector<C
   std::vector<Vec3> flat;  // normals of triangles that lie in each other
   for (const SheetPair& pair : pairs) {
     if (crosses_at_edge(pair, hinges_a, hinges_b)) {
+      if (of_a.unsure() || of_b.unsure()) return samples.fail();
       samples.note_sheets_cross({pair.a, pair.b, contact_point(pair.of_a, pair.of_b)});
       return;
     }

@@ -1,4 +1,4 @@
-// Do sheets cross where no two of their triangles do?
+// Do sheets cross along edges, where no two of their triangles cross?
 #pragma once
 
 #include <vector>

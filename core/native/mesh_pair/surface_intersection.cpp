@@ -71,7 +71,7 @@ class Assembly {
       segments_.emplace_back(number(meeting.nodes[0]), number(meeting.nodes[1]));
     } else if (meeting.kind == MeetingKind::patch) {
       Piece& piece = pieces_.emplace_back(Piece{triangle_a, meeting.opposed, {}});
-      for (const Side& side : meeting.sides) piece.sides.emplace_back(number(side.from), number(side.to));
+      for (const MeetingSide& side : meeting.sides) piece.sides.emplace_back(number(side.from), number(side.to));
     } else {
       for (const Incidence& node : meeting.nodes) joined_.emplace_back(number(meeting.nodes[0]), number(node));
     }

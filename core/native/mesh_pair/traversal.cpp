@@ -13,7 +13,7 @@ double half_area(const Aabb& box) {
   return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-// Steps of a pair of boxes, of a pair of triangles, and of one that meets: measured.
+// Measured steps of a pair of boxes, of a pair of triangles, and of a pair that meets.
 constexpr std::uint64_t kBoxWork = 10, kTriangleWork = 20, kContactWork = 150;
 
 class Traversal {

@@ -14,7 +14,7 @@ struct Wall {
   double offset;
 };
 
-// The point of least norm beyond all walls, on the last of them; nothing where there is none. At most
+// The point of least norm beyond all walls, on the last of them; nothing where no point is beyond all walls. At most
 // three walls hold it, so all such sets with the last one are tried.
 std::optional<Vec3> nearest_beyond(const std::vector<Wall>& walls);
 

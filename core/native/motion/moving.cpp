@@ -10,16 +10,16 @@ double time_by_bend(double room, double rate, double bend) {
   return rate > 0 ? 2 * room / (rate + root) : (root - rate) / bend;
 }
 
-double time_until(const Closing& closing, double level) {
-  const double room = closing.gap - level;
+double time_until(const Approach& approach, double level) {
+  const double room = approach.gap - level;
   if (!(room > 0)) return 0;
-  const double steadily = closing.ahead.steady > 0 ? room / closing.ahead.steady : INFINITY;
-  return std::fmax(steadily, time_by_bend(room, closing.ahead.rate, closing.bend));
+  const double steadily = approach.ahead.steady > 0 ? room / approach.ahead.steady : INFINITY;
+  return std::fmax(steadily, time_by_bend(room, approach.ahead.rate, approach.bend));
 }
 
 // The least of the bound over 0 <= s <= window: where the rate is negative the gap opens first, and the
 // bound is concave, so that its least value is at an end.
-double least(double gap, const Closing::Speed& speed, double bend, double window) {
+double least(double gap, const Approach::Speed& speed, double bend, double window) {
   const double steadily = gap - speed.steady * window;
   const double bent = gap - speed.rate * window - bend * window * window / 2;
   return std::fmin(gap, std::fmax(steadily, bent));
@@ -27,11 +27,11 @@ double least(double gap, const Closing::Speed& speed, double bend, double window
 
 }  // namespace
 
-double MotionQuestion::answer(const Closing& closing) const {
-  if (std::isnan(closing.gap)) return trivial();
-  if (time_) return std::fmin(time_until(closing, level_), extent_);
-  return std::fmin(least(closing.gap, closing.ahead, closing.bend, extent_),
-                   least(closing.gap, closing.back, closing.bend, extent_));
+double MotionQuestion::answer(const Approach& approach) const {
+  if (std::isnan(approach.gap)) return trivial();
+  if (time_) return std::fmin(time_until(approach, level_), extent_);
+  return std::fmin(least(approach.gap, approach.ahead, approach.bend, extent_),
+                   least(approach.gap, approach.back, approach.bend, extent_));
 }
 
 }  // namespace satcheck

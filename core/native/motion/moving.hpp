@@ -61,13 +61,13 @@ struct MotionRounding {
   double gap = 0, rate = 0;
 };
 
-struct Interval {
+struct Extent {
   double low, high;
 };
 
 // How the gap along one axis goes on. It is at least gap - rate s - bend s^2 / 2, and gap - steady s; the
 // first members hold for s >= 0, those for s <= 0 are `back`.
-struct Closing {
+struct Approach {
   struct Speed {
     double rate = 0, steady = 0;
   };
@@ -84,7 +84,7 @@ class MotionQuestion {
   static MotionQuestion gap(double window, double floor = -INFINITY) { return {false, floor, window}; }
 
   // A lower bound of the answer.
-  double answer(const Closing& closing) const;
+  double answer(const Approach& approach) const;
   // Whether the answer for a gap as it is now, whatever becomes of it, may be more than a known one.
   bool may_raise(double gap, double known) const { return time_ ? gap > level_ : gap > known; }
   // No answer is larger.
@@ -109,35 +109,35 @@ inline Vec3 unit_along(Vec3 axis) {
   return small * (1 / norm(small));
 }
 
-// Part: `Interval along(Vec3 world direction)`, the extent of dot(direction, p) over its points, and
+// Part: `Extent along(Vec3 world direction)`, the extent of dot(direction, p) over its points, and
 // `double turning(const Moving&)`, an upper bound of |spin x r|.
 template <class Part>
-void add_closing(const Part& part, const Moving& moving, Vec3 n, bool towards, Closing& closing) {
+void add_approach(const Part& part, const Moving& moving, Vec3 n, bool towards, Approach& approach) {
   const double sign = towards ? 1 : -1, drift = sign * dot(n, moving.velocity);
-  closing.ahead.rate += drift;
-  closing.ahead.steady += drift;
-  closing.back.rate -= drift;
-  closing.back.steady -= drift;
+  approach.ahead.rate += drift;
+  approach.ahead.steady += drift;
+  approach.back.rate -= drift;
+  approach.back.steady -= drift;
   if (moving.spin == Vec3{}) return;
   const Vec3 w = cross(n, moving.spin);
   const double offset = dot(w, moving.centre), across = norm(w), turning = part.turning(moving);
-  const Interval extent = part.along(w);
+  const Extent extent = part.along(w);
   const double low = extent.low - offset, high = extent.high - offset;
-  closing.ahead.rate += towards ? high : -low;
-  closing.back.rate += towards ? -low : high;
+  approach.ahead.rate += towards ? high : -low;
+  approach.back.rate += towards ? -low : high;
   const double steady = across * turning / norm(moving.spin);
-  closing.ahead.steady += steady;
-  closing.back.steady += steady;
-  closing.bend += across * turning;
+  approach.ahead.steady += steady;
+  approach.back.steady += steady;
+  approach.bend += across * turning;
 }
 
 // How a gap along a unit axis from A to B goes on in one view.
 template <class PartA, class PartB>
-Closing closing_of(double gap, const PartA& a, const PartB& b, const Views::View& view, Vec3 n, double rounding) {
-  Closing closing{gap, 0, {rounding, rounding}, {rounding, rounding}};
-  add_closing(a, view.a, n, true, closing);
-  add_closing(b, view.b, n, false, closing);
-  return closing;
+Approach approach_of(double gap, const PartA& a, const PartB& b, const Views::View& view, Vec3 n, double rounding) {
+  Approach approach{gap, 0, {rounding, rounding}, {rounding, rounding}};
+  add_approach(a, view.a, n, true, approach);
+  add_approach(b, view.b, n, false, approach);
+  return approach;
 }
 
 // Raises `answer`, a lower bound of the answer to the question, by what an axis of any length from A to B
@@ -150,7 +150,7 @@ void raise_answer(const PartA& a, const PartB& b, Vec3 axis, const Views& views,
   const double gap = b.along(n).low - a.along(n).high - rounding.gap;
   if (!question.may_raise(gap, answer)) return;
   for (const Views::View& view : views) {
-    answer = std::fmax(answer, question.answer(closing_of(gap, a, b, view, n, rounding.rate)));
+    answer = std::fmax(answer, question.answer(approach_of(gap, a, b, view, n, rounding.rate)));
   }
 }
 

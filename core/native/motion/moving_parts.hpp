@@ -19,7 +19,7 @@ struct PlacedBox {
         half(box.max * 0.5 - box.min * 0.5),
         radius(norm(half)) {}
 
-  Interval along(Vec3 n) const {
+  Extent along(Vec3 n) const {
     const Vec3 m = transpose_times(rotation, n);
     const double middle = dot(n, centre);
     const double reach = std::fabs(m.x) * half.x + std::fabs(m.y) * half.y + std::fabs(m.z) * half.z;
@@ -39,7 +39,7 @@ struct PlacedTriangle {
     for (Vec3& p : corners) p = pose * p;
   }
 
-  Interval along(Vec3 n) const {
+  Extent along(Vec3 n) const {
     const double x = dot(n, corners[0]), y = dot(n, corners[1]), z = dot(n, corners[2]);
     return {std::fmin(x, std::fmin(y, z)), std::fmax(x, std::fmax(y, z))};
   }
@@ -62,7 +62,7 @@ class PlacedShape {
     radius_ = norm(high - low) * 0.5;
   }
 
-  Interval along(Vec3 n) const {
+  Extent along(Vec3 n) const {
     const Vec3 m = transpose_times(core_.rotation, n);
     const double middle = dot(n, core_.translation), margin = shape_.margin * norm(n);
     return {middle + dot(m, core_support(shape_, -m).point) - margin,

@@ -87,7 +87,7 @@ class MotionSearch {
     const auto enough = [&](Vec3 axis) { return improve(a, b, axis, value); };
     const Vec3 middle = b.centre() - a.centre();
     if (enough(towards(a.normal(), middle)) || enough(towards(b.normal(), middle))) return;
-    const Witnesses nearest = triangle_distance(a.corners, b.corners);
+    const NearestPoints nearest = triangle_distance(a.corners, b.corners);
     const Vec3 apart = nearest.b - nearest.a;
     if (enough(apart) || enough(across_motion(apart, views_, nearest.a, nearest.b))) return;
     result_.value = value;

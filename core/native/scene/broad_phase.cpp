@@ -27,7 +27,7 @@ double half_area(const Aabb& box) {
   return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-// A set of pairs, asked for often.
+// A set of pairs, with fast look-ups.
 class PairSet {
  public:
   explicit PairSet(std::vector<IndexPair> pairs) : pairs_(std::move(pairs)) {

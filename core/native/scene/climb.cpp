@@ -178,7 +178,7 @@ class Climber {
     return {body.bounds().min - Vec3{reach, reach, reach}, body.bounds().max + Vec3{reach, reach, reach}};
   }
 
-  // Whether little of each body can matter for the other, and nobody needs the rest.
+  // Whether only a small part of each body can matter for the other, and no other stage needs the rest.
   bool little_matters() {
     const auto can_be_cut = [](PlacedGeometry& body) { return body.shared().plain() && body.placed_as_in_file(); };
     if (!serves_one_large_pair() || q_.wants_distance || !can_be_cut(*q_.a) || !can_be_cut(*q_.b)) return false;
@@ -212,7 +212,7 @@ class Climber {
     }
   }
 
-  // What is beyond the touch band by more than rounding needs no figure.
+  // A gap that exceeds the touch band by more than rounding needs no figure.
   bool measure_gap() {
     if (q_.asked_gap == 0) return false;
     if (!a_) make_whole_surfaces();

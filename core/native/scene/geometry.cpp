@@ -41,9 +41,7 @@ std::shared_ptr<Surface> Geometry::surface() {
   return once(mutex_, surface_, [&] {
     ++hierarchies_;
     if (plain_) return make_plain_surface(mesh_);
-    Surface surface = make_surface(*mesh_, solid_);
-    surface.open_parts = open_;
-    return surface;
+    return make_surface(*mesh_, solid_, open_);
   });
 }
 

@@ -21,7 +21,7 @@ class Geometry {
  public:
   // solid: the mesh is closed and consistently wound. Surfaces throw std::invalid_argument where it is not.
   // plain: more than that, it is as inspect() left it and was found to be a plain solid; that is not proven again.
-  // open: how its surface is read where it is open.
+  // open: how the open parts of its surface are read.
   Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain = false, OpenParts open = OpenParts::filled)
       : mesh_(std::move(mesh)), solid_(solid), plain_(plain), open_(open) {}
 
@@ -79,7 +79,7 @@ class PlacedGeometry {
   bool placed_as_in_file() const { return !transform_; }
   std::shared_ptr<Surface> surface();
   std::shared_ptr<Polytope> hull();      // of all vertices, with its faces
-  std::shared_ptr<Shape> hull_shape();   // the same as a shape, as a rule without faces
+  std::shared_ptr<Shape> hull_shape();   // the same as a shape, usually without faces
   // The box of the file's mesh, carried by the transform; it holds every point within `pad` of the body.
   OrientedBox oriented_box(double pad);
 

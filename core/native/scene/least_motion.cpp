@@ -24,7 +24,7 @@ constexpr std::size_t longest_chain = 12;
 
 class Solver {
  public:
-  Solver(const std::vector<bool>& movable, const std::vector<Wall>& walls, std::vector<double> multipliers)
+  Solver(const std::vector<bool>& movable, const std::vector<PairWall>& walls, std::vector<double> multipliers)
       : walls_(walls), movable_(movable), at_(movable.size()), multipliers_(std::move(multipliers)) {
     for (std::size_t k = 0; k < walls.size(); ++k) {
       unit_ = std::max(unit_, std::fabs(walls[k].least));
@@ -61,7 +61,7 @@ class Solver {
     const std::size_t count = walls_.size();
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t number = backwards ? count - 1 - k : k;
-      const Wall& wall = walls_[number];
+      const PairWall& wall = walls_[number];
       const int movers = int(movable_[wall.a]) + int(movable_[wall.b]);
       const double wanted = relaxation * (margin - slack(wall)) / movers;
       const double step = std::max(wanted, -multipliers_[number]);
@@ -72,20 +72,20 @@ class Solver {
     return change;
   }
 
-  double slack(const Wall& wall) const { return dot(wall.normal, at_[wall.a] - at_[wall.b]) - wall.least; }
+  double slack(const PairWall& wall) const { return dot(wall.normal, at_[wall.a] - at_[wall.b]) - wall.least; }
 
   double shortfall() const {
     double worst = 0;
-    for (const Wall& wall : walls_) worst = std::max(worst, -slack(wall));
+    for (const PairWall& wall : walls_) worst = std::max(worst, -slack(wall));
     return worst;
   }
 
-  void push(const Wall& wall, double step) {
+  void push(const PairWall& wall, double step) {
     if (movable_[wall.a]) at_[wall.a] = at_[wall.a] + wall.normal * step;
     if (movable_[wall.b]) at_[wall.b] = at_[wall.b] - wall.normal * step;
   }
 
-  const std::vector<Wall>& walls_;
+  const std::vector<PairWall>& walls_;
   const std::vector<bool>& movable_;
   std::vector<Vec3> at_;
   std::vector<double> multipliers_;
@@ -94,7 +94,7 @@ class Solver {
 
 }  // namespace
 
-LeastMotion least_motion(const std::vector<bool>& movable, const std::vector<Wall>& walls,
+LeastMotion least_motion(const std::vector<bool>& movable, const std::vector<PairWall>& walls,
                          std::vector<double> multipliers) {
   return Solver(movable, walls, std::move(multipliers)).solve();
 }

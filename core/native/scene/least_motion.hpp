@@ -9,7 +9,7 @@
 namespace satcheck {
 
 // normal . (t[a] - t[b]) >= least, for translations t of the bodies a and b. normal: unit.
-struct Wall {
+struct PairWall {
   std::uint32_t a, b;
   Vec3 normal;
   double least;
@@ -24,7 +24,7 @@ struct LeastMotion {
 
 // Minimises the sum of the squared translations. multipliers: those of an earlier solution of similar walls,
 // or zeros. A wall has a movable body at least. Walls that exclude each other are not all kept.
-LeastMotion least_motion(const std::vector<bool>& movable, const std::vector<Wall>& walls,
+LeastMotion least_motion(const std::vector<bool>& movable, const std::vector<PairWall>& walls,
                          std::vector<double> multipliers);
 
 }  // namespace satcheck

@@ -48,7 +48,7 @@ std::optional<Aabb> bounds_of(const std::vector<Vec3>& points) {
   return box;
 }
 
-// Where the sums may come near the ends of the range, which nobody has to be fast in.
+// Where the sums may come near the ends of the range; speed does not matter there.
 std::optional<Aabb> bounds_of_placed(const Mesh& mesh, const std::array<double, 16>& m) {
   try {
     return bounds_of(transform(Mesh{mesh.vertices, {}}, m).vertices);

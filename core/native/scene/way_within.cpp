@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kWalls = 3;
 
-// A length computed of a direction and the tolerance exceeds that by no more than this factor.
+// The computed length of a unit direction times the tolerance exceeds the tolerance by no more than this factor.
 constexpr double kToRounding = 1 + 16 * kUnitRoundoff;
 
 // A moved again and again, without a tree being built.

@@ -91,6 +91,14 @@ def test_as_if_every_pair_were_gone_through(seed: int) -> None:
     assert list(book.unused()) == unused
 
 
+def test_an_id_with_brackets_is_matched_by_its_own_name() -> None:
+    bodies = [Subject(name) for name in ("br0", "br1", "br[0]", "br[1]")]
+    book = RuleBook(bodies, [rule("br[0]", "br[1]", allowed=True)])
+    assert not book.terms(0, 1).allows
+    assert book.terms(2, 3).allows
+    assert book.count() == (6, 1)
+
+
 def test_the_last_rule_that_sets_a_key_decides_it() -> None:
     first, second = rule("*", "*", clearance=1.0, max_volume=2.0), rule("a", "*", max_volume=1.0)
     book = RuleBook([Subject("a"), Subject("b"), Subject("c")], [first, second])

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from satcheck import core
-from satcheck.audit import Settings
+from satcheck.audit import Settings, check
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.curved import contact
 from satcheck.audit.curved.nesting import holds, is_within_hull
@@ -18,7 +18,7 @@ from satcheck.audit.curved.shape import curved_shape
 from satcheck.audit.curved.signed import convex_pair
 from satcheck.core import Mesh
 from satcheck.core.frozen import replace
-from satcheck.scene import Body
+from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.primitives import (
     Box,
     Capsule,
@@ -36,6 +36,35 @@ from tests.scene.planar.flat import body as mesh_body
 ROUNDING = 64 * 2.0**-50
 # Bounds of curved shapes close to this fraction of the coordinates (kCurvedGap of the core).
 CLOSED = 8 * 1e-11
+
+
+@pytest.mark.parametrize(("limit", "severity"), [(None, "error"), (0.125, "error"), (0.25, "note")])
+def test_an_overlap_is_proven_where_only_its_kind_is_not(
+    limit: float | None, severity: str
+) -> None:
+    """Two cylinders in one place: which holds the other is not known, how deep they overlap is."""
+    bodies = [shape(id_, Cylinder(1.0, 0.2)) for id_ in "ab"]
+    rule = Rule(a=Selector("a"), b=Selector("b"), max_depth=limit, severity="error")
+    scene = Scene("shapes", None, tuple(bodies), rules=(rule,))
+    (found,) = check(scene, Settings(depth=True)).findings
+    assert (found.relation, found.quality) == ("penetrating", "estimate")
+    assert (found.severity, found.undecided) == (severity, None)
+    assert "they overlap" in str(found.reason)
+
+
+def test_a_gap_is_on_its_side_of_the_tolerance() -> None:
+    """The bounds of a gap of 4e-17 are wider than the tolerance: exact signs are not."""
+    a, b = shape("a", Sphere(1.0)), shape("b", Sphere(1.0), moved(1.2, 1.6, 0.0))
+    found = ask(a, b, clearance=1.0)
+    assert (found.relation, found.exact_relation) == ("touching", "separated")
+    assert found.distance is not None
+    assert 0.0 < found.distance <= found.tolerance
+    beyond = ask(a, b, clearance=1.0, tolerance=1e-17)
+    assert beyond.relation == "near"
+    assert beyond.distance >= 1e-17
+    short = ask(a, b, clearance=1e-15, tolerance=0.0)
+    assert (short.relation, short.severity) == ("near", "error")
+    assert short.distance <= 1e-15
 
 
 @pytest.mark.parametrize(
@@ -208,6 +237,21 @@ def test_a_ball_on_an_open_sheet_touches_it() -> None:
     assert (found.relation, found.quality) == ("touching", "exact")
     into = ask(shape("ball", Sphere(0.5), moved(0.25, 0.5, 0.25)), mesh_body("floor", floor))
     assert (into.relation, into.severity) == ("penetrating", "error")
+
+
+def test_a_sheet_within_a_solid_is_no_boundary_to_a_ball() -> None:
+    box = mesh_of(Box((4.0, 4.0, 4.0)))
+    square = np.array([(-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0)])
+    first = len(box.vertices)
+    triangles = [
+        *np.asarray(box.triangles),
+        (first, first + 1, first + 2),
+        (first, first + 2, first + 3),
+    ]
+    both = Mesh(np.vstack([box.vertices, square]), np.array(triangles, dtype=np.uint32))
+    found = ask(shape("ball", Sphere(0.5)), mesh_body("both", both))
+    assert found.severity == "error"
+    assert found.exact_relation in ("inside", None)
 
 
 def test_no_distance_is_taken_from_the_mesh_within_a_shape() -> None:

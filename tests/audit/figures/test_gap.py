@@ -129,6 +129,16 @@ def test_a_gap_ends_where_the_fill_of_a_hole_may_be(tmp_path):
     assert check(scene_of(tmp_path, a=a, b=b), sheets).summary.verdict == "pass"
 
 
+def test_surfaces_as_far_apart_as_the_clearance_say_nothing_of_a_hole_between(tmp_path):
+    """The box is 1.25 away from the rim, and 0.75 from the lid that is missing."""
+    scene = scene_of(tmp_path, a=open_box(), b=box((1, 1, 4.75), (3, 3, 6)))
+    report = check(scene, Settings(clearance=1.25))
+    assert (only(report).distance, only(report).undecided) == (1.25, "limit")
+    assert report.summary.verdict == "incomplete"
+    touching = check(scene, Settings(tolerance=1.25))
+    assert only(touching).relation == "touching"
+
+
 @pytest.mark.parametrize("tip", [(0.5, -1.0, 0.5), (0.0, -2.0, 0.0)])
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("order", ["ab", "ba"])

@@ -174,7 +174,7 @@ def test_a_clearance_that_is_not_decided_is_no_hit(tmp_path: Path, monkeypatch) 
     assert (report.summary.verdict, report.summary.limits_undecided) == ("incomplete", 1)
     page = Page(width=120, unicode=False, colour=False)
     text = table.render(report, page, explain=False, timings=False)
-    assert "a and b: undecided: clearance is 0.085 (clearance), and the gap is between" in text
+    assert "a and b: undecided: clearance is 0.085 (--clearance), and the gap is between" in text
     assert text.endswith("No collision found, but 1 pair may be closer than its clearance.\n")
 
 

@@ -61,15 +61,23 @@ def test_without_depth_none_is_measured():
     assert found.worst is None
 
 
-def test_what_an_open_body_may_enclose_is_not_passed_over():
+def test_what_fills_a_hole_is_not_passed_over():
     """Through the open top and out again; surfaces never meet."""
     ball = box((1, 1, 6), (2, 2, 7))
     there = PosePath((Waypoint(0.0, ORIGIN), Waypoint(1.0, (0.5, 0.5, -5.0))))
     found = swept(ball, there, open_box())
     assert found.relation == "separated"
-    assert "surfaces only: what b may enclose" in found.reason
+    assert found.reason == "what fills the holes of b was not swept"
     away = swept(ball, Translation((0.0, 0.0, 5.0)), open_box())
     assert away.reason is None
+    assert swept(ball, there, open_box(), allow_open=True).reason is None
+
+
+def test_within_walls_of_sheets_the_surfaces_say_everything():
+    corners, faces = box((0, 0, 0), (9, 9, 9))
+    room = corners, faces + [face[::-1] for face in faces]
+    found = swept(box((1, 1, 1), (2, 2, 2)), Translation((5.0, 0.0, 0.0)), room)
+    assert (found.relation, found.reason) == ("separated", None)
 
 
 @pytest.mark.parametrize(

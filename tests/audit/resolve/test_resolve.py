@@ -37,6 +37,11 @@ def test_a_box_beside_one_that_stays_moves_all_the_way(tmp_path, how) -> None:
     assert found.pinned == ("a",)
 
 
+def test_a_pin_is_the_body_of_that_very_name(tmp_path) -> None:
+    scene = boxes_scene(tmp_path, {"br[0]": unit_at(0), "br0": unit_at(9)})
+    assert resolve(scene, pins=("br[0]",)).pinned == ("br[0]",)
+
+
 def test_the_links_of_a_robot_stay(tmp_path) -> None:
     """A link goes where its joints put it; what it meets makes way."""
     link = (

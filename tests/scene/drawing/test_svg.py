@@ -45,7 +45,7 @@ def test_millimetres_are_not_turned_into_pixels() -> None:
 
 
 @pytest.mark.parametrize(
-    "head", [">", 'width="100" height="50">', 'width="210mm" viewBox="0 0 1 1">']
+    "head", [">", 'width="100" height="50">', 'width="210mm">', 'viewBox="0 0 210 297">']
 )
 def test_no_unit_where_the_file_gives_none(head: str) -> None:
     assert read('<rect width="5" height="4"/>', head).units is None

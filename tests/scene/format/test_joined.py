@@ -26,9 +26,9 @@ def pairs_of(scene, rule: Rule) -> set[frozenset[str]]:
     """The pairs that a rule is about, by its definition."""
     return {
         frozenset((x.id, y.id))
-        for x in scene.bodies
-        for y in scene.bodies
-        if x is not y and rule.a.matches(x.id, x.groups) and rule.b.matches(y.id, y.groups)
+        for x in rule.a.select(scene.bodies)
+        for y in rule.b.select(scene.bodies)
+        if x is not y
     }
 
 

@@ -311,6 +311,7 @@ def test_lengths_with_a_unit_need_declared_ones(tmp_path):
     del document["units"]
     (error,) = errors(tmp_path, document)
     assert "rules[1].clearance: 2mm: no units are declared" in str(error)
+    assert "or declare `units` in this file" in str(error)
 
 
 @pytest.mark.parametrize(

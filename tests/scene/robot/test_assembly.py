@@ -178,7 +178,7 @@ def collision(inside: str) -> str:
     [
         ('<mesh filename="package://gone/{}.stl"/>', "(package://gone/0.stl): package 'gone' is"),
         ('<mesh filename="meshes/{}.stl"/>', "(meshes/0.stl): there is no folder"),
-        ('<mesh filename="{}.stl"/>', "(0.stl): the file is not in"),
+        ('<mesh filename="{}.stl"/>', "(0.stl): no such file in /"),
         ('<box size="{} -1 1"/>', "in line 2: <box>: size should be positive and finite"),
         ("<plane/>", "in line 2: <plane>: no geometry that is read"),
     ],

@@ -194,7 +194,7 @@ def test_the_longest_name_given_counts_and_is_trusted_as_far_as_its_folder(tmp_p
         ("$(find arm)/a.stl", "xacro", "expand the file first"),
         ("file://$(find arm)/a.stl", "xacro", "expand the file first"),
         ("meshes/a.stl", "missing-resource", "there is no folder"),
-        ("a.stl", "missing-resource", "the file is not in"),
+        ("a.stl", "missing-resource", "no such file in /"),
     ],
 )
 def test_what_is_not_found(tmp_path: Path, uri: str, code: str, said: str) -> None:

@@ -13,7 +13,7 @@ using Polygon = std::vector<Vec2>;
 Polygon square(double x, double y, double size) { return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}}; }
 
 void test_projection() {
-  const Interval i = project(square(1, 2, 3), {1, 0});
+  const Projection i = project(square(1, 2, 3), {1, 0});
   CHECK(i.min == 1 && i.max == 4);
 }
 

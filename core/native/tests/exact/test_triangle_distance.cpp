@@ -8,7 +8,7 @@ namespace {
 
 // Edge along x at height 0 with its face below, edge turned by `angle` about z at height `gap` with its
 // face above: they pass each other over the origin.
-Witnesses crossed_edges(double angle, double gap) {
+NearestPoints crossed_edges(double angle, double gap) {
   const Corners below{Vec3{-1, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 0, -1}};
   const Corners above{Vec3{-1, -angle, gap}, Vec3{1, angle, gap}, Vec3{0, 0, 1 + gap}};
   return triangle_distance(below, above);

@@ -40,7 +40,7 @@ void a_turned_triangle_is_two_loops_in_one_hole() {
   std::swap(mesh.triangles[2][1], mesh.triangles[2][2]);
   CHECK(loops_of(mesh).size() == 2);
   CHECK(find_holes(mesh).size() == 1);
-  CHECK(make_surface(close_surface(mesh, OpenParts::filled).surface->mesh, true).solid);
+  CHECK(close_surface(make_surface(mesh, false), OpenParts::filled).surface->solid);
 }
 
 void loops_that_share_a_vertex_are_one_hole() {
@@ -57,12 +57,18 @@ void loops_that_share_a_vertex_are_one_hole() {
 void a_flat_part_is_a_sheet_and_no_hole() {
   const Mesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
   CHECK(loops_of(square).size() == 1);
-  CHECK(find_holes(square).empty());
-  const Closing closing = close_surface(square, OpenParts::filled);
+  Mesh doubled = square;
+  double_triangles(doubled, flat_parts(square));
+  CHECK(find_holes(doubled).empty());
+  const Surface surface = make_surface(square, false);
+  const Closing closing = close_surface(surface, OpenParts::filled);
   CHECK(closing.hulls.empty() && closing.surface->mesh.triangles.size() == 4);
   Mesh bent = square;
   bent.vertices[3].z = 0.25;
   CHECK(find_holes(bent).size() == 1);
+  // As rounding may bend it.
+  CHECK(close_surface(refitted_surface(surface, bent), OpenParts::filled).holes.empty());
+  CHECK(close_surface(make_surface(bent, false), OpenParts::filled).holes.size() == 1);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ using namespace satcheck;
 
 namespace {
 
-Feature vertex(std::uint32_t v) { return {v, v}; }
-Feature inside(std::uint32_t t) { return {Feature::kInside, t}; }
+MeshFeature vertex(std::uint32_t v) { return {v, v}; }
+MeshFeature inside(std::uint32_t t) { return {MeshFeature::kInside, t}; }
 
 const Mesh kFloor{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};
 
@@ -21,15 +21,15 @@ TriangleMeeting on_floor(Vec3 p, Vec3 q, Vec3 r) {
 void transversal() {
   const TriangleMeeting m = on_floor({1, 1, -1}, {1, 1, 1}, {9, 9, 1});
   CHECK(m.kind == MeetingKind::segment);
-  CHECK((m.nodes[0] == Incidence{Feature::edge(1, 2), inside(0)}));
-  CHECK((m.nodes[1] == Incidence{inside(0), Feature::edge(0, 1)}));
+  CHECK((m.nodes[0] == Incidence{MeshFeature::edge(1, 2), inside(0)}));
+  CHECK((m.nodes[1] == Incidence{inside(0), MeshFeature::edge(0, 1)}));
 }
 
 void a_vertex_has_one_name() {
   const TriangleMeeting in = on_floor({1, 1, 0}, {1, 1, 5}, {2, 1, 5});
   CHECK(in.kind == MeetingKind::point && (in.nodes[0] == Incidence{inside(0), vertex(0)}));
   const TriangleMeeting edge = on_floor({2, 0, 0}, {1, 1, 5}, {2, 1, 5});
-  CHECK(edge.kind == MeetingKind::point && (edge.nodes[0] == Incidence{Feature::edge(0, 1), vertex(0)}));
+  CHECK(edge.kind == MeetingKind::point && (edge.nodes[0] == Incidence{MeshFeature::edge(0, 1), vertex(0)}));
   const TriangleMeeting corner = on_floor({4, 0, 0}, {9, 1, 5}, {9, 2, 5});
   CHECK(corner.kind == MeetingKind::point && (corner.nodes[0] == Incidence{vertex(1), vertex(0)}));
 }
@@ -48,9 +48,9 @@ void coplanar() {
 void sides_go_around() {
   const TriangleMeeting m = on_floor({-1, 1, 0}, {3, -1, 0}, {3, 3, 0});
   CHECK(m.sides.size() == 6);
-  for (const Side& side : m.sides) {
+  for (const MeetingSide& side : m.sides) {
     int follows = 0;
-    for (const Side& next : m.sides) follows += next.from == side.to;
+    for (const MeetingSide& next : m.sides) follows += next.from == side.to;
     CHECK(follows == 1);
   }
 }
@@ -59,9 +59,9 @@ void a_point_is_rounded_once() {
   // A third has no float64: the nearest one, however the point is named.
   const Mesh wall{{{1, 1, -1}, {1, 1, 2}, {1, -9, 2}}, {{0, 1, 2}}};
   const Mesh slope{{{0, 0, 0}, {3, 0, 1}, {0, 3, 0}}, {{0, 1, 2}}};
-  const ExactPoint p = locate({Feature::edge(0, 1), inside(0)}, wall, slope);
+  const ExactPoint p = locate({MeshFeature::edge(0, 1), inside(0)}, wall, slope);
   CHECK((p.rounded == Vec3{1, 1, 1.0 / 3}));
-  const ExactPoint swapped = locate({inside(0), Feature::edge(0, 1)}, slope, wall);
+  const ExactPoint swapped = locate({inside(0), MeshFeature::edge(0, 1)}, slope, wall);
   CHECK(swapped.rounded == p.rounded);
 }
 

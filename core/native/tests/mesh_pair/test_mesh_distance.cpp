@@ -42,7 +42,7 @@ void triangle_distances() {
   };
   for (int i = 0; i < 2000; ++i) {
     const Corners a = triangle({}), b = triangle({i % 3 * 1.0, 0, 0});
-    const Witnesses w = triangle_distance(a, b);
+    const NearestPoints w = triangle_distance(a, b);
     const double distance = std::sqrt(w.distance_squared), sampled = sampled_distance(a, b);
     CHECK(distance <= sampled + 1e-12);
     CHECK(sampled <= distance + 0.1);

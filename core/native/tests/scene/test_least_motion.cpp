@@ -11,7 +11,7 @@ namespace {
 
 const Vec3 x{1, 0, 0}, y{0, 1, 0};
 
-LeastMotion solved(std::vector<bool> movable, const std::vector<Wall>& walls) {
+LeastMotion solved(std::vector<bool> movable, const std::vector<PairWall>& walls) {
   return least_motion(movable, walls, std::vector<double>(walls.size(), 0.0));
 }
 
@@ -46,15 +46,15 @@ void a_chain_is_solved() {
   constexpr std::uint32_t length = 40;
   std::vector<bool> movable(length + 1, true);
   movable[0] = false;
-  std::vector<Wall> walls;
+  std::vector<PairWall> walls;
   for (std::uint32_t k = 1; k <= length; ++k) walls.push_back({k, k - 1, x, 1});
   const auto found = solved(movable, walls);
   for (std::uint32_t k = 0; k <= length; ++k) CHECK(near(found.translations[k], x * k, 1e-4));
-  for (const Wall& wall : walls) CHECK(dot(x, found.translations[wall.a] - found.translations[wall.b]) >= 1 - 1e-12);
+  for (const PairWall& wall : walls) CHECK(dot(x, found.translations[wall.a] - found.translations[wall.b]) >= 1 - 1e-12);
 }
 
 void earlier_multipliers_do_not_change_the_answer() {
-  const std::vector<Wall> walls{{0, 1, x, 1}, {1, 2, x, 1}, {0, 2, y, 2}};
+  const std::vector<PairWall> walls{{0, 1, x, 1}, {1, 2, x, 1}, {0, 2, y, 2}};
   const auto cold = solved({true, true, true}, walls);
   const auto warm = least_motion({true, true, true}, walls, {3, 0.5, 7});
   for (int k = 0; k < 3; ++k) CHECK(near(cold.translations[k], warm.translations[k], 1e-12));

@@ -1,0 +1,47 @@
+"""Open pieces around a body: sheets by themselves, and together perhaps the wall of a solid.
+
+A box whose faces miss each other by more than the precision of the file is six flat open parts, and
+so six sheets, in which nothing can lie. Nobody knows whether it is meant to be a solid.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.scene.health import MOST_AROUND
+
+if TYPE_CHECKING:
+    from satcheck.audit.report.report import Vector
+
+
+def open_pieces_around(pair: Pair) -> str | None:
+    """Why bodies that do not meet may still lie in each other; None: they do not."""
+    if pair.settings.allow_open:
+        return None
+    for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):
+        if _is_in_pieces(outer) and _is_around(outer, _point_of(inner)):
+            return (
+                f"open pieces of {outer.id} surround {inner.id}: close them, or say with "
+                "--allow-open that they are meant to be open"
+            )
+    return None
+
+
+def _is_in_pieces(body: PlacedBody) -> bool:
+    health = body.body.file.health
+    return not (body.solid or health.closed or health.flat or body.curved)
+
+
+def _point_of(body: PlacedBody) -> Vector:
+    if body.curved is not None:
+        return body.curved.centre
+    return body.mesh.vertex(0)
+
+
+def _is_around(body: PlacedBody, point: Vector) -> bool:
+    low, high = body.bounds
+    if not all(a <= c <= b for a, c, b in zip(low, point, high, strict=True)):
+        return False
+    return abs(body.surface().sheets_around(point)) > MOST_AROUND

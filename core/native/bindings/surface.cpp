@@ -1,0 +1,157 @@
+// The Python face of surfaces: one with its tree, and two of them: relation, distance, gap, deviation.
+// Nothing but conversions.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <stdexcept>
+
+#include "bindings/tuples.hpp"
+#include "exact/translation.hpp"
+#include "mesh/closing.hpp"
+#include "mesh/nearest_point.hpp"
+#include "mesh/surface.hpp"
+#include "mesh/winding.hpp"
+#include "mesh_pair/boundary_contact.hpp"
+#include "mesh_pair/deviation.hpp"
+#include "mesh_pair/gap_comparison.hpp"
+#include "mesh_pair/mesh_distance.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+#include "scene/words.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace satcheck {
+namespace {
+
+using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
+
+void bind_one_surface(nb::module_& m) {
+  nb::class_<Surface>(m, "Surface", "A mesh with its tree: built once, immutable, shared by threads.")
+      .def("__init__",
+           [](Surface* self, const Mesh& mesh, bool solid, bool sheets) {
+             new (self) Surface(make_surface(mesh, solid, sheets ? OpenParts::sheets : OpenParts::filled));
+           },
+           "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: claimed to be closed; ValueError where it is not. sheets: what has a rim has no inside; other holes are
+filled somehow.)")
+      .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
+                   nb::rv_policy::reference_internal)
+      .def_ro("solid", &Surface::solid)
+      .def_ro("refitted", &Surface::refitted, "Whether the tree has the form of another surface's.")
+      .def("closed",
+           [](const Surface& s) {
+             if (s.solid) return std::make_tuple(s, std::vector<Surface>{});
+             const auto closing = closing_of(s, OpenParts::filled);
+             return std::make_tuple(*closing->surface, closing->hulls);
+           },
+           ReleaseGil(), R"((surface, hulls): the surface closed, and for each of its holes a surface that every fill of it lies within. Away
+from these its winding numbers do not depend on the fill.)")
+      .def("sheets_around",
+           [](const Surface& s, const Tuple3& point) {
+             return generalized_winding_number(s.mesh, s.sheets, finite_point(point));
+           },
+           "point"_a, ReleaseGil(), R"(How far the sheets of an open surface are around a point on none of them: their solid angle over 4 pi, signed, in
+float64. 0 without sheets.)")
+      .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of this mesh with its vertices elsewhere, `mesh`: the tree is fitted again in linear time. Made anew
+where the triangles are others, or where rounding has put two vertices into one place.)")
+      .def("winding_number",
+           [](const Surface& s, const Tuple3& point) {
+             if (!s.solid) throw std::invalid_argument("the surface is not a solid");
+             return winding_number(s, finite_point(point));
+           },
+           "point"_a, ReleaseGil())
+      .def("is_boundary",
+           [](const Surface& s, std::size_t triangle) {
+             if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
+             return is_plain_boundary(s, static_cast<std::uint32_t>(triangle));
+           },
+           "triangle"_a, ReleaseGil(), R"(Whether the closed body ends on all of the triangle: it is no face inside the material, and meets no other
+triangle of the surface but at shared corners and edges.)")
+      .def("nearest",
+           [](const Surface& s, const Tuple3& point) {
+             const NearestPoint nearest = nearest_point(s, finite_point(point));
+             return std::make_tuple(nearest.distance, to_tuple(nearest.point));
+           },
+           "point"_a, ReleaseGil());
+}
+
+std::int64_t triangle_number(std::uint32_t triangle) {
+  return triangle == kNoTriangle ? -1 : static_cast<std::int64_t>(triangle);
+}
+
+void bind_mesh_relation(nb::module_& m) {
+  nb::class_<OpenHole>(m, "OpenHole", R"(A hole that leaves a relation open, world units. of_a: whether the first body has it; number: from 0 on, the
+largest hole of the body first; count: of its holes.)")
+      .def_ro("of_a", &OpenHole::of_a)
+      .def_ro("number", &OpenHole::number)
+      .def_ro("count", &OpenHole::count)
+      .def_prop_ro("centre", [](const OpenHole& hole) { return to_tuple(hole.centre); })
+      .def_ro("diameter", &OpenHole::diameter);
+  nb::class_<MeshRelation>(m, "MeshRelation", R"(proven: False where a degenerate contact was decided by samples, or where `hole` is the hole that leaves the
+relation open; the relation is then that of the surfaces as they are.)")
+      .def_prop_ro("relation", [](const MeshRelation& r) { return name_of(r.relation); })
+      .def_ro("proven", &MeshRelation::proven)
+      .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal)
+      .def_prop_ro("triangle_a", [](const MeshRelation& r) { return triangle_number(r.triangle_a); })
+      .def_prop_ro("triangle_b", [](const MeshRelation& r) { return triangle_number(r.triangle_b); })
+      .def_prop_ro("point",
+                   [](const MeshRelation& r) {
+                     return r.point ? std::optional(to_tuple(*r.point)) : std::nullopt;
+                   })
+      .def_ro("box_tests", &MeshRelation::box_tests)
+      .def_ro("triangle_tests", &MeshRelation::triangle_tests);
+  m.def("mesh_relation", &mesh_relation, "a"_a, "b"_a, ReleaseGil(),
+        R"(How two placed meshes relate, decided by exact predicates on their float64 coordinates: "separated",
+"touching", "penetrating" (interiors overlap, or a surface crosses a sheet), "contains" (b strictly inside a),
+"inside" (a strictly inside b), "coincident" (the same body, however triangulated). A body is the points of winding
+number other than 0, and its sheets: walls of no thickness, in which nothing can be, and which nothing can cross.)");
+}
+
+void bind_mesh_distance(nb::module_& m) {
+  nb::class_<MeshDistance>(m, "MeshDistance",
+                           "distance: inf when beyond the limit; witness points on a and b, triangle indices.")
+      .def_ro("distance", &MeshDistance::distance)
+      .def_prop_ro("witness_a", [](const MeshDistance& d) { return to_tuple(d.witness_a); })
+      .def_prop_ro("witness_b", [](const MeshDistance& d) { return to_tuple(d.witness_b); })
+      .def_prop_ro("triangle_a", [](const MeshDistance& d) { return triangle_number(d.triangle_a); })
+      .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
+  m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) { return mesh_distance(a, b, limit); }, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
+        R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
+another is at a distance from its surface all the same: ask mesh_relation first.)");
+  m.def("compare_gap",
+        [](const Surface& a, const Surface& b, double length) {
+          if (!(length >= 0)) throw std::invalid_argument("the length must not be negative");
+          return compare_gap(a, b, length);
+        },
+        "a"_a, "b"_a, "length"_a, ReleaseGil(),
+        R"(-1, 0 or 1: the distance of two surfaces without a common point is smaller than, equal to, or larger than the
+length. Decided exactly.)");
+  m.def("moves_within",
+        [](const Mesh& mesh, const Tuple3& move, double length) {
+          return moves_within(mesh.vertices, finite_point(move), length);
+        },
+        "mesh"_a, "move"_a, "length"_a, ReleaseGil(),
+        R"(Whether a translation, added to the vertices with one rounding of each coordinate, takes none of them farther than
+`length`. Decided exactly where nothing is rounded.)");
+  m.def("deviation",
+        [](const Mesh& surface_of, const Surface& solid, double tolerance) {
+          const Deviation d = deviation(surface_of, solid, tolerance);
+          return std::make_tuple(d.lower, d.upper);
+        },
+        "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
+        R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
+most `tolerance` apart, unless the work limit was reached. Branch and bound over triangles: the distance is 1-Lipschitz.)");
+}
+
+}  // namespace
+
+void bind_surface(nb::module_& m) {
+  bind_one_surface(m);
+  bind_mesh_relation(m);
+  bind_mesh_distance(m);
+}
+
+}  // namespace satcheck

@@ -1,0 +1,142 @@
+#include "depth/forbidden_union.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/work.hpp"
+
+namespace satcheck {
+namespace {
+
+// Measured steps of one plane of a set.
+constexpr std::uint64_t kPlaneWork = 2;
+// Facets of a set that may cut a box of which other sets cover the rest.
+constexpr std::size_t kMostCuts = 4;
+// Sets that a point may be moved out of within its box.
+constexpr std::size_t kSetsLeft = 24;
+// How far into the open a point is moved, in halves of the box.
+constexpr double kIntoTheOpen = 1.0 / 16;
+
+std::uint64_t work_of(const ForbiddenSet& set) { return kPlaneWork * set.normal.size(); }
+
+// How far the box reaches from its centre along a direction.
+double spread(const TranslationBox& box, Vec3 n) {
+  return std::fabs(n.x) * box.half.x + std::fabs(n.y) * box.half.y + std::fabs(n.z) * box.half.z;
+}
+
+}  // namespace
+
+double ForbiddenUnion::covered_by_one(TranslationBox& box, double least, double most) const {
+  const Aabb bounds = box.bounds();
+  for (; box.seen < sets_.size(); ++box.seen) {
+    if (meet(sets_[box.seen].box, bounds)) box.sets.push_back(box.seen);
+  }
+  double farthest = -INFINITY;
+  std::size_t kept = 0;
+  for (const std::uint32_t i : box.sets) {
+    work_done += work_of(sets_[i]);
+    const ForbiddenSet::Reach reach = sets_[i].reach(box.centre, box.half);
+    if (reach.meets) box.sets[kept++] = i;
+    farthest = std::fmax(farthest, reach.length);
+    if (farthest >= most) break;
+  }
+  if (farthest >= least) return farthest;
+  box.sets.resize(kept);
+  return -INFINITY;
+}
+
+double ForbiddenUnion::covered_by_several(const TranslationBox& box, double least) {
+  if (box.sets.size() < 2) return -INFINITY;
+  for (const std::uint32_t i : box.sets) {
+    const double length = covered_with(i, box, least);
+    if (length >= least) return length;
+  }
+  return -INFINITY;
+}
+
+double ForbiddenUnion::covered_with(std::uint32_t first, const TranslationBox& box, double least) {
+  const ForbiddenSet& set = sets_[first];
+  work_done += work_of(set);
+  cuts_.clear();
+  double length = INFINITY;
+  for (std::size_t k = 0; k < set.normal.size(); ++k) {
+    const Vec3 n = set.normal[k];
+    const double middle = dot(n, box.centre), at = set.offset[k];
+    if (middle + spread(box, n) < at) continue;
+    if (at >= least) {
+      length = std::fmin(length, at);
+    } else if (middle >= at || cuts_.size() == kMostCuts) {
+      return -INFINITY;
+    } else {
+      cuts_.push_back({n, at});
+    }
+  }
+  for (const Wall& cut : cuts_) {
+    double beyond = -INFINITY;
+    for (std::size_t j = 0; j < box.sets.size() && beyond < least; ++j) {
+      if (box.sets[j] == first) continue;
+      beyond = std::fmax(beyond, sets_[box.sets[j]].reach_beyond(box.centre, box.half, cut.normal, cut.offset, least));
+    }
+    length = std::fmin(length, beyond);
+    if (length < least) return -INFINITY;
+  }
+  return length;
+}
+
+bool ForbiddenUnion::is_open(const TranslationBox& box, Vec3 t, double most) const {
+  return norm(t) < most && std::none_of(box.sets.begin(), box.sets.end(), [&](std::uint32_t i) {
+    work_done += work_of(sets_[i]);
+    return sets_[i].exit(t).depth > 0;
+  });
+}
+
+std::optional<Vec3> ForbiddenUnion::nearest_open(const TranslationBox& box, Vec3 t, double most) const {
+  const Vec3 start = t;
+  const double beyond = kIntoTheOpen * max_abs(box.half);
+  std::vector<Wall> walls;
+  while (norm(t) < most) {
+    ForbiddenSet::Exit deepest;
+    for (const std::uint32_t i : box.sets) {
+      work_done += work_of(sets_[i]);
+      const ForbiddenSet::Exit exit = sets_[i].exit(t);
+      if (exit.depth > deepest.depth) deepest = exit;
+    }
+    if (!(deepest.depth > 0)) return box.contains(t) ? std::optional(t) : std::nullopt;
+    if (walls.size() >= kSetsLeft) return std::nullopt;
+    walls.push_back({deepest.normal, dot(deepest.normal, t - start) + deepest.depth + beyond});
+    const std::optional<Vec3> next = nearest_beyond(walls);
+    if (!next) return std::nullopt;
+    t = in_plane(start + *next, across_);
+  }
+  return std::nullopt;
+}
+
+Vec3 ForbiddenUnion::on_facets(const TranslationBox& box) const {
+  Vec3 t = box.nearest_to_origin();
+  for (const std::uint32_t i : box.sets) {
+    for (std::size_t k = 0; k < sets_[i].normal.size(); ++k) {
+      const Vec3 n = sets_[i].normal[k];
+      const double facet = sets_[i].facet[k];
+      if (std::fabs(facet - dot(n, box.centre)) <= spread(box, n)) t = t + n * (facet - dot(n, t));
+    }
+  }
+  return in_plane(t, across_);
+}
+
+bool ForbiddenUnion::holds(Vec3 t) const {
+  return std::any_of(sets_.begin(), sets_.end(), [&](const ForbiddenSet& set) { return set.exit(t).depth > 0; });
+}
+
+ForbiddenSet::Exit ForbiddenUnion::deepest_exit(Vec3 t) const {
+  ForbiddenSet::Exit deepest;
+  const Aabb point{t, t};
+  for (const ForbiddenSet& set : sets_) {
+    if (!meet(set.box, point)) continue;
+    work_done += work_of(set);
+    const ForbiddenSet::Exit exit = set.exit(t);
+    if (exit.depth > deepest.depth) deepest = exit;
+  }
+  return deepest;
+}
+
+}  // namespace satcheck

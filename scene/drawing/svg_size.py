@@ -1,0 +1,109 @@
+"""How large the outermost element is drawn: the scale of its user units, and the unit it states.
+
+`width` and `height` are the size of what the viewBox shows. `preserveAspectRatio` says how that
+fits: the smaller of the two scales (meet), the larger (slice), or each along its own side (none). A
+side that is not given follows from the other by the proportions of the viewBox. Source: W3C,
+"Scalable Vector Graphics (SVG) 2", chapter 8.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Literal
+
+from satcheck.core.frozen import frozen
+from satcheck.scene.drawing.contour import Affine
+from satcheck.scene.drawing.svg_values import (
+    IDENTITY,
+    LONGEST_LENGTH,
+    NUMBER,
+    PIXELS,
+    aspect_ratio,
+    bad,
+    unread,
+    view_box,
+)
+
+# The unit that a length states, and how many of the written ones make one of it.
+_STATED = {
+    "um": ("um", 1.0),
+    "mm": ("mm", 1.0),
+    "cm": ("cm", 1.0),
+    "m": ("m", 1.0),
+    "in": ("in", 1.0),
+    "pt": ("in", 72.0),
+    "pc": ("in", 6.0),
+}
+_PIXELS_IN = {**PIXELS, "um": 96 / 25400, "m": 96 / 0.0254}
+_SIDE = re.compile(rf"\s*({NUMBER})\s*([a-z]*)\s*")
+
+
+@frozen
+class Drawn:
+    """affine: from user units to coordinates. units: of these; None: the file does not say."""
+
+    affine: Affine = IDENTITY
+    units: str | None = None
+
+
+@frozen
+class _Side:
+    value: float
+    written: str  # its unit
+
+
+def drawn_size(attributes: Mapping[str, str], styled: bool) -> Drawn:
+    """Of the outermost element. styled: a style sets its size, which is not read. Raises
+    MeshFileError: it is not stretched evenly, and not said how far; it has no size."""
+    box = view_box(attributes.get("viewBox", ""))
+    if box is None:
+        return Drawn()
+    ways = aspect_ratio(attributes.get("preserveAspectRatio", ""))
+    sides = [_side(attributes.get(key, "auto"), key) for key in ("width", "height")]
+    if styled or "open" in sides:
+        if ways is None:
+            raise unread(
+                'preserveAspectRatio "none" stretches the drawing, and width and height do not say '
+                "how far: give both as lengths"
+            )
+        return Drawn()
+    given = [side if isinstance(side, _Side) else None for side in sides]
+    stated = (_STATED[side.written][0] for side in given if side and side.written in _STATED)
+    units = next(stated, None)
+    scales = [
+        _length(side, units) / whole
+        for side, whole in zip(given, box[2:], strict=True)
+        if side is not None
+    ]
+    if not scales:
+        return Drawn()
+    x, y = scales[0], scales[-1]
+    if ways is not None:
+        x = y = max(x, y) if ways.slices else min(x, y)
+    if units is None and x == y:
+        return Drawn()
+    return Drawn((x, 0.0, 0.0, 0.0, y, 0.0), units)
+
+
+def _side(text: str, key: str) -> _Side | Literal["auto", "open"]:
+    """open: it depends on what the file does not say."""
+    if text.strip() in ("auto", ""):
+        return "auto"
+    found = _SIDE.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
+    if found is None or found[2] not in _PIXELS_IN:
+        return "open"
+    value = float(found[1])
+    if not value > 0:
+        raise bad(f"{key}: {text.strip()} leaves nothing to draw")
+    return _Side(value, found[2])
+
+
+def _length(side: _Side, units: str | None) -> float:
+    """In these units; None: pixels."""
+    if units is None:
+        return side.value * _PIXELS_IN[side.written]
+    unit, parts = _STATED.get(side.written, (None, 1.0))
+    if unit == units:
+        return side.value / parts
+    return side.value * _PIXELS_IN[side.written] / _PIXELS_IN[units]

@@ -1,0 +1,45 @@
+"""Between the coordinates of a file and those of its mesh: times 2**MeshFile.exponent."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.scene.bodies import IDENTITY, MeshFile, Transform
+from satcheck.scene.common_units import scaled_mesh
+from satcheck.scene.errors import MeshFileError
+
+if TYPE_CHECKING:
+    from satcheck.scene.primitives import Primitive
+
+
+def placing_mesh(file: MeshFile | MeshFileError, transform: Transform | None) -> Transform | None:
+    """What places the mesh where the transform places the coordinates of the file."""
+    if isinstance(file, MeshFileError):
+        return transform
+    return scaled_mesh(transform, 2.0**file.exponent)
+
+
+def placing_file(file: MeshFile, transform: Transform | None) -> Transform | None:
+    """The inverse of `placing_mesh`."""
+    if file.exponent == 0:
+        return transform
+    placement = scaled_mesh(transform, 2.0**-file.exponent)
+    return None if placement == IDENTITY else placement
+
+
+def shape_of_mesh(file: MeshFile, shape: Primitive | None) -> Primitive | None:
+    """A shape of the file, in units of its mesh."""
+    return _scaled(shape, -file.exponent)
+
+
+def shape_of_file(file: MeshFile, shape: Primitive | None) -> Primitive | None:
+    """The inverse of `shape_of_mesh`."""
+    return _scaled(shape, file.exponent)
+
+
+def _scaled(shape: Primitive | None, exponent: int) -> Primitive | None:
+    if shape is None or exponent == 0:
+        return shape
+    from satcheck.scene.primitives import times_power_of_two
+
+    return times_power_of_two(shape, exponent)
