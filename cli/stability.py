@@ -13,8 +13,8 @@ from satcheck.cli.output import Document
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
-    from satcheck.audit.stability import Stability
     from satcheck.cli.output import Page
+    from satcheck.studies.stability import Stability
 
 _EXIT_CODES = {
     "stable": exit_codes.CLEAN,
@@ -57,7 +57,7 @@ def _probe(choices: Choices) -> Stability:
     scene = load(choices.paths, allow_outside=choices.allow_outside, units=choices.units)
     if scene.unreadable:
         raise click.ClickException("an input could not be used: there is no pair to ask about")
-    from satcheck.audit.stability import probe
+    from satcheck.studies.stability import probe
 
     settings = Settings(depth=choices.depth)
     with Bar("variants") as bar:

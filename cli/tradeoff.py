@@ -14,9 +14,9 @@ from satcheck.cli.report.png import EXTRA, is_available, png
 from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
-    from satcheck.audit.tradeoff import Tradeoff
     from satcheck.cli.output import Page
     from satcheck.scene.scene_builder import Split
+    from satcheck.studies.tradeoff import Tradeoff
 
 PLOTS = (".svg", ".png", ".html")
 
@@ -78,7 +78,7 @@ def _measured(choices: Choices) -> Tradeoff:
     )
     if scene.unreadable:
         raise click.ClickException("an input could not be used: nothing is compared without it")
-    from satcheck.audit.tradeoff import tradeoff
+    from satcheck.studies.tradeoff import tradeoff
 
     with Bar("runs") as bar:
         return tradeoff(

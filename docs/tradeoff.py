@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from satcheck.audit.tradeoff import tradeoff
 from satcheck.cli.report.tradeoff_plot import svg
 from satcheck.scene import load_scene
+from satcheck.studies.tradeoff import tradeoff
 
 HERE = Path(__file__).parent
 SAMPLES = HERE.parent / "sample_meshes"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LINKS = ROOT / "build" / "links"
-ROOMS = ("cli", "audit", "verify", "scene", "decompose", "core")
+ROOMS = ("cli", "studies", "audit", "verify", "scene", "decompose", "core")
 
 
 def make_links(folder: Path) -> None:

@@ -13,8 +13,8 @@ from satcheck.cli.report.numbers import bounds, number, vector
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
-    from satcheck.audit.stability import Answer, Family, FamilyResult, Sample, Stability
     from satcheck.cli.output import Page
+    from satcheck.studies.stability import Answer, Family, FamilyResult, Sample, Stability
 
 _QUESTIONS: dict[Family, str] = {
     "scale": "times powers of two",

@@ -8,17 +8,17 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from satcheck.audit.tradeoff import labels_of
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import DIGITS, bounds, duration, mebibytes, number
 from satcheck.cli.report.tradeoff_steps import steps
 from satcheck.cli.report.words import counted
+from satcheck.studies.tradeoff import labels_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.audit.tradeoff import Figure, PairTradeoff, Row, Rung, Times, Tradeoff
     from satcheck.cli.output import Page
+    from satcheck.studies.tradeoff import Figure, PairTradeoff, Row, Rung, Times, Tradeoff
 
 _MICROSECONDS = 1e6
 _RIGHT = {True: "right", False: "WRONG", None: ""}

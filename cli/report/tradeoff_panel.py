@@ -12,14 +12,14 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
-from satcheck.audit.tradeoff import choices, labels_of
 from satcheck.cli.report.numbers import duration, number
 from satcheck.cli.report.tradeoff_labels import around, baseline, place
 from satcheck.cli.report.tradeoff_steps import steps
 from satcheck.core.frozen import frozen
+from satcheck.studies.tradeoff import choices, labels_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.tradeoff import PairTradeoff, Picked, Row, Rung, Truth
+    from satcheck.studies.tradeoff import PairTradeoff, Picked, Row, Rung, Truth
 
 WIDTH = 760.0
 _LEFT, _RIGHT = 96.0, 24.0

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from satcheck.cli.report.tradeoff_panel import WIDTH, panel, shape, time_axis
 
 if TYPE_CHECKING:
-    from satcheck.audit.tradeoff import PairTradeoff
+    from satcheck.studies.tradeoff import PairTradeoff
 
 _HEAD = 84.0
 _RUNGS = (

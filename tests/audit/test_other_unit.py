@@ -176,8 +176,8 @@ def test_what_no_unit_can_hold_is_refused(tmp_path: Path) -> None:
 
 
 def test_other_commands_say_that_they_do_not_scale(tmp_path: Path) -> None:
-    from satcheck.audit.stability import probe
-    from satcheck.audit.tradeoff import tradeoff
+    from satcheck.studies.stability import probe
+    from satcheck.studies.tradeoff import tradeoff
 
     scene = load_scene(write(tmp_path, a=larger(unit_box(), 400), b=larger(unit_box(0.5), 400)))
     for ask in (probe, tradeoff):

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
-from satcheck.audit.tradeoff import (
+from satcheck.cli.report.tradeoff_plot import page, svg
+from satcheck.core.frozen import replace
+from satcheck.studies.tradeoff import (
     RUNGS,
     Figure,
     PairTradeoff,
@@ -14,8 +16,6 @@ from satcheck.audit.tradeoff import (
     Truth,
     labels_of,
 )
-from satcheck.cli.report.tradeoff_plot import page, svg
-from satcheck.core.frozen import replace
 
 SVG = "{http://www.w3.org/2000/svg}"
 TRUTH = Truth("separated", Figure(1.0, 1.0, 1.0), 0.0)

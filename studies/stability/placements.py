@@ -1,0 +1,142 @@
+"""Variants that place the same meshes elsewhere: scaled, turned, moved, or A for B."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import permutations, product
+
+import numpy as np
+from numpy.random import Generator
+
+from satcheck.audit.report.report import Vector
+from satcheck.core.transform import of_quaternion
+from satcheck.studies.stability.bounds import rounded_once, stretch
+from satcheck.studies.stability.variant import Points, Question, Rows, Variant, body
+
+# Powers of two up to this, either way, as far as the coordinates stay within the numeric range.
+MOST_EXPONENT = 40
+LARGEST_EXPONENT, SMALLEST_EXPONENT, SMALLEST_SIZE_EXPONENT = 149, -265, -149
+ROOM_EXPONENTS = 4
+
+# How far down from the size of the pair a translation is looked for that adds without rounding.
+TRANSLATION_EXPONENTS = 48
+
+
+def scaled(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """By powers of two, which round nothing: the same answer, bit for bit."""
+    exponents = _exponents(question)
+    count = min(samples, len(exponents))
+    for k in sorted(rng.choice(exponents, count, replace=False).tolist()) if count else ():
+        factor = math.ldexp(1.0, k)
+        turn = ((factor, 0.0, 0.0), (0.0, factor, 0.0), (0.0, 0.0, factor))
+        yield Variant(
+            "scale",
+            f"times 2^{k}",
+            body("a", question.a, turn),
+            body("b", question.b, turn),
+            scale=factor,
+            identical=True,
+        )
+
+
+def _exponents(question: Question) -> list[int]:
+    """Those that keep both within the coordinates that the core takes, with room for a way out."""
+    coordinates = np.abs(question.points)
+    edges = [np.ptp(file.mesh.vertices, axis=0).max() for file in question.files]
+    smallest, largest, least = (
+        math.frexp(float(one))[1]
+        for one in (coordinates[coordinates > 0].min(), coordinates.max(), min(edges))
+    )
+    first = max(SMALLEST_EXPONENT - smallest, SMALLEST_SIZE_EXPONENT - least) + 1
+    last = LARGEST_EXPONENT - largest - ROOM_EXPONENTS
+    return [k for k in range(-MOST_EXPONENT, MOST_EXPONENT + 1) if k and first <= k < last]
+
+
+def reaxed(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """Axes exchanged and turned round, mirror images among them: the coordinates stay the same
+    numbers, but sums are taken in another order."""
+    ways = [
+        tuple(zip(order, signs, strict=True))
+        for order in permutations(range(3))
+        for signs in product((1.0, -1.0), repeat=3)
+    ]
+    for way in rng.choice(len(ways) - 1, min(samples, len(ways) - 1), replace=False).tolist():
+        chosen = ways[1 + way]  # the first is no change at all
+        x, y, z = (_row(axis, sign) for axis, sign in chosen)
+        turn = (x, y, z)
+        names = " ".join(("-" if sign < 0 else "") + "xyz"[axis] for axis, sign in chosen)
+        yield Variant(
+            "axes",
+            f"({names}) for (x y z)",
+            body("a", question.a, turn),
+            body("b", question.b, turn),
+            turn=turn,
+        )
+
+
+def _row(axis: int, sign: float) -> Vector:
+    return sign * (axis == 0), sign * (axis == 1), sign * (axis == 2)
+
+
+def swapped(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """B against A: there is one way to do that."""
+    del samples, rng
+    yield Variant("swap", "B against A", body("a", question.a), body("b", question.b), swapped=True)
+
+
+def translated(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """Both moved by what adds to every coordinate without rounding; nothing where there is none."""
+    points = question.points
+    top = math.frexp(question.diagonal)[1] + 1
+    for _ in range(samples):
+        by = [_exact_offset(points[:, axis], top, rng) for axis in range(3)]
+        if not any(by):
+            return
+        yield Variant(
+            "translation",
+            "by ({:g}, {:g}, {:g})".format(*by),
+            body("a", question.a, by=by),
+            body("b", question.b, by=by),
+        )
+
+
+def _exact_offset(coordinates: Points, top: int, rng: Generator) -> float:
+    """A power of two, either way, or 0.0 where none can be added exactly."""
+    for exponent in rng.permutation(np.arange(top - TRANSLATION_EXPONENTS, top)).tolist():
+        for sign in rng.permutation([-1.0, 1.0]).tolist():
+            offset = math.ldexp(sign, exponent)
+            moved = coordinates + offset
+            back = moved - offset
+            # Knuth's two-sum: the rounding error of the addition, without error itself.
+            error = (coordinates - back) + (offset - (moved - back))
+            if not error.any():
+                return offset
+    return 0.0
+
+
+def in_motion(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """Turned and moved as one; every coordinate is rounded once, and so was the rotation."""
+    diagonal = question.diagonal
+    centre = question.points.mean(axis=0)
+    for _ in range(samples):
+        turn = _rotation(rng)
+        to = rng.uniform(-diagonal, diagonal, 3)
+        by = (to - np.array(turn) @ centre).tolist()
+        a, b = body("a", question.a, turn, by), body("b", question.b, turn, by)
+        largest = [float(np.abs(one.world_mesh().vertices).max()) for one in (a, b)]
+        moved = sum(rounded_once(each) for each in largest)
+        yield Variant(
+            "motion",
+            "to ({:.3g}, {:.3g}, {:.3g})".format(*to),
+            a,
+            b,
+            turn=turn,
+            displacement=moved + stretch(turn) * diagonal,
+        )
+
+
+def _rotation(rng: Generator) -> Rows:
+    """Uniform: K. Shoemake, "Uniform Random Rotations" (1992), by a normal 4-vector."""
+    m = of_quaternion(*rng.normal(size=4).tolist())
+    return (m[0], m[1], m[2]), (m[3], m[4], m[5]), (m[6], m[7], m[8])

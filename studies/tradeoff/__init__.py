@@ -1,0 +1,31 @@
+"""satcheck.studies.tradeoff: what accuracy costs in time.
+
+Each rung of the ladder is asked about the same pair and held against what the exact one proves.
+"""
+
+from __future__ import annotations
+
+from satcheck.studies.tradeoff.figure import Figure, Truth
+from satcheck.studies.tradeoff.gauge import Budget
+from satcheck.studies.tradeoff.measure import measure_pair
+from satcheck.studies.tradeoff.result import PairTradeoff, Picked, Row, Tradeoff, choices
+from satcheck.studies.tradeoff.rungs import RUNGS, Rung, labels_of
+from satcheck.studies.tradeoff.times import Times
+from satcheck.studies.tradeoff.tradeoff import tradeoff
+
+__all__ = [
+    "RUNGS",
+    "Budget",
+    "Figure",
+    "PairTradeoff",
+    "Picked",
+    "Row",
+    "Rung",
+    "Times",
+    "Tradeoff",
+    "Truth",
+    "choices",
+    "labels_of",
+    "measure_pair",
+    "tradeoff",
+]

@@ -1,0 +1,162 @@
+"""One rung asked about one pair, once, with what it took."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.roster import Known
+from satcheck.audit.finding import examine
+from satcheck.audit.ladder.ladder import Contact, settle
+from satcheck.audit.report.report import Finding
+from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen, replace
+from satcheck.scene import Body
+from satcheck.studies.tradeoff.climbed import picked
+from satcheck.studies.tradeoff.cpu import CpuClock
+from satcheck.studies.tradeoff.memory import ChildMemory, OwnMemory
+from satcheck.studies.tradeoff.room import own_room, room
+
+if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
+
+Bodies = tuple[Body, Body]
+Rooms = tuple[float | None, float | None]
+
+
+@frozen
+class Asked:
+    """The answer of a ladder.
+
+    contact: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
+    can make of a length here. seconds: from the meshes in memory to the finding, hulls and
+    hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
+    so long, on all threads and in child processes together; None: not known. ended: the rung at
+    which the climb ended. room: volume of the shapes that it put in the place of A and of B. hulls:
+    how many convex bodies stood for A and for B, where hulls answered. split: convex parts were
+    asked for; from_cache: and found there. megabytes: of the child that made them, or by which this
+    process grew, whichever is more. failure: why there are none.
+    """
+
+    finding: Finding
+    contact: Contact
+    pad: float
+    seconds: float
+    cpu: float | None
+    ended: str
+    room: Rooms
+    hulls: tuple[int, int] | None
+    split: bool = False
+    from_cache: bool = False
+    megabytes: float | None = None
+    failure: str | None = None
+
+
+@frozen
+class Measured:
+    """The volume in common, and about how far it is off.
+
+    cold: seconds with the start of the child process; cached: when it runs already.
+    """
+
+    volume: float
+    error: float
+    cold: float
+    cached: float
+    megabytes: float | None
+
+
+def ask(bodies: Bodies, settings: Settings) -> Asked:
+    """As far up the ladder as the settings let it, nothing known from before."""
+    return _climb(bodies, settings, children=False)[0]
+
+
+def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
+    """The same of a ladder that ends with convex parts."""
+    with ChildMemory() as memory:
+        own = OwnMemory()
+        asked, pair = _climb(bodies, settings, children=True)
+        taken = [size for size in (memory.megabytes, own.grown) if size is not None]
+    known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
+    made = [one for one in known if one is not None]
+    if not made:  # the hulls of the bodies are all there is
+        return replace(asked, ended="hull") if asked.ended == "parts" else asked
+    failures = [str(one) for one in made if isinstance(one, SatcheckError)]
+    if failures:
+        return replace(asked, split=True, failure=failures[0])
+    a, b = (1 if one is None or isinstance(one, SatcheckError) else len(one.parts) for one in known)
+    return replace(
+        asked,
+        hulls=(a, b),
+        split=True,
+        from_cache=all(one.from_cache for one in made if not isinstance(one, SatcheckError)),
+        megabytes=max(taken, default=None),
+    )
+
+
+def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[Asked, Pair]:
+    """children: some are at work."""
+    clock, start = CpuClock(), perf_counter()
+    pair, plan = _pair(bodies, settings), Plan()
+    finding = examine(pair, plan)
+    seconds, cpu = perf_counter() - start, clock.seconds(children=children)
+    stages, ended = {stage.stage for stage in finding.plan}, picked(finding).rung
+    asked = Asked(
+        finding=finding,
+        contact=settle(pair, Plan()),
+        pad=rounding_pad(pair.largest_coordinate),
+        seconds=seconds,
+        cpu=cpu,
+        ended=ended,
+        room=(room(ended, pair.a), room(ended, pair.b)),
+        # Where the hulls of the whole meshes answered.
+        hulls=(1, 1) if "hull" in stages and "triangles" not in stages else None,
+    )
+    return asked, pair
+
+
+def own_rooms(bodies: Bodies) -> Rooms:
+    """Volumes of the bodies themselves."""
+    a, b = (own_room(Known().place(body, Settings(), None)) for body in bodies)
+    return a, b
+
+
+def ask_volume(bodies: Bodies, settings: Settings) -> Measured | str:
+    """Of the Boolean of manifold3d, in a child process of its own; or why there is none."""
+    from satcheck.core.overlap_volume import VolumeMeter
+
+    times: list[float] = []
+    volume = error = 0.0
+    seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
+    with ChildMemory() as memory, VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
+        for _ in ("cold", "cached"):
+            start = perf_counter()
+            found = _volume(_pair(bodies, settings, meter))
+            times.append(perf_counter() - start)
+            if isinstance(found, str):
+                return found
+            volume, error = found
+        memory.look()
+    return Measured(volume, error, times[0], times[1], memory.megabytes)
+
+
+def _volume(pair: Pair) -> tuple[float, float] | str:
+    from satcheck.audit.figures.volume import common_volume
+
+    if pair.curved:
+        return "a curved shape has no triangles"
+    found = common_volume(pair, Contact("penetrating", False), Plan())
+    if found.volume is None or found.error is None:
+        return found.refusal or "no volume"
+    return found.volume, found.error
+
+
+def _pair(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) -> Pair:
+    known = Known()
+    a, b = (known.place(body, settings, None) for body in bodies)
+    return Pair(a, b, settings, asked_by(settings), meter)

@@ -1,0 +1,67 @@
+"""Which rungs are worth their time: the Pareto front of error against time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from satcheck.studies.tradeoff.times import Times
+
+
+class Point(Protocol):
+    """size_of_error: smaller is better. None: not known. standing: 0 for a proven answer that is
+    right, 1 for a guess that is right, 2 for a wrong answer."""
+
+    @property
+    def cold(self) -> Times | None: ...
+    @property
+    def size_of_error(self) -> float | None: ...
+    @property
+    def standing(self) -> int: ...
+
+
+_Answer = tuple[float, int]
+_Key = tuple[Times, _Answer]
+
+
+def front(points: Sequence[Point], pad: float) -> list[bool]:
+    """Per point, whether no other beats it. pad: errors no farther apart than this are the same.
+
+    One beats another that is nowhere better and somewhere worse: in time, in error, in standing. So
+    a lucky guess takes no proven answer off the front, and a wrong answer no right one. Faster is
+    what is so by more than chance (Times.is_below); of points as near and as sure that nothing else
+    tells apart the first is on the front.
+    """
+    keys = _keys(points, pad)
+    known = [key for key in keys if key is not None]
+    answers: set[_Answer] = set()
+    marks = []
+    for key in keys:
+        mark = key is not None and not any(_beats(other, key) for other in known)
+        marks.append(mark and key is not None and key[1] not in answers)
+        if mark and key is not None:
+            answers.add(key[1])
+    return marks
+
+
+def _keys(points: Sequence[Point], pad: float) -> list[_Key | None]:
+    sizes = sorted({p.size_of_error for p in points if p.size_of_error is not None})
+    least: dict[float, float] = {}  # of the errors that are the same
+    for before, size in zip((None, *sizes), sizes, strict=False):
+        alike = before is not None and size - before <= pad
+        least[size] = least[before] if alike and before is not None else size
+    return [
+        None
+        if point.cold is None or point.size_of_error is None
+        else (point.cold, (least[point.size_of_error], point.standing))
+        for point in points
+    ]
+
+
+def _beats(one: _Key, other: _Key) -> bool:
+    """Of a ring of points that beat each other all would be as good, and each faster than the next:
+    there is none, so the front of any points is not empty."""
+    (time, answer), (others_time, others_answer) = one, other
+    as_good = all(p <= q for p, q in zip(answer, others_answer, strict=True))
+    better = answer != others_answer or time.is_below(others_time)
+    return as_good and better and not others_time.is_below(time)

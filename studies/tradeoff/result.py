@@ -1,0 +1,185 @@
+"""What accuracy costs in time: plain frozen data, `satcheck.tradeoff/1`, and its way into JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal
+
+from satcheck.audit.report.report import OVERLAPS, Relation, Tool
+from satcheck.core.frozen import frozen, replace
+from satcheck.studies.tradeoff.figure import Figure, Truth
+from satcheck.studies.tradeoff.pareto import front
+from satcheck.studies.tradeoff.rungs import Rung
+from satcheck.studies.tradeoff.times import Times
+
+SCHEMA = "satcheck.tradeoff/1"
+
+State = Literal["answered", "failed", "not run"]
+
+
+@frozen(kw_only=True)
+class Row:
+    """A rung and what came of it.
+
+    reason: why it failed, was not run, or cannot say. overlap: None where it cannot say. relation:
+    None for the Boolean, which knows only whether there is a volume in common; where the inside of
+    a body could not be checked, that of the surfaces. proven: it has proven how the bodies relate.
+    right: held against the truth; None: one of the two is not known. figure: the signed
+    distance. error: see Truth.error. hulls: convex bodies that stood for A and B. excess: for A and
+    for B, how much more volume than the body what stood for it takes, as a share of the body's;
+    None: not known. settled_by: the rung at which its climb ended. cold: nothing kept from before;
+    cached: with the parts on disk, or the child process running. cpu: of the cold runs, child
+    processes included; None: not known. megabytes: MiB that it takes at most: by which this process
+    grows, or of its child process, whichever is more. on_front: of error against time.
+    """
+
+    rung: Rung
+    state: State
+    reason: str | None = None
+    overlap: bool | None = None
+    relation: Relation | None = None
+    proven: bool = False
+    right: bool | None = None
+    figure: Figure | None = None
+    error: float | None = None
+    volume: float | None = None
+    volume_error: float | None = None
+    hulls: tuple[int, int] | None = None
+    excess: tuple[float | None, float | None] | None = None
+    settled_by: str | None = None
+    cold: Times | None = None
+    cached: Times | None = None
+    cpu: Times | None = None
+    megabytes: float | None = None
+    on_front: bool = False
+
+    @property
+    def size_of_error(self) -> float | None:
+        return None if self.error is None else abs(self.error)
+
+    @property
+    def ended_lower(self) -> bool:
+        """Its climb ended before its own rung."""
+        return self.settled_by not in (None, self.rung.name)
+
+    @property
+    def standing(self) -> int:
+        """0: proven, 1: a guess that is right or cannot be judged, 2: wrong."""
+        if self.right is False:
+            return 2
+        return 0 if self.proven else 1
+
+    def to_dict(self) -> dict[str, Any]:
+        figure = self.figure
+        return {
+            "rung": self.rung.name,
+            "threshold": self.rung.threshold,
+            "state": self.state,
+            "reason": self.reason,
+            "overlap": self.overlap,
+            "relation": self.relation,
+            "proven": self.proven,
+            "right": self.right,
+            "signed_distance": None if figure is None else figure.value,
+            "bounds": None if figure is None else [figure.low, figure.high],
+            "width": None if figure is None else figure.width,
+            "error": self.error,
+            "volume": self.volume,
+            "volume_error": self.volume_error,
+            "settled_by": self.settled_by,
+            "hulls": None if self.hulls is None else list(self.hulls),
+            "excess": None if self.excess is None else list(self.excess),
+            "cold": None if self.cold is None else self.cold.to_dict(),
+            "cached": None if self.cached is None else self.cached.to_dict(),
+            "cpu": None if self.cpu is None else self.cpu.to_dict(),
+            "peak_megabytes": self.megabytes,
+            "pareto": self.on_front,
+        }
+
+
+@frozen
+class Picked:
+    """The rung at which a plain check ends its climb, whether that settles the relation, and what
+    each step said."""
+
+    rung: str
+    settled: bool
+    why: str
+
+    def to_dict(self) -> dict[str, Any]:
+        return {"rung": self.rung, "settled": self.settled, "why": self.why}
+
+
+@frozen
+class PairTradeoff:
+    """picked: None where the budget was spent before anything ran."""
+
+    a: str
+    b: str
+    truth: Truth
+    picked: Picked | None
+    rows: tuple[Row, ...]
+
+    @property
+    def overlap(self) -> bool | None:
+        return None if self.truth.relation is None else self.truth.relation in OVERLAPS
+
+    def to_dict(self) -> dict[str, Any]:
+        truth, figure = self.truth, self.truth.figure
+        return {
+            "a": self.a,
+            "b": self.b,
+            "truth": {
+                "relation": truth.relation,
+                "bounds": None if figure is None else [figure.low, figure.high],
+                "reason": truth.reason,
+            },
+            "default": None if self.picked is None else self.picked.to_dict(),
+            "rungs": [row.to_dict() for row in self.rows],
+        }
+
+
+@frozen
+class Tradeoff:
+    """left_out: how many more pairs have boxes that meet. spent: seconds."""
+
+    tool: Tool
+    units: str | None
+    repeat: int
+    budget: float
+    spent: float
+    pairs: tuple[PairTradeoff, ...]
+    left_out: int
+
+    @property
+    def complete(self) -> bool:
+        """Every rung of every pair has answered, and the truth is known."""
+        return all(
+            pair.truth.relation is not None and all(row.state == "answered" for row in pair.rows)
+            for pair in self.pairs
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        return {
+            "schema": SCHEMA,
+            "tool": {"name": self.tool.name, "version": self.tool.version},
+            "units": self.units,
+            "settings": {"repeat": self.repeat, "budget": self.budget},
+            "seconds": self.spent,
+            "left_out": self.left_out,
+            "pairs": [pair.to_dict() for pair in self.pairs],
+        }
+
+
+def choices(rows: Sequence[Row]) -> list[Row]:
+    """Without those that climbed no further than a lower rung and say what that says: they are that
+    rung again."""
+    figures: dict[str | None, Figure | None] = {row.rung.name: row.figure for row in rows}
+    return [row for row in rows if not row.ended_lower or row.figure != figures.get(row.settled_by)]
+
+
+def with_front(rows: Sequence[Row], pad: float) -> tuple[Row, ...]:
+    """The rows with their marks. pad: of the truth."""
+    compared = choices(rows)
+    on_front = {row.rung for row, mark in zip(compared, front(compared, pad), strict=True) if mark}
+    return tuple(replace(row, on_front=row.rung in on_front) for row in rows)

@@ -1,0 +1,76 @@
+"""From what was seen of a rung to its row: held against the truth, and in the words of a report."""
+
+from __future__ import annotations
+
+from satcheck.audit.report.report import OVERLAPS
+from satcheck.core.frozen import replace
+from satcheck.studies.tradeoff.asking import Asked, Measured, Rooms
+from satcheck.studies.tradeoff.figure import Truth, figure_of, is_of_bodies, plain, truth_of
+from satcheck.studies.tradeoff.gauge import Gauge
+from satcheck.studies.tradeoff.result import Row
+from satcheck.studies.tradeoff.rungs import EXACT
+from satcheck.studies.tradeoff.times import Times
+
+
+def truth_by(exact: Gauge) -> Truth:
+    answer = exact.answer
+    if not isinstance(answer, Asked):
+        return Truth(None, None, 0.0, f"the exact rung was not run: {exact.reason}")
+    return truth_of(answer.finding, figure_of(answer.finding, answer.contact), answer.pad)
+
+
+def row_of(gauge: Gauge, truth: Truth, own: Rooms) -> Row:
+    """own: volumes of the bodies."""
+    row = Row(
+        rung=gauge.rung,
+        state=gauge.state,
+        reason=gauge.reason,
+        cold=Times(tuple(gauge.cold)) if gauge.cold else None,
+        cached=Times(tuple(gauge.cached)) if gauge.cached else None,
+        cpu=Times(tuple(gauge.cpu)) if gauge.cpu else None,
+        megabytes=gauge.megabytes,
+    )
+    answer = gauge.answer
+    if gauge.state != "answered" or answer is None:
+        return row
+    if isinstance(answer, Measured):
+        return _with_volume(row, answer, truth)
+    finding = answer.finding
+    relation = plain(finding.relation)
+    known = is_of_bodies(finding) and relation != "indeterminate"
+    overlap = relation in OVERLAPS if known else None
+    figure = figure_of(finding, answer.contact)
+    return replace(
+        row,
+        overlap=overlap,
+        relation=relation,
+        proven=known and finding.exact_relation is not None,
+        right=truth.is_right(overlap, relation),
+        figure=figure,
+        error=truth.error(figure),
+        hulls=answer.hulls,
+        excess=_excess(own if answer.ended == EXACT.name else answer.room, own),
+        settled_by=answer.ended,
+        reason=None if known else finding.reason,
+    )
+
+
+def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
+    """A volume within its own error says nothing, except that there is none to be seen."""
+    overlap = None if 0 < answer.volume <= answer.error else answer.volume > 0
+    return replace(
+        row,
+        overlap=overlap,
+        right=truth.is_right(overlap, None),
+        volume=answer.volume,
+        volume_error=answer.error,
+        reason="the volume lies within its own error" if overlap is None else None,
+    )
+
+
+def _excess(room: Rooms, own: Rooms) -> tuple[float | None, float | None]:
+    a, b = (
+        None if taken is None or not true else taken / true - 1.0
+        for taken, true in zip(room, own, strict=True)
+    )
+    return a, b

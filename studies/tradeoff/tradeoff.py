@@ -1,0 +1,72 @@
+"""Which pairs of a scene are measured, one after another, within one budget."""
+
+from __future__ import annotations
+
+from satcheck import core
+from satcheck.audit.asked.planner import Planner
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.roster import place
+from satcheck.audit.check import Progress
+from satcheck.audit.ladder.broad_phase import close_pairs
+from satcheck.audit.summary import tool
+from satcheck.core.errors import SatcheckError
+from satcheck.scene import Scene
+from satcheck.scene.other_unit import require_in_range
+from satcheck.studies.tradeoff.asking import Bodies
+from satcheck.studies.tradeoff.gauge import Budget
+from satcheck.studies.tradeoff.measure import measure_pair
+from satcheck.studies.tradeoff.result import PairTradeoff, Tradeoff
+from satcheck.studies.tradeoff.rungs import RUNGS
+
+
+def tradeoff(
+    scene: Scene,
+    *,
+    repeat: int = 5,
+    budget: float = 60.0,
+    pairs: int = 10,
+    progress: Progress | None = None,
+) -> Tradeoff:
+    """Every rung on the two bodies of the scene, or on the first pairs whose boxes meet.
+
+    repeat: runs of each rung. budget: seconds for everything after the files are read; each pair
+    has its share of what those before it have left. pairs: at most so many. Bodies stand as the
+    scene places them; of its rules only exemptions are followed.
+    progress(done, total) counts runs.
+    Raises SatcheckError (`no-pair`, `units-unknown`, `planar-only`) where no boxes meet, and for a
+    drawing.
+    """
+    scene.require_in_space("tradeoff compares meshes in space only")
+    scene.require_one_unit()
+    clock = Budget(budget)
+    met = _pairs(scene)
+    if not met:
+        raise SatcheckError("no-pair", "no two bodies have boxes that meet: nothing to compare")
+    done, total = 0, min(len(met), pairs) * repeat * len(RUNGS)
+
+    def told() -> None:
+        nonlocal done
+        done += 1
+        if progress is not None:
+            progress(done, total)
+
+    found: list[PairTradeoff] = []
+    for bodies in met[:pairs]:
+        waiting = min(len(met), pairs) - len(found)
+        found.append(measure_pair(bodies, repeat, clock.share(waiting), told))
+    return Tradeoff(
+        tool(), scene.units, repeat, budget, clock.spent, tuple(found), len(met) - len(found)
+    )
+
+
+def _pairs(scene: Scene) -> list[Bodies]:
+    """Of two bodies the pair, wherever they are; of more the asked ones whose boxes meet."""
+    if len(scene.bodies) == 2:
+        require_in_range(scene)
+        a, b = scene.bodies
+        return [(a, b)]
+    settings = Settings()
+    roster = place(scene, settings)
+    near = close_pairs(roster, Planner(settings, roster.book, scene.composed))
+    met = [(roster.placed[i], roster.placed[j]) for i, j in near]
+    return [(a.body, b.body) for a, b in met if core.box_gap(a.bounds, b.bounds) == 0]
