@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from satcheck.core.transform import Rotation, of_quaternion
-from satcheck.scene._readers import placement_of
 from satcheck.scene.bodies import Transform
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.rotation import Quaternion, of_euler
@@ -78,8 +77,6 @@ def is_4x4(rows: Any) -> bool:
 
 def matrix(rows: Any) -> Transform:
     """Four rows of four numbers, affine and not singular."""
-    if (plain := placement_of(rows)) is not None:
-        return plain
     if not is_4x4(rows):
         raise Wrong(f"4 rows of 4 numbers expected, not {shown(rows)}")
     found = sixteen(rows)

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from satcheck.scene._readers import placement_of
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import BodyEntry, SceneFile
 from satcheck.scene.format.mesh_places import MeshPlaces
+from satcheck.scene.format.placement import is_4x4, singular, sixteen
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.remarks import unknown_groups, unknown_units
 from satcheck.scene.format.text import Parsed
@@ -148,12 +148,6 @@ class _Reader:
     def _transform(self, rows: Any, body: str) -> tuple[float, ...] | None:
         if rows is None:
             return None
-        plain = placement_of(rows)
-        return self._closer_looked_at(rows, body) if plain is None else plain
-
-    def _closer_looked_at(self, rows: Any, body: str) -> tuple[float, ...]:
-        from satcheck.scene.format.placement import is_4x4, singular, sixteen
-
         if not is_4x4(rows):
             raise self._error("bad-scene", '"transform" should be 4 rows of 4 numbers', body)
         try:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
+import math
+import re
+import tomllib
 from codecs import BOM_UTF8
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene._readers import read_json
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.loading.regular_file import size_of
 
@@ -83,9 +86,6 @@ def parsed(path: str, location: Path, text: str) -> Parsed:
 
 
 def _toml(path: str, text: str) -> Any:
-    import re
-    import tomllib
-
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -100,21 +100,13 @@ def _toml(path: str, text: str) -> Any:
 
 def _json(path: str, text: str) -> tuple[Any, bool]:
     """(the document, whether an object of it has a key twice)."""
-    return read_json(text) or _json_with_reasons(path, text)
-
-
-def _json_with_reasons(path: str, text: str) -> tuple[Any, bool]:
-    """Of any text: what is wrong with it has a line."""
-    import json
-    import math
-
     repeated = False
 
     def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         nonlocal repeated
-        found = dict(pairs)
-        repeated = repeated or len(found) < len(pairs)
-        return found
+        members = dict(pairs)
+        repeated = repeated or len(members) < len(pairs)
+        return members
 
     def refuse(_: str) -> float:
         return math.nan  # found again, with the body's name, where a number is expected

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from array import array
+import numpy as np
 
 from satcheck.core import Mesh
 from satcheck.scene.errors import MeshFileError
@@ -56,19 +56,16 @@ def concatenate(parts: list[tuple[Block, Block, Matrix | None]]) -> tuple[Block,
     """
     if len(parts) == 1 and parts[0][2] is None:
         return parts[0][:2]
-    vertices: list[Block] = []
-    triangles = array("I")
-    offset = 0
-    for part_vertices, part_triangles, matrix in parts:
-        if matrix is not None:
-            part_vertices, part_triangles = _placed(part_vertices, part_triangles, matrix)
-        vertices.append(part_vertices)
-        if offset == 0:
-            triangles.frombytes(part_triangles)
-        else:
-            triangles.extend(index + offset for index in array("I", part_triangles))
-        offset += len(part_vertices) // 24
-    return b"".join(vertices), triangles.tobytes()
+    placed = [
+        (vertices, triangles) if matrix is None else _placed(vertices, triangles, matrix)
+        for vertices, triangles, matrix in parts
+    ]
+    offsets = np.cumsum([0, *(len(vertices) // 24 for vertices, _ in placed)], dtype=np.uint32)
+    corners = [
+        np.frombuffer(triangles, "<u4") + offset
+        for (_, triangles), offset in zip(placed, offsets, strict=False)
+    ]
+    return b"".join(vertices for vertices, _ in placed), b"".join(c.tobytes() for c in corners)
 
 
 def _placed(vertices: Block, triangles: Block, matrix: Matrix) -> tuple[Block, Block]:

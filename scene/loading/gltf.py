@@ -8,12 +8,12 @@ cameras, animations are never touched. Sources: the Khronos glTF 2.0 specificati
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from satcheck.core.transform import of_quaternion, placed
-from satcheck.scene._readers import read_json
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
@@ -89,7 +89,7 @@ def _parse_json(data: memoryview) -> dict[str, Any]:
         text = str(data, "utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError:
         raise MeshFileError("bad-encoding", "the JSON is not UTF-8") from None
-    document, _ = read_json(text) or (_json_with_reasons(text), False)
+    document = _json(text)
     if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
         raise MeshFileError("not-this-format", "not a glTF file: no asset object")
     version = document["asset"].get("version")
@@ -98,10 +98,7 @@ def _parse_json(data: memoryview) -> dict[str, Any]:
     return document
 
 
-def _json_with_reasons(text: str) -> Any:
-    """Of any text: what is wrong with it has a line."""
-    import json
-
+def _json(text: str) -> Any:
     def refuse(token: str) -> NoReturn:
         raise MeshFileError("bad-record", f"JSON: {token} is not a number of glTF")
 
@@ -186,7 +183,7 @@ class _Scene:
         translations = columns("TRANSLATION", "VEC3")
         rotations = columns("ROTATION", "VEC4")
         scales = columns("SCALE", "VEC3")
-        counts = {len(given) for given in (translations, rotations, scales) if given is not None}
+        counts = {len(rows) for rows in (translations, rotations, scales) if rows is not None}
         if len(counts) != 1 or 0 in counts:
             raise MeshFileError("count-mismatch", f"node {node.key}: how many instances is unclear")
         (count,) = counts
@@ -195,7 +192,10 @@ class _Scene:
             raise MeshFileError("too-large", f"{self._copied} instances and more")
         copies = []
         for i in range(count):
-            parts = (given[i] if given else None for given in (translations, rotations, scales))
+            parts = (
+                None if rows is None else rows[i].tolist()
+                for rows in (translations, rotations, scales)
+            )
             copies.append((f"{node.path}[{i}]", multiply(node.matrix, _placement(*parts))))
         return copies
 

@@ -6,18 +6,19 @@ those that the decoder gives: packing rounded them, and may have put them in ano
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.gltf_accessors import Accessors
+from satcheck.scene.loading.gltf_accessors import Accessors, Floats, Indices, normalized
 from satcheck.scene.loading.gltf_buffers import integer
 
 
 class Unpacked:
     """packed: what the extension says. attributes: accessors of the primitive by name.
 
-    Raises MeshFileError. triangles: little-endian uint32 vertex numbers, three each.
+    Raises MeshFileError. triangles: vertex numbers (m,), three each.
     """
 
     def __init__(
@@ -40,41 +41,35 @@ class Unpacked:
         if not isinstance(self._mesh, DracoPy.DracoMesh) or not isinstance(ids, dict):
             raise MeshFileError("bad-record", "Draco data: no mesh")
         self._ids: dict[str, Any] = ids
-        faces = self._mesh.faces
-        count = len(self._mesh.points)
+        faces, count = self._mesh.faces, len(self._mesh.points)
         if len(faces) and int(faces.max()) >= count:
             raise MeshFileError(
                 "index-out-of-range",
                 f"Draco data: index out of range: {faces.max()} of {count} vertices",
             )
-        self.triangles: bytes = faces.astype("<u4").tobytes()
+        self.triangles: Indices = faces.astype(np.uint32).ravel()
 
-    def positions(self) -> bytes:
-        import numpy as np
-
-        found = self._columns("POSITION", 3)
-        if found is None:
+    def positions(self) -> Floats:
+        positions = self._columns("POSITION", 3)
+        if positions is None:
             raise MeshFileError("bad-record", "Draco data: no positions")
-        if not np.isfinite(found).all():
+        if not np.isfinite(positions).all():
             raise MeshFileError("non-finite", "Draco data: non-finite coordinates")
-        positions: bytes = found.astype("<f8").tobytes()
         return positions
 
-    def columns(self, name: str, kind: str) -> Sequence[tuple[float, ...]] | None:
+    def columns(self, name: str, kind: str) -> Floats | None:
         """As Accessors.columns(): what Draco did not pack has an accessor of its own."""
-        found = self._columns(name, 4)
-        if found is None:
-            return self._accessors.columns(self._attributes)(name, kind)
-        return [tuple(row) for row in found.tolist()]
+        rows = self._columns(name, 4)
+        return self._accessors.columns(self._attributes)(name, kind) if rows is None else rows
 
-    def _columns(self, name: str, count: int) -> Any:
+    def _columns(self, name: str, count: int) -> Floats | None:
         """An attribute that Draco packed; the accessor says what its integers stand for."""
         id_ = self._ids.get(name)
         if id_ is None:
             return None
-        found = self._mesh.get_attribute_by_unique_id(id_) if type(id_) is int else None
-        data = None if found is None else found["data"]
+        attribute = self._mesh.get_attribute_by_unique_id(id_) if type(id_) is int else None
+        data = None if attribute is None else attribute["data"]
         if data is None or data.ndim != 2 or data.shape[1] != count:
             raise MeshFileError("bad-record", f"Draco data: no attribute {id_!r} for {name}")
-        one = self._accessors.one(integer(self._attributes, name, -1))
-        return data if one is None or data.dtype.kind == "f" else (data / one).clip(min=-1.0)
+        largest = self._accessors.largest_integer(integer(self._attributes, name, -1))
+        return normalized(data, None if data.dtype.kind == "f" else largest)

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from array import array
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.flatten import concatenate
-from satcheck.scene.loading.gltf_accessors import Accessors, Columns
+from satcheck.scene.loading.gltf_accessors import Accessors, Columns, Floats, Indices
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, Matrix, RawMesh
+from satcheck.scene.loading.gltf_shapes import morphed, skinned
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, Matrix, RawMesh
 
 DRACO = "KHR_draco_mesh_compression"
 
 _POINTS, _LINES, _LINE_LOOP, _LINE_STRIP, _TRIANGLES, _STRIP, _FAN = range(7)
 _NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
-_VERTEX_BYTES = 24
 
 
 class NeedsChild(Exception):
@@ -40,7 +40,7 @@ class Skin:
     as it was bound, column-major 4x4; None: the identity."""
 
     joints: tuple[Matrix, ...]
-    bound: Sequence[Sequence[float]] | None = None
+    bound: Floats | None = None
 
 
 class Meshes:
@@ -70,16 +70,20 @@ class Meshes:
         """
         warnings: dict[str, str] = {}
         where = f"mesh {shape.mesh}"
-        parts = (
-            self._primitive(primitive, shape, skin, where, warnings)
-            for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives")
-        )
-        vertices, triangles = concatenate([(*part, None) for part in parts if part is not None])
-        if not triangles:
+        vertices: list[Floats] = []
+        triangles: list[Indices] = []
+        count = 0
+        for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives"):
+            part = self._primitive(primitive, shape, skin, where, warnings)
+            if part is not None:
+                vertices.append(part[0])
+                triangles.append(part[1] + np.uint32(count))
+                count += len(part[0])
+        if not any(map(len, triangles)):
             raise MeshFileError(NO_SURFACE, f"{where} has no triangles, only lines or points")
         return RawMesh(
-            vertices=vertices,
-            triangles=triangles,
+            vertices=np.concatenate(vertices).astype("<f8").tobytes(),
+            triangles=np.concatenate(triangles).astype("<u4").tobytes(),
             precision="float32",
             units="meter",
             warnings=tuple(warnings.items()),
@@ -92,8 +96,8 @@ class Meshes:
         skin: Skin | None,
         where: str,
         warnings: dict[str, str],
-    ) -> tuple[Block, Block] | None:
-        """(float64 vertices, uint32 triangles), None where it has no triangles."""
+    ) -> tuple[Floats, Indices] | None:
+        """Vertices (n, 3) and corners (m,), three a triangle; None where it has no triangles."""
         mode = integer(primitive, "mode", _TRIANGLES)
         if mode in _NO_TRIANGLES:
             warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
@@ -108,21 +112,18 @@ class Meshes:
             from satcheck.scene.loading.gltf_draco import Unpacked
 
             unpacked = Unpacked(self._accessors, packed, attributes)
-            positions: Block = unpacked.positions()
-            triangles = unpacked.triangles
+            positions, triangles = unpacked.positions(), unpacked.triangles
             columns: Columns = unpacked.columns
         else:
             self._refuse_unread(primitive, attributes, where)
             positions = self._accessors.positions(integer(attributes, "POSITION", -1))
-            triangles = self._triangles(primitive, mode, len(positions) // _VERTEX_BYTES, where)
+            triangles = self._triangles(primitive, mode, len(positions), where)
             columns = self._accessors.columns(attributes)
         if primitive.get("targets"):
             warnings["rest-shape"] = "morph targets have the weights that the file stores"
             if shape.weights:
                 positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
         if skin is not None:
-            from satcheck.scene.loading.gltf_shapes import skinned
-
             warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
             positions = skinned(positions, columns, skin.joints, skin.bound, where)
         return positions, triangles
@@ -145,21 +146,18 @@ class Meshes:
                 "unsupported-feature", f"{where}: the positions or indices are not in the file"
             )
 
-    def _triangles(self, primitive: dict[str, Any], mode: int, count: int, where: str) -> bytes:
-        if "indices" in primitive:
-            corners, largest = self._accessors.indices(integer(primitive, "indices", -1))
-        else:
-            corners, largest = array("I", range(count)).tobytes(), count - 1
-        if corners and largest >= count:
+    def _triangles(self, primitive: dict[str, Any], mode: int, count: int, where: str) -> Indices:
+        if "indices" not in primitive:
+            return _as_list(np.arange(count, dtype=np.uint32), mode, where)
+        corners = self._accessors.indices(integer(primitive, "indices", -1))
+        if len(corners) and corners.max() >= count:
             raise MeshFileError(
                 "index-out-of-range",
-                f"{where}: index out of range: {largest} of {count} vertices",
+                f"{where}: index out of range: {corners.max()} of {count} vertices",
             )
         return _as_list(corners, mode, where)
 
-    def _morphed(self, positions: Block, targets: list[Any], weights: Sequence[float]) -> Block:
-        from satcheck.scene.loading.gltf_shapes import morphed
-
+    def _morphed(self, positions: Floats, targets: list[Any], weights: Sequence[float]) -> Floats:
         if len(targets) != len(weights):
             raise MeshFileError("count-mismatch", f"{len(weights)} weights, {len(targets)} targets")
         moves = [
@@ -176,17 +174,18 @@ def _needed(primitive: dict[str, Any], attributes: dict[str, Any]) -> list[int]:
     return [integer(owner, key, -1) for owner, key in owners if key in owner]
 
 
-def _as_list(numbers: bytes, mode: int, where: str) -> bytes:
+def _as_list(corners: Indices, mode: int, where: str) -> Indices:
     """The corners of strips and fans, three a triangle."""
-    corners = array("I", numbers)
     if mode == _TRIANGLES:
         if len(corners) % 3:
             raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
-        return numbers
-    triangles = array("I")
-    for i in range(len(corners) - 2):
-        if mode == _FAN:
-            triangles.extend((corners[i + 1], corners[i + 2], corners[0]))
-        else:  # in a strip, every other triangle runs backwards
-            triangles.extend((corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]))
-    return triangles.tobytes()
+        return corners
+    first, second, third = corners[:-2], corners[1:-1], corners[2:]
+    if mode == _FAN:
+        triangles = np.column_stack((second, third, np.full(len(third), corners[:1])))
+    else:  # in a strip, every other triangle runs backwards
+        backward = np.arange(len(first)) % 2 == 1
+        triangles = np.column_stack(
+            (first, np.where(backward, third, second), np.where(backward, second, third))
+        )
+    return triangles.ravel()

@@ -7,28 +7,23 @@ from collections.abc import Sequence
 import numpy as np
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.gltf_accessors import Columns
-from satcheck.scene.loading.raw_mesh import Block, Matrix
+from satcheck.scene.loading.gltf_accessors import Columns, Floats
+from satcheck.scene.loading.raw_mesh import Matrix
 
 
-def morphed(positions: Block, moves: Sequence[tuple[float, Block]]) -> bytes:
-    """positions: float64 x, y, z of each vertex. moves: a weight, and how far 1.0 moves each."""
-    moved = np.frombuffer(positions, "<f8").copy()
+def morphed(positions: Floats, moves: Sequence[tuple[float, Floats]]) -> Floats:
+    """positions: (n, 3). moves: a weight, and how far 1.0 moves each vertex."""
+    moved = positions.copy()
     for weight, move in moves:
-        by = np.frombuffer(move, "<f8")
-        if len(by) != len(moved):
+        if len(move) != len(moved):
             raise MeshFileError("count-mismatch", "a morph target has another number of vertices")
-        moved += weight * by
+        moved += weight * move
     return _finite(moved)
 
 
 def skinned(
-    positions: Block,
-    columns: Columns,
-    joints: Sequence[Matrix],
-    bound: Sequence[Sequence[float]] | None,
-    where: str,
-) -> bytes:
+    points: Floats, columns: Columns, joints: Sequence[Matrix], bound: Floats | None, where: str
+) -> Floats:
     """Each vertex where its joints put it, in world coordinates.
 
     columns: of the attributes JOINTS_0, WEIGHTS_0, JOINTS_1 and so on. joints: row-major 4x4, from
@@ -36,24 +31,22 @@ def skinned(
     of matrices and the sums of weights are rounded in many files, what they make is divided by its
     fourth coordinate.
     """
-    points = np.frombuffer(positions, "<f8").reshape(-1, 3)
-    matrices = np.array(joints, "<f8").reshape(-1, 4, 4)
+    matrices = np.array(joints, np.float64).reshape(-1, 4, 4)
     if bound is not None:
-        inverse = np.array(bound[: len(joints)], "<f8").reshape(-1, 4, 4)
-        matrices = matrices @ inverse.transpose(0, 2, 1)
+        matrices = matrices @ bound[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1)
     blended = np.zeros((len(points), 4, 4))
     number = 0
-    while (of_joints := columns(f"JOINTS_{number}", "VEC4")) is not None:
-        indices = np.array(of_joints).reshape(-1, 4).astype(np.int64)
-        weights = np.array(columns(f"WEIGHTS_{number}", "VEC4") or ()).reshape(-1, 4)
-        if len(indices) != len(points) or len(weights) != len(points):
+    while (indices := columns(f"JOINTS_{number}", "VEC4")) is not None:
+        weights = columns(f"WEIGHTS_{number}", "VEC4")
+        if weights is None or not len(indices) == len(weights) == len(points):
             raise MeshFileError("count-mismatch", f"{where}: joints and weights are not one each")
-        if indices.size and indices.max() >= len(matrices):
+        numbers = indices.astype(np.int64)
+        if numbers.size and numbers.max() >= len(matrices):
             raise MeshFileError(
-                "index-out-of-range", f"{where}: joint {indices.max()} of {len(matrices)}"
+                "index-out-of-range", f"{where}: joint {numbers.max()} of {len(matrices)}"
             )
         for k in range(4):
-            blended += weights[:, k, None, None] * matrices[indices[:, k]]
+            blended += weights[:, k, None, None] * matrices[numbers[:, k]]
         number += 1
     placed = np.einsum("nij,nj->ni", blended[:, :, :3], points) + blended[:, :, 3]
     if not (placed[:, 3] > 0).all():
@@ -61,7 +54,7 @@ def skinned(
     return _finite(placed[:, :3] / placed[:, 3:])
 
 
-def _finite(points: np.ndarray) -> bytes:
+def _finite(points: Floats) -> Floats:
     if not np.isfinite(points).all():
         raise MeshFileError("non-finite", "the pose makes non-finite coordinates")
-    return points.astype("<f8").tobytes()
+    return points

@@ -1,4 +1,4 @@
-// The Python face of the readers: `satcheck.scene._readers`. Only it and json_document.cpp know nanobind.
+// The Python face of the readers: `satcheck.scene._readers`. Only it knows nanobind.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
@@ -19,12 +19,9 @@
 
 #include "base/large_pages.hpp"
 #include "builder.hpp"
-#include "json_document.hpp"
 #include "meshopt.hpp"
-#include "placement.hpp"
 #include "polygons.hpp"
 #include "readers.hpp"
-#include "typed_arrays.hpp"
 
 namespace nb = nanobind;
 using namespace satcheck::scene;
@@ -160,35 +157,6 @@ const char* precision_name(const MeshData& mesh) {
   return "";
 }
 
-bool is_list_of_4(nb::handle value) { return PyList_CheckExact(value.ptr()) && PyList_GET_SIZE(value.ptr()) == 4; }
-
-// A float or an integer as a float; an invalid object for anything else.
-nb::object float_of(nb::handle value) {
-  if (PyFloat_CheckExact(value.ptr())) return nb::borrow(value);
-  if (!PyLong_CheckExact(value.ptr())) return {};
-  const double number = PyLong_AsDouble(value.ptr());
-  if (number == -1.0 && PyErr_Occurred()) {
-    PyErr_Clear();
-    return {};
-  }
-  return nb::float_(number);
-}
-
-nb::object placement_of(nb::handle rows) {
-  if (!is_list_of_4(rows)) return nb::none();
-  nb::object found = nb::steal(PyTuple_New(16));
-  std::array<double, 16> matrix;
-  for (Py_ssize_t k = 0; k < 16; ++k) {
-    const nb::handle row = PyList_GET_ITEM(rows.ptr(), k / 4);
-    if (!is_list_of_4(row)) return nb::none();
-    nb::object entry = float_of(PyList_GET_ITEM(row.ptr(), k % 4));
-    if (!entry.is_valid()) return nb::none();
-    matrix[static_cast<std::size_t>(k)] = PyFloat_AS_DOUBLE(entry.ptr());
-    PyTuple_SET_ITEM(found.ptr(), k, entry.release().ptr());
-  }
-  return surely_places(matrix) ? found : nb::none();
-}
-
 }  // namespace
 
 NB_MODULE(_readers, m) {
@@ -234,39 +202,4 @@ NB_MODULE(_readers, m) {
 
   m.def("read_file", &read_file, nb::arg("descriptor"), nb::arg("size"),
         "Up to `size` bytes of an open file from where it stands; OSError where it cannot be read.");
-  m.def(
-      "read_json",
-      [](const nb::str& text) -> nb::object {
-        Py_ssize_t size = 0;
-        const char* const utf8 = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
-        if (utf8 == nullptr) throw nb::python_error();
-        JsonDocument found = read_json({utf8, static_cast<std::size_t>(size)});
-        if (!found.root.is_valid()) return nb::none();
-        return nb::make_tuple(std::move(found.root), found.repeated_keys);
-      },
-      nb::arg("text"), nb::sig("def read_json(text: str) -> tuple[typing.Any, bool] | None"),
-      "What json.loads makes of the text, and whether an object has a key twice. None where the text is not JSON, and for "
-      "what is rare: then json.loads is to be asked, which also says what is wrong. UnicodeEncodeError for lone surrogates.");
-
-  m.def("placement_of", &placement_of, nb::arg("rows").none(),
-        nb::sig("def placement_of(rows: object) -> tuple[float, ...] | None"),
-        "4 rows of 4 numbers as 16 floats; None where they are something else, or where it is not plain that they are "
-        "finite, affine and not singular.");
-
-  m.def(
-      "float64_of",
-      [](const nb::bytes& float32) -> nb::object {
-        const auto found = float64_of({float32.c_str(), float32.size()});
-        return found ? nb::object(to_bytes(*found)) : nb::none();
-      },
-      nb::arg("float32"), nb::sig("def float64_of(float32: bytes) -> bytes | None"),
-      "Little-endian float32 numbers as float64; None where one is not finite.");
-  m.def(
-      "uint32_of",
-      [](const nb::bytes& unsigned_numbers, std::size_t size) {
-        const VertexNumbers found = uint32_of({unsigned_numbers.c_str(), unsigned_numbers.size()}, size);
-        return nb::make_tuple(to_bytes(found.numbers), found.largest);
-      },
-      nb::arg("unsigned_numbers"), nb::arg("size"), nb::sig("def uint32_of(unsigned_numbers: bytes, size: int) -> tuple[bytes, int]"),
-      "Little-endian unsigned numbers of 1, 2 or 4 bytes as uint32, and the largest (0: there are none).");
 }

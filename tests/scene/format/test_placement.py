@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-import random
-from typing import Any
 
 import pytest
 
 from satcheck.core.transform import of_quaternion
-from satcheck.scene._readers import placement_of
-from satcheck.scene.format.placement import placement, singular, sixteen
+from satcheck.scene.format.placement import placement
 from satcheck.scene.format.problems import Problems
 from satcheck.scene.format.rotation import of_euler, quaternion_of_euler
 from satcheck.scene.format.table import Table
@@ -116,26 +113,3 @@ def test_what_places_nothing_is_refused(name):
     problems = Problems()
     placement(Table(values, (), problems))
     assert [message in wrong.message for _, wrong in problems.found] == [True]
-
-
-def test_a_plain_matrix_is_one_that_the_checks_pass() -> None:
-    """The short way says nothing else, and takes what scenes are made of."""
-    source = random.Random(11)
-    numbers = [0, 1, -1, 1.0, 0.5, 1e-13, 1e-40, 1e40, 1e200, math.inf, 10**400, True, None, "1"]
-    taken = 0
-    for _ in range(4000):
-        rows: list[Any] = [[source.uniform(-2, 2) for _ in range(4)] for _ in range(3)]
-        rows.append([0, 0.0, 0, 1])
-        for _ in range(source.randrange(4)):
-            rows[source.randrange(4)][source.randrange(4)] = source.choice(numbers)
-        if source.random() < 0.2:
-            rows[1] = rows[0][:]
-        found = placement_of(rows)
-        if found is not None:
-            taken += 1
-            assert found == sixteen(rows)
-            assert all(type(value) is float for value in found)
-            assert singular(found) is None
-    assert taken > 500
-    for bad in (None, [], [[1, 0, 0, 0]] * 3, [[1, 0, 0]] * 4, [(1, 0, 0, 0)] * 4, "rows"):
-        assert placement_of(bad) is None
