@@ -95,9 +95,8 @@ class _Reading:
     def __init__(self, root: Element) -> None:
         self._root = root
         self._by_id = {e.get("id", ""): e for e in reversed(list(root.iter())) if e.get("id")}
-        parents = {child: parent for parent in root.iter() for child in parent}
         sheets = (e for e in root.iter() if _kind(e) == "style" and _is_css(e))
-        self._sheets = StyleSheets(("".join(e.itertext()) for e in sheets), parents)
+        self._sheets = StyleSheets(("".join(e.itertext()) for e in sheets), root)
         styled = not _SIZE.isdisjoint(self._sheets.values_of(root))
         self.drawn = drawn_size(root.attrib, styled)
         self._number = 0

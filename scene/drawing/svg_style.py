@@ -1,25 +1,30 @@
-"""What attributes, style and style sheets say of an element. Source: W3C, "SVG 1.1", chapter 6."""
+"""What attributes, style and style sheets say of an element: tinycss2 reads them, and cssselect2
+says which rules are about it. A rule that neither understands is left out where it sets nothing
+that a shape depends on, and refused where it does. Source: W3C, "SVG 1.1", chapter 6.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 from xml.etree.ElementTree import Element
+
+import cssselect2
+import tinycss2
 
 from satcheck.core.frozen import frozen
 from satcheck.scene.drawing.contour import FillRule
-from satcheck.scene.drawing.svg_css import (
-    MOVING,
-    READ,
-    Declaration,
-    Rule,
-    declarations,
-    matches,
-    rules_of,
-)
 from satcheck.scene.drawing.svg_values import unread
 
-# Presentation attributes weigh less than any rule, the style attribute more.
-_ATTRIBUTE, _STYLE = (0, -1), (1,)
+# What is drawn, and where: by its value, or it may not be set by style at all.
+_READ = frozenset({"clip-path", "display", "fill", "fill-rule", "mask", "visibility"})
+_MOVING = frozenset(
+    {"cx", "cy", "d", "height", "r", "rx", "ry", "width", "x", "y"}
+    | {"all", "offset", "offset-path", "perspective", "rotate", "scale", "transform"}
+    | {"transform-box", "transform-origin", "translate", "zoom"}
+)
+_HARMLESS_RULES = frozenset({"charset", "font-face", "namespace"})
 _SHOWN = frozenset({"inline", "block", "inline-block", "list-item", "flex", "grid", "table"})
 _FILL_RULES: dict[str, FillRule] = {"nonzero": "nonzero", "evenodd": "evenodd"}
 _SIZE = frozenset({"width", "height"})  # of the outermost element: shapes keep their user units
@@ -38,19 +43,43 @@ class Style:
     is_cut: bool = False
 
 
-class StyleSheets:
-    """All rules of a document; parents: of each of its elements but the root."""
+@frozen
+class _Declaration:
+    key: str
+    value: str
+    important: bool = False
 
-    def __init__(self, sheets: Iterable[str], parents: Mapping[Element, Element]) -> None:
-        self._rules: list[Rule] = []
-        self._parents = parents
+
+class StyleSheets:
+    """All rules of a document. Raises MeshFileError for those that are not read."""
+
+    def __init__(self, sheets: Iterable[str], root: Element) -> None:
+        elements = cssselect2.ElementWrapper.from_xml_root(root).iter_subtree()
+        self._elements = {wrapper.etree_element: wrapper for wrapper in elements}
+        self._matcher = cssselect2.Matcher()
         for sheet in sheets:
-            self._rules += rules_of(sheet, len(self._rules))
+            for rule in tinycss2.parse_stylesheet(sheet, True, True):
+                self._add(rule)
+
+    def _add(self, rule: Any) -> None:
+        if rule.type != "qualified-rule":
+            _check_other_rule(rule)
+            return
+        declarations = tuple(_declarations(rule.content))
+        try:
+            for selector in cssselect2.compile_selector_list(rule.prelude):
+                self._matcher.add_selector(selector, declarations)
+        except cssselect2.SelectorError:
+            if declarations:
+                selector = tinycss2.serialize(rule.prelude).strip()[:60]
+                key = declarations[0].key
+                message = f"style sheet: {selector!r} sets {key}: no selector that is read"
+                raise unread(message) from None
 
     def style_of(self, element: Element, above: Style, is_root: bool) -> Style:
         """above: of the element that it is drawn in. Raises MeshFileError for what is not read."""
         values = self.values_of(element)
-        for key in sorted(MOVING & values.keys()):
+        for key in sorted(_MOVING & values.keys()):
             if (is_root and key in _SIZE) or (
                 key in _OF_TRANSFORM and not element.get("transform")
             ):
@@ -76,22 +105,49 @@ class StyleSheets:
         )
 
     def values_of(self, element: Element) -> dict[str, str]:
-        """What is set at the element itself, of the properties that its outline depends on."""
-        found = [
-            Declaration(key, value.strip().lower(), _ATTRIBUTE)
+        """What is set at the element itself, of the properties that its outline depends on.
+
+        Attributes weigh less than rules, these less than its style, and what is important most.
+        """
+        declarations = [
+            _Declaration(key, value.strip().lower())
             for key, value in element.attrib.items()
-            if value.strip() and (key in READ or key == "transform-origin")
+            if value.strip() and (key in _READ or key == "transform-origin")
         ]
-        for rule in self._rules:
-            if matches(rule, element, self._parents):
-                found += rule.declarations
-        found += declarations(element.get("style", ""), _STYLE)
-        found.sort(key=lambda one: one.weight)
-        values = {one.key: one.value for one in found}
+        for _, _, pseudo, rule in self._matcher.match(self._elements[element]):
+            declarations += rule if pseudo is None else ()
+        declarations += _declarations(element.get("style", ""))
+        declarations.sort(key=lambda declaration: declaration.important)
+        values = {declaration.key: declaration.value for declaration in declarations}
         for key, value in _HARMLESS_VALUES.items():
             if values.get(key) == value:
                 del values[key]
         return values
+
+
+def _check_other_rule(rule: Any) -> None:
+    text = rule.serialize() if rule.type == "at-rule" else rule.message
+    name = rule.lower_at_keyword if rule.type == "at-rule" else ""
+    is_print = name == "media" and tinycss2.serialize(rule.prelude).strip().lower() == "print"
+    if name in _HARMLESS_RULES or is_print:
+        return
+    keys = set(re.findall(r"[\w-]+(?=\s*:)", text))
+    if not name or name == "import" or keys & (_READ | _MOVING):
+        raise unread(f"style sheet: {text[:40]!r} is not read")
+
+
+def _declarations(block: Any) -> Iterator[_Declaration]:
+    """Those of _READ and _MOVING. Raises MeshFileError."""
+    for node in tinycss2.parse_blocks_contents(block, True, True):
+        if node.type in ("at-rule", "qualified-rule"):
+            raise unread(f"style: {node.serialize()[:40]!r} is not read")
+        if node.type != "declaration" or node.lower_name not in _READ | _MOVING:
+            continue
+        value = tinycss2.serialize(node.value).strip().lower()
+        if "var(" in value or "\\" in value:
+            raise unread(f"style {node.lower_name}: {value!r} is not read")
+        if value:
+            yield _Declaration(node.lower_name, value, node.important)
 
 
 def _inherited(values: Mapping[str, str], key: str, above: str, initial: str = "visible") -> str:

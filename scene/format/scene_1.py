@@ -38,9 +38,7 @@ def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
     """Raises SceneFileError with all that is wrong in the file."""
     problems = Problems()
     if parsed.repeated_keys:
-        from satcheck.scene.format.json_positions import JsonPositions
-
-        for keys in JsonPositions(parsed.text).duplicates():
+        for keys in parsed.positions.duplicates():
             problems.add(keys, Wrong("a second value for this key"))
     scene = _Reader(parsed, problems, allow_outside).read()
     problems.raise_any(parsed.path, lambda: parsed.positions)

@@ -38,21 +38,13 @@ class Parsed:
 
     @cached_property
     def positions(self) -> Positions:
-        return positions_of(self.text, toml=is_toml(self.location))
+        from satcheck.scene.format.positions import Positions
+
+        return Positions(self.text, toml=is_toml(self.location))
 
 
 def is_toml(location: Path) -> bool:
     return location.suffix.lower() == TOML_SUFFIX
-
-
-def positions_of(text: str, *, toml: bool) -> Positions:
-    if toml:
-        from satcheck.scene.format.toml_positions import TomlPositions
-
-        return TomlPositions(text)
-    from satcheck.scene.format.json_positions import JsonPositions
-
-    return JsonPositions(text)
 
 
 def read_text(path: str, location: Path) -> str:

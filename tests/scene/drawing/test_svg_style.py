@@ -35,6 +35,8 @@ def shapes(style: str, body: str) -> tuple[DrawnShape | RefusedShape, ...]:
         ("@media print{path{fill-rule:nonzero}}", f'<path {D} fill-rule="evenodd"/>'),
         ("path:first-child{stroke:red}", f'<path {D} fill-rule="evenodd"/>'),
         ("@font-face{src:url(data:a;b{};c)}", f'<path {D} fill-rule="evenodd"/>'),
+        ("path:not(.a){fill-rule:evenodd}", f"<path {D}/>"),
+        ("title + path{fill-rule:evenodd", f"<title/><path {D}/>"),
         ("/* path{fill-rule:nonzero} */", f'<path {D} fill-rule="evenodd"/>'),
     ],
 )
@@ -63,11 +65,10 @@ def test_what_is_shown(style: str, body: str, shown: bool) -> None:
 @pytest.mark.parametrize(
     "style",
     [
-        "path:not(.a){display:none}",
-        "g + path{visibility:hidden}",
+        "path:unheard-of{display:none}",
+        "} path{display:none}",
         "@import 'other.css';",
         "@media (min-width:9px){path{fill-rule:evenodd}}",
-        "path{fill-rule:evenodd",
         "path{fill:var(--a)}",
     ],
 )

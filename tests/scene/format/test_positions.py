@@ -11,9 +11,7 @@ from typing import Any
 
 import pytest
 
-from satcheck.scene.format.json_positions import JsonPositions
-from satcheck.scene.format.text import positions_of
-from satcheck.scene.format.toml_positions import TomlPositions
+from satcheck.scene.format.positions import Positions
 
 TOML = '''# comment [[not.a.header]]
 schema = "one"   # = "two"
@@ -69,7 +67,7 @@ def leaves(value: Any, keys: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, 
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])
 def test_every_value_of_a_toml_document_is_where_it_is_said_to_be(newline: str) -> None:
     text = TOML.replace("\n", newline)
-    positions = TomlPositions(text)
+    positions = Positions(text, toml=True)
     found = dict(leaves(tomllib.loads(text)))
     assert len(found) == 26
     for keys, value in found.items():
@@ -100,7 +98,7 @@ LINES = {
 
 @pytest.mark.parametrize("keys", LINES, ids=str)
 def test_line_of_toml(keys: tuple[Any, ...]) -> None:
-    assert TomlPositions(TOML).line(keys) == LINES[keys]
+    assert Positions(TOML, toml=True).line(keys) == LINES[keys]
 
 
 JSON = """{
@@ -117,7 +115,7 @@ JSON = """{
 
 @pytest.mark.parametrize("text", [JSON, re.sub(r"\s", "", JSON), "  " + JSON + "\n"])
 def test_every_value_of_a_json_document_is_where_it_is_said_to_be(text: str) -> None:
-    positions = JsonPositions(text)
+    positions = Positions(text, toml=False)
     found = dict(leaves(json.loads(text)))
     assert len(found) == 10
     for keys, value in found.items():
@@ -145,7 +143,7 @@ def test_whatever_is_still_a_document_has_its_values_where_they_are_said_to_be(f
             found = dict(leaves(read(changed)))
         except ValueError:
             continue
-        positions = positions_of(changed, toml=form == "toml")
+        positions = Positions(changed, toml=form == "toml")
         for keys, value in found.items():
             place = positions.place(keys)
             written = changed[place.start : place.end]
@@ -156,7 +154,7 @@ def test_whatever_is_still_a_document_has_its_values_where_they_are_said_to_be(f
 
 
 def test_line_of_json() -> None:
-    positions = positions_of(JSON, toml=False)
+    positions = Positions(JSON, toml=False)
     assert positions.line(("bodies", 0, "position")) == 6
     assert positions.line(("bodies", 0, "position", 2)) == 7
     assert positions.line(("bodies", 1, "nothing", 5)) == 8
@@ -165,11 +163,11 @@ def test_line_of_json() -> None:
 
 def test_duplicate_keys_of_json() -> None:
     text = '{"a": 1, "b": [{"c": 1, "c": 2}], "a": {"d": 3}}'
-    assert sorted(JsonPositions(text).duplicates()) == [("a",), ("b", 0, "c")]
-    assert list(JsonPositions(JSON).duplicates()) == []
+    assert sorted(Positions(text, toml=False).duplicates()) == [("a",), ("b", 0, "c")]
+    assert list(Positions(JSON, toml=False).duplicates()) == []
 
 
 def test_what_is_not_there_has_no_place() -> None:
-    for positions in (TomlPositions(TOML), JsonPositions(JSON)):
+    for positions in (Positions(TOML, toml=True), Positions(JSON, toml=False)):
         with pytest.raises(KeyError):
             positions.place(("bodies", 9))
