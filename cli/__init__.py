@@ -10,7 +10,7 @@ __all__ = ["main"]
 def main() -> None:
     """The process of the command `satcheck`: parses sys.argv and exits."""
     # Start-up makes many objects and next to no garbage: looking for cycles meanwhile is 6 % of it.
-    # cli.checking turns the collector on again for anything but a small check.
+    # commands.check turns the collector on again for anything but a small check.
     gc.disable()
     from satcheck.cli.entry import main as run
 

@@ -1,6 +1,6 @@
 """The group of commands. The first word is a path unless it names one of them.
 
-Nothing here imports geometry: --help, --version and completion answer at once.
+A command imports what it needs, and is imported when it is called.
 """
 
 from __future__ import annotations
@@ -10,16 +10,9 @@ from importlib import import_module
 import click
 
 from satcheck.cli.commands import COMMANDS
-from satcheck.cli.commands.options import HELP_NAMES, Group
+from satcheck.cli.options import HELP_NAMES, Group
 
 DEFAULT_COMMAND = "check"
-
-
-def meant(word: str) -> str | None:
-    """The command that `word`, which is no path, is a slip of; None if it resembles none."""
-    from difflib import get_close_matches
-
-    return next(iter(get_close_matches(word, COMMANDS, n=1)), None)
 
 
 class _Satcheck(Group):
@@ -39,14 +32,6 @@ class _Satcheck(Group):
         command = import_module(f"satcheck.cli.commands.{cmd_name}").command
         assert isinstance(command, click.Command)
         return command
-
-
-def default_context() -> click.Context:
-    """Of the command that needs no name, for what is wrong with a call that click has not read."""
-    group = click.Context(satcheck, info_name="satcheck")
-    command = satcheck.get_command(group, DEFAULT_COMMAND)
-    assert command is not None
-    return command.make_context(DEFAULT_COMMAND, [], parent=group, resilient_parsing=True)
 
 
 @click.group(cls=_Satcheck, context_settings=HELP_NAMES, add_help_option=False)

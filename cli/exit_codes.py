@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import Issue, Report, Verdict
+    from satcheck.audit.report.report import Issue, Verdict
 
 CLEAN = 0  # everything was checked, and no pair fails
 FINDINGS = 1  # bodies overlap beyond what rules allow, or are closer than their clearance
@@ -15,10 +15,6 @@ INCOMPLETE = 3  # no pair is known to fail, but not everything could be checked
 INTERRUPTED = 130  # Ctrl-C, the shells' 128 + SIGINT
 
 _BY_VERDICT = {"pass": CLEAN, "fail": FINDINGS, "incomplete": INCOMPLETE}
-
-
-def of_report(report: Report, *, exit_zero: bool) -> int:
-    return of_verdict(report.summary.verdict, report.issues, exit_zero=exit_zero)
 
 
 def of_verdict(verdict: Verdict, issues: Iterable[Issue], *, exit_zero: bool) -> int:

@@ -9,36 +9,29 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from shutil import get_terminal_size
+from typing import NamedTuple, TextIO
 
-from satcheck.cli.refusals import failure, wrong_usage
+import click
 
-if TYPE_CHECKING:
-    import click
+from satcheck.cli.replacing import last_link, replace_file
 
 # Wide enough that no cell is ever folded where no terminal sets a width (rich would assume 80).
 UNBOUNDED_WIDTH = 100_000
 # A reader that left early: EPIPE, and EINVAL as Windows calls it.
 _READER_LEFT = (errno.EPIPE, errno.EINVAL)
-# Documents of other kinds, by the end of their names.
-_NO_REPORTS = frozenset(
-    {".html", ".htm", ".svg", ".png", ".pdf", ".xml", ".sarif", ".csv", ".toml", ".yaml"}
-)
 _STANDARD_OUTPUT = ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1")
 # What becomes of the bytes of a file name that are no text.
 _UNDECODABLE = "backslashreplace"
-_COLOUR = r"(\x1b\[[0-9;]*m)"  # few calls need it: compiled at its first use
+_COLOUR = re.compile(r"(\x1b\[[0-9;]*m)")
 
 
-class Page:
-    """What the reader of a table can show. No NamedTuple: the first of a process takes 2 ms."""
+class Page(NamedTuple):
+    """What the reader of a table can show."""
 
-    __slots__ = ("colour", "unicode", "width")
-
-    def __init__(self, *, width: int, colour: bool, unicode: bool) -> None:
-        self.width = width
-        self.colour = colour
-        self.unicode = unicode
+    width: int
+    colour: bool
+    unicode: bool
 
 
 PLAIN_PAGE = Page(width=UNBOUNDED_WIDTH, colour=False, unicode=True)
@@ -59,20 +52,7 @@ def talk(line: str) -> None:
 
 def cannot_write(where: str, reason: str | None) -> click.ClickException:
     """The document could not be delivered. To be raised."""
-    return failure(f"{where}: cannot write: {reason} [cannot-write]")
-
-
-def form_of(form: str | None, output: Path | None) -> str:
-    """How to report: as asked, else as the name of the output file says.
-
-    Raises click.UsageError for a name that promises what no report is.
-    """
-    suffix = output.suffix.lower() if output else ""
-    if form is None and suffix in _NO_REPORTS:
-        raise wrong_usage(
-            f"{output}: a report is JSON or a table: name it .json, or give --format table"
-        )
-    return form or ("json" if suffix == ".json" else "table")
+    return click.ClickException(f"{where}: cannot write: {reason} [cannot-write]")
 
 
 class Document:
@@ -131,7 +111,7 @@ def harmless(line: str, *, colour: bool = False) -> str:
     wanted: names of bodies and files can hold any character, and must not rewrite a verdict."""
     if line.isprintable():
         return line
-    pieces = re.split(_COLOUR, line) if colour else [line]
+    pieces = _COLOUR.split(line) if colour else [line]
     return "".join(
         piece
         if number % 2
@@ -143,8 +123,6 @@ def harmless(line: str, *, colour: bool = False) -> str:
 def write_file(path: Path, content: bytes | str | Sequence[str]) -> None:
     """Replace a file as a whole: by bytes, by one text or its pieces, in UTF-8; cannot_write()
     where that fails, and the file is then what it was."""
-    from satcheck.cli.replacing import replace_file
-
     try:
         if isinstance(content, bytes):
             replace_file(path, (content,))
@@ -168,8 +146,6 @@ def _is_standard_output(path: Path) -> bool:
     """By its name: where the descriptor of that leads is not where documents go."""
     if not path.is_symlink() and "fd" not in path.parts:
         return False
-    from satcheck.cli.replacing import last_link
-
     try:
         return str(last_link(path)) in _STANDARD_OUTPUT
     except OSError:
@@ -184,17 +160,11 @@ def _talk_descriptor() -> int:
     return 2
 
 
-def _terminal_width() -> int:
-    from shutil import get_terminal_size
-
-    return get_terminal_size().columns
-
-
 def _page(stream: TextIO) -> Page:
     terminal = stream.isatty()
     encoding = (stream.encoding or "").lower().replace("-", "").replace("_", "")
     return Page(
-        width=_terminal_width() if terminal else UNBOUNDED_WIDTH,
+        width=get_terminal_size().columns if terminal else UNBOUNDED_WIDTH,
         # https://no-color.org: any non-empty value
         colour=terminal and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb",
         unicode=encoding.startswith("utf"),

@@ -1,6 +1,15 @@
-"""The sub-commands, a file each: `command` is the click command, imported when it is called for."""
+"""The sub-commands, a file each: `command` in the module of its name is the click command."""
 
 from __future__ import annotations
 
-# Each is `command` in the module of its name here, imported when it is called.
-COMMANDS = ("cache", "resolve", "schema", "stability", "suggest", "tradeoff", "verify")
+# What each does, for the help of satcheck: that must not import them all. The first sentence of the
+# help of each command says the same.
+COMMANDS = {
+    "cache": "The cache of convex parts: info, clear.",
+    "resolve": "Move the bodies of a scene apart, by short translations.",
+    "schema": "Print the JSON Schema of the report of a command, or of a scene file.",
+    "stability": "Ask the same question in other ways: does the answer stay?",
+    "suggest": "Suggest which pairs a scene may allow to overlap.",
+    "tradeoff": "What accuracy costs in time: every rung of the ladder on one pair.",
+    "verify": "Re-check the certificates of a report from the mesh files.",
+}

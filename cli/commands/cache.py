@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import click
 
-from satcheck.cli.commands.options import HELP_NAMES, Group
+from satcheck.cli.options import HELP_NAMES, Group
+from satcheck.cli.output import Document
+from satcheck.cli.report.words import counted
+from satcheck.decompose import Cache
 
 
 @click.group("cache", cls=Group, context_settings=HELP_NAMES)
@@ -19,16 +22,21 @@ def command() -> None:
 @command.command()
 def info() -> None:
     """Show where the cache is and how much it holds."""
-    from satcheck.cli.caching import describe
-    from satcheck.cli.output import Document
-
-    Document().write(f"{describe()}\n")
+    content = Cache().info()
+    entries = counted(content.entries, "entry", "entries")
+    Document().write(f"{content.path}\n{entries}, {_size(content.bytes)}\n")
 
 
 @command.command()
 def clear() -> None:
     """Delete everything in the cache."""
-    from satcheck.cli.caching import clear as clear_cache
-    from satcheck.cli.output import Document
+    Document().write(f"deleted {counted(Cache().clear(), 'entry', 'entries')}\n")
 
-    Document().write(f"{clear_cache()}\n")
+
+def _size(count: int) -> str:
+    size = float(count)
+    for unit in ("bytes", "KiB", "MiB"):
+        if size < 1024:
+            return f"{size:.4g} {unit}"
+        size /= 1024
+    return f"{size:.4g} GiB"

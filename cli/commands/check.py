@@ -1,40 +1,59 @@
-"""`satcheck A B [C ...]`: the command that needs no name."""
+"""`satcheck A B [C ...]`: the command that needs no name, and the same of many poses of a robot."""
 
 from __future__ import annotations
 
+import gc
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import click
 
-from satcheck.cli.choices import (
-    ACCURACIES,
-    ACCURACY,
-    DEPTH_BUDGET,
-    DEPTH_WIDTH,
-    FAIL_ON,
-    LEAST_SEVERITY,
-    MOST_BUDGET,
-)
-from satcheck.cli.commands.options import (
+from satcheck._version import __version__
+from satcheck.audit import Report, Settings, check
+from satcheck.audit.asked.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
+from satcheck.audit.samples import Samples, check_poses
+from satcheck.cli import exit_codes
+from satcheck.cli.commands import COMMANDS
+from satcheck.cli.inputs import Inputs, load, poses_of, refuse_early
+from satcheck.cli.options import (
+    DEFAULTS,
     HELP_NAMES,
     Command,
     debug_option,
+    form_of,
     form_option,
     jobs_option,
+    length,
     open_option,
     output_option,
     outside_option,
+    package_option,
     paths_argument,
     planar_option,
+    pose_options,
+    settings_of,
     split_option,
+    tolerance_option,
     units_option,
 )
-from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
-from satcheck.cli.lengths import length
-from satcheck.cli.output import form_of
+from satcheck.cli.output import Document, Page, talk
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.json import render as render_json
+from satcheck.cli.report.summary import samples_line, summary_line
+from satcheck.cli.report.words import counted, issue_line
+from satcheck.core.frozen import replace
+from satcheck.scene import Scene
+from satcheck.scene.robot import Pose, posed
 
-# More characters than the first sentence of any help text has.
-_WHOLE_SENTENCE = 200
+# With -o at most this many warnings are repeated on stderr.
+WARNINGS = 5
+# Up to this, a check ends before the garbage collector could pay.
+SMALL_BODIES = 2
+SMALL_TRIANGLES = 1000
+# Objects made between two searches for cycles: of what a check makes almost none is in one.
+COLLECT_AFTER = 50_000
 
 
 class _DefaultContext(click.Context):
@@ -51,7 +70,7 @@ class _DefaultCommand(Command):
     def collect_usage_pieces(self, _: click.Context) -> list[str]:
         return ["[OPTIONS] A B [C ...]"]
 
-    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+    def format_epilog(self, _: click.Context, formatter: click.HelpFormatter) -> None:
         with formatter.section("Exit codes"):
             formatter.write_dl(
                 [
@@ -65,31 +84,15 @@ class _DefaultCommand(Command):
                 ]
             )
         with formatter.section("Other commands"):
-            formatter.write_dl(
-                [
-                    (f"satcheck {name}", other.get_short_help_str(_WHOLE_SENTENCE))
-                    for name, other in _others(ctx)
-                ]
-            )
+            formatter.write_dl([(f"satcheck {name}", text) for name, text in COMMANDS.items()])
         with formatter.section("Shell completion"):
             formatter.write_text('bash: eval "$(_SATCHECK_COMPLETE=bash_source satcheck)"')
             formatter.write_text('zsh:  eval "$(_SATCHECK_COMPLETE=zsh_source satcheck)"')
             formatter.write_text("fish: _SATCHECK_COMPLETE=fish_source satcheck | source")
 
 
-def _others(ctx: click.Context) -> list[tuple[str, click.Command]]:
-    group = ctx.parent.command if ctx.parent else None
-    if not isinstance(group, click.Group):
-        return []
-    commands = [(name, group.get_command(ctx, name)) for name in group.list_commands(ctx)]
-    return [(name, command) for name, command in commands if command is not None]
-
-
 def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not ctx.resilient_parsing:
-        from satcheck._version import __version__
-        from satcheck.cli.output import Document
-
         Document().write(f"satcheck {__version__}\n")
         ctx.exit()
 
@@ -105,7 +108,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 )
 @click.option(
     "--depth/--no-depth",
-    default=None,
+    default=DEFAULTS.depth,
     help="Find how deep bodies overlap, and the shortest way out.  [default: depth for mesh files "
     "of one body each; otherwise only where a rule needs it]",
 )
@@ -120,16 +123,11 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     type=length,
     help="Also report pairs with a gap smaller than this, and the gap.",
 )
-@click.option(
-    "--tolerance",
-    type=length,
-    help="Call it touching when gap or depth is at most this. "
-    "[default: the precision of the input files]",
-)
+@tolerance_option
 @click.option(
     "--accuracy",
     type=click.Choice(ACCURACIES),
-    default=ACCURACY,
+    default=DEFAULTS.accuracy,
     show_default=True,
     help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
     "All but exact may report false overlaps, and call them possible.",
@@ -138,7 +136,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--depth-width",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),
     metavar="RATIO",
-    default=DEPTH_WIDTH,
+    default=DEFAULTS.depth_width,
     show_default=True,
     help="Narrow the depth interval of concave pairs to this width, relative to its upper end.",
 )
@@ -146,7 +144,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "--depth-budget",
     type=click.FloatRange(0, MOST_BUDGET, min_open=True),
     metavar="SECONDS",
-    default=DEPTH_BUDGET,
+    default=DEFAULTS.depth_budget,
     show_default=True,
     help="Stop narrowing after this much work on a pair. It is counted in steps, which a slow "
     "machine does in that many seconds: the answer is the same everywhere.",
@@ -156,7 +154,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--fail-on",
     type=click.Choice(FAIL_ON),
-    default=LEAST_SEVERITY,
+    default=DEFAULTS.fail_on,
     show_default=True,
     help="The least severity of a finding that makes the check fail. Overlaps and gaps below the "
     "clearance are errors, unless a rule of the scene says otherwise; what only touches is a note.",
@@ -179,7 +177,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "cache",
     is_flag=True,
     flag_value=False,
-    default=True,
+    default=DEFAULTS.cache,
     help="Neither read nor write the cache of convex parts, which only --accuracy parts uses.",
 )
 @click.option(
@@ -187,7 +185,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     "timings",
     is_flag=True,
     flag_value=False,
-    default=True,
+    default=DEFAULTS.timings,
     help="Leave out times: same input, same bytes.",
 )
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail.")
@@ -204,7 +202,14 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     callback=_version,
     help="Show the version and exit.",
 )
-def command(**options: Any) -> int:
+def command(
+    form: str | None,
+    output: Path | None,
+    explain: bool,
+    exit_zero: bool,
+    debug: bool,
+    **options: Any,
+) -> int:
     """Do these meshes collide? How deep, and which way out?
 
     A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), each one
@@ -216,13 +221,102 @@ def command(**options: Any) -> int:
     A LENGTH is a number in the units of the files. Where a scene declares its units, the number may
     carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
-    from satcheck.cli.checking import Choices, run
-    from satcheck.cli.posing import Posing
-
-    options["posing"] = Posing(*(options.pop(name) for name in POSE_OPTIONS))
-    options["form"] = form_of(options["form"], options["output"])
-    if options["certificate"] and options["form"] != "json":
+    inputs = Inputs.taken_from(options)
+    form = form_of(form, output)
+    if options["certificate"] and form != "json":
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
-    return run(Choices(**options))
+    refuse_early(inputs, output)
+    document = Document()
+    scene = load(inputs, hashed=form == "json")
+    _collect_garbage(scene)
+    failed = any(issue.severity == "error" for issue in scene.issues)
+    if failed and len(scene.bodies) < 2 and form == "table":
+        return exit_codes.ERROR  # every pair would be an empty row, and the error is told
+    poses = poses_of(scene, inputs) if inputs.has_poses else {}
+    result: Report | Samples
+    if isinstance(poses, list):
+        _refuse_of_poses(explain=explain, **options)
+        result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
+    else:
+        scene = posed(scene, poses) if inputs.has_poses else scene
+        result = _check(scene, settings_of(options, scene))
+    document.deliver(
+        lambda page: _render(result, form, page, explain=explain, timings=options["timings"]),
+        output,
+        utf8=form == "json",
+    )
+    _tell(result, scene, output, debug=debug)
+    verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
+    return exit_codes.of_verdict(verdict, result.issues, exit_zero=exit_zero)
+
+
+def _collect_garbage(scene: Scene) -> None:
+    """From here on, unless the check is small."""
+    if len(scene.bodies) > SMALL_BODIES or any(
+        body.file.topology.triangles > SMALL_TRIANGLES for body in scene.bodies
+    ):
+        gc.enable()
+        gc.set_threshold(COLLECT_AFTER)
+
+
+def _check(scene: Scene, settings: Settings) -> Report:
+    try:
+        with Bar() as bar:
+            return check(scene, settings, progress=bar)
+    except SystemExit as stop:  # a library that ends the process must not look like an answer
+        raise RuntimeError(f"a library called exit({stop.code!r})") from stop
+
+
+def _refuse_of_poses(**options: Any) -> None:
+    """Of many poses a report has counts and no evidence."""
+    for name in ("certificate", "explain", "cross_check"):
+        if options[name]:
+            option = name.replace("_", "-")
+            raise click.UsageError(f"--{option} takes one pose, and several are given")
+
+
+def _check_poses(
+    scene: Scene, poses: Sequence[Pose], settings: Settings, seed: int | None
+) -> Samples:
+    with Bar("poses") as bar:
+        return replace(check_poses(scene, poses, settings, progress=bar), seed=seed)
+
+
+def _render(
+    result: Report | Samples, form: str, page: Page, *, explain: bool, timings: bool
+) -> str | list[str]:
+    if isinstance(result, Samples):
+        if form == "json":
+            return json_document(result.to_dict(timings))
+        from satcheck.cli.report.samples import render as render_samples
+
+        return render_samples(result, page)
+    if form == "json":
+        return render_json(result, timings=timings)
+    from satcheck.cli.report.table import render as render_table
+
+    return render_table(result, page, explain=explain, timings=timings)
+
+
+def _tell(result: Report | Samples, scene: Scene, output: Path | None, *, debug: bool) -> None:
+    """Errors of the run on stderr; with -o also the warnings, the summary, where the report is."""
+    for trace in result.tracebacks if debug else ():
+        talk(trace.rstrip())
+    told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
+    for issue in result.issues:
+        if issue.severity == "error" and (issue.code, issue.body, issue.message) not in told:
+            talk(f"satcheck: {issue_line(issue)}")
+    if output is None:
+        return
+    if isinstance(result, Samples):
+        summary = samples_line(result)
+    else:
+        summary = summary_line(result)
+        warnings = [issue for issue in result.issues if issue.severity == "warning"]
+        for issue in warnings[:WARNINGS]:
+            talk(f"satcheck: {issue_line(issue)}")
+        if len(warnings) > WARNINGS:
+            talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
+    talk(f"{summary} Report: {output}")

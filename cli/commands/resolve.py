@@ -7,22 +7,42 @@ from typing import Any
 
 import click
 
-from satcheck.cli.commands.options import (
+from satcheck.audit import Report, Settings, check
+from satcheck.audit.resolve import Resolution, proof_of, resolve
+from satcheck.cli import exit_codes
+from satcheck.cli.inputs import Inputs, load, poses_of, refuse_early
+from satcheck.cli.options import (
     HELP_NAMES,
     Command,
     debug_option,
+    form_of,
     form_option,
+    in_units_of,
     jobs_option,
+    length,
     open_option,
     output_option,
     outside_option,
+    package_option,
     paths_argument,
+    settings_of,
     split_option,
+    tolerance_option,
     units_option,
 )
-from satcheck.cli.commands.robots import package_option
-from satcheck.cli.lengths import length
-from satcheck.cli.output import form_of
+from satcheck.cli.output import Document, Page, talk, write_file
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.words import issue_line
+from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import frozen, replace
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.loader import is_mesh, is_rules
+from satcheck.scene.moved_file import moved_scene_file, scene_file_of, stray_mesh
+from satcheck.scene.robot import posed
+from satcheck.scene.units import Length
+
+SCENE_SUFFIXES = frozenset({".json", ".toml"})
 
 
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
@@ -45,12 +65,7 @@ from satcheck.cli.output import form_of
     type=length,
     help="The gap to leave between bodies. [default: none, they may touch]",
 )
-@click.option(
-    "--tolerance",
-    type=length,
-    help="Call it touching when the depth is at most this. "
-    "[default: the precision of the input files]",
-)
+@tolerance_option
 @click.option("--max-motion", type=length, help="Move no body farther than this.")
 @click.option(
     "--iterations",
@@ -78,7 +93,16 @@ from satcheck.cli.output import form_of
 @units_option
 @outside_option
 @debug_option
-def command(debug: bool, pose: tuple[str, ...], state: tuple[str, ...], **options: Any) -> int:
+def command(
+    form: str | None,
+    output: Path | None,
+    moved: Path | None,
+    pins: tuple[str, ...],
+    max_motion: Length | None,
+    iterations: int,
+    debug: bool,
+    **options: Any,
+) -> int:
     """Move the bodies of a scene apart, by short translations.
 
     SCENE is a scene file or mesh files, with or without robots. Static and pinned bodies stay, and
@@ -90,14 +114,125 @@ def command(debug: bool, pose: tuple[str, ...], state: tuple[str, ...], **option
     input, or an internal error; 3, nothing is known to overlap, but not everything could be
     checked.
     """
-    from satcheck.cli.posing import Posing
-    from satcheck.cli.resolving import Choices, run
-
     del debug
-    output = options["output"]
-    if options["form"] is None and output is not None and output.suffix.lower() == ".toml":
+    inputs = Inputs.taken_from(options)
+    if form is None and output is not None and output.suffix.lower() == ".toml":
         raise click.UsageError(
             f"-o {output}: the report is no TOML; --moved {output} writes the moved scene"
         )
-    options["form"] = form_of(options["form"], options["output"])
-    return run(Choices(**options, posing=Posing(pose, state)))
+    form = form_of(form, output)
+    refuse_early(inputs, output)
+    target = _target(inputs, moved, output)
+    document = Document()
+    scene = _posed(load(inputs), inputs)
+    stray = _stray(target, scene, allow_outside=inputs.allow_outside)
+    settings = settings_of(options, scene)
+    if max_motion is not None:
+        farthest = in_units_of(max_motion, scene.units, "--max-motion")
+    else:
+        farthest = None
+    with Bar() as bar:
+        result = resolve(
+            scene, settings, pins=pins, max_motion=farthest, iterations=iterations, progress=bar
+        )
+    if moved is not None:
+        _write_moved(moved, target, scene, result)
+        result = replace(result, report=_checked(moved, target, settings, inputs))
+    document.deliver(lambda page: _render(result, form, page, moved), output, utf8=form == "json")
+    if stray is not None:
+        talk(f"note: to read {moved} give --allow-outside, because of {stray}")
+    summary = result.report.summary
+    return exit_codes.of_verdict(summary.verdict, result.report.issues, exit_zero=False)
+
+
+@frozen
+class _Target:
+    """Where the moved scene goes, and what it is made from.
+
+    path: None: it is not written. rules: inputs beside others that state rules alone. scene: the
+    scene file, where one is all that was given, but for rules; None for mesh files.
+    """
+
+    path: Path | None
+    rules: tuple[str, ...]
+    scene: str | None
+
+
+def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
+    """What cannot be written is said before any work is done."""
+    if moved is not None:
+        refuse_early(inputs, moved, option="--moved")
+        if output is not None and output.absolute() == moved.absolute():
+            raise click.UsageError("--moved and -o name the same file")
+    rules = tuple(filter(is_rules, inputs.paths)) if len(inputs.paths) > 1 else ()
+    bodies = [path for path in inputs.paths if path not in rules]
+    alone = len(bodies) == 1 and Path(bodies[0]).suffix.lower() in SCENE_SUFFIXES
+    target = _Target(moved, rules, bodies[0] if alone else None)
+    if moved is None:
+        return target
+    wanted = {Path(bodies[0]).suffix.lower()} if alone else set(SCENE_SUFFIXES)
+    if not alone and not all(map(is_mesh, bodies)):
+        raise click.UsageError(
+            "--moved needs one scene file, or mesh files alone: links of robots are not moved"
+        )
+    if moved.suffix.lower() not in wanted:
+        known = " or ".join(sorted(wanted))
+        raise click.UsageError(f"--moved {moved}: this scene is written as a {known} file")
+    return target
+
+
+def _posed(scene: Scene, inputs: Inputs) -> Scene:
+    if not inputs.has_poses:
+        return scene
+    pose = poses_of(scene, inputs)
+    if isinstance(pose, list):
+        raise click.UsageError("resolve takes one pose, which places the links")
+    return posed(scene, pose)
+
+
+def _stray(target: _Target, scene: Scene, *, allow_outside: bool) -> str | None:
+    """A mesh outside of the folder of the file to write, which names it; UsageError unless
+    allow_outside."""
+    if target.path is None:
+        return None
+    stray = stray_mesh(target.scene, target.path, scene)
+    if stray is not None and not allow_outside:
+        raise click.UsageError(
+            f"--moved {target.path}: {stray} lies outside of its folder: write it into a folder "
+            "that contains the meshes, or add --allow-outside"
+        )
+    return stray
+
+
+def _write_moved(path: Path, target: _Target, scene: Scene, result: Resolution) -> None:
+    translations = {move.body: move.translation for move in result.moves}
+    if target.scene is not None:
+        write_file(path, moved_scene_file(target.scene, path, translations))
+    else:
+        write_file(path, scene_file_of(path, scene, translations))
+
+
+def _checked(path: Path, target: _Target, settings: Settings, inputs: Inputs) -> Report:
+    """The file as anybody would check it, beside the rules given; errors of reading are told. What
+    cannot be read is not left behind."""
+    try:
+        scene = load_scene(
+            [str(path), *target.rules], units=inputs.units, allow_outside=inputs.allow_outside
+        )
+    except SatcheckError:
+        path.unlink(missing_ok=True)
+        raise
+    report = check(scene, proof_of(settings))
+    for issue in report.issues:
+        if issue.severity == "error":
+            talk(f"satcheck: {issue_line(issue)}")
+    return report
+
+
+def _render(result: Resolution, form: str, page: Page, moved: Path | None) -> str:
+    output = str(moved) if moved else None
+    if form == "json":
+        return json_document(result.to_dict(output))
+    from satcheck.cli.report.resolution import render
+
+    return render(result, page, output)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import click
 
-from satcheck.cli.commands.options import HELP_NAMES, Command
+from satcheck.cli.options import HELP_NAMES, Command
+from satcheck.cli.output import Document
+from satcheck.cli.report.schema import text
 
 DOCUMENTS = (
     "report",
@@ -26,7 +28,4 @@ def command(document: str) -> None:
     report is that of a check, samples that of a robot in many poses, resolution that of resolve,
     suggestions that of suggest, verification that of verify.
     """
-    from satcheck.cli.output import Document
-    from satcheck.cli.report.schema import text
-
     Document().write(text(document), utf8=True)

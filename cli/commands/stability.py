@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
 
-from satcheck.cli.commands.options import (
+from satcheck.audit import Settings
+from satcheck.cli import exit_codes
+from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.options import (
     HELP_NAMES,
     Command,
     debug_option,
+    form_of,
     form_option,
     output_option,
     outside_option,
     paths_argument,
     units_option,
 )
-from satcheck.cli.output import form_of
+from satcheck.cli.output import Document, Page
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.json import document as json_document
+from satcheck.studies.stability import Stability, probe
+
+_EXIT_CODES = {
+    "stable": exit_codes.CLEAN,
+    "changed": exit_codes.FINDINGS,
+    "undecided": exit_codes.INCOMPLETE,
+}
 
 
 @click.command("stability", cls=Command, context_settings=HELP_NAMES)
@@ -44,7 +58,16 @@ from satcheck.cli.output import form_of
 @units_option
 @outside_option
 @debug_option
-def command(debug: bool, **options: Any) -> int:
+def command(
+    form: str | None,
+    output: Path | None,
+    samples: int,
+    seed: int,
+    depth: bool,
+    explain: bool,
+    debug: bool,
+    **options: Any,
+) -> int:
     """Ask the same question in other ways: does the answer stay?
 
     The mesh files A and B are scaled by powers of two, stored in another order of vertices and
@@ -54,8 +77,27 @@ def command(debug: bool, **options: Any) -> int:
     Exit codes: 0, everything is within its bound; 1, something is not; 2, wrong usage, an
     unreadable input, or an internal error; 3, something could not be decided.
     """
-    from satcheck.cli.stability import Choices, run
-
     del debug
-    options["form"] = form_of(options["form"], options["output"])
-    return run(Choices(**options))
+    inputs = Inputs.taken_from(options)
+    form = form_of(form, output)
+    if len(inputs.paths) != 2:
+        raise click.UsageError(f"give two mesh files, not {len(inputs.paths)}")
+    refuse_early(inputs, output)
+    document = Document()
+    scene = load(inputs)
+    if scene.unreadable:
+        raise click.ClickException("an input could not be used: there is no pair to ask about")
+    with Bar("variants") as bar:
+        result = probe(scene, samples, seed, Settings(depth=depth), progress=bar)
+    document.deliver(
+        lambda page: _render(result, form, page, explain=explain), output, utf8=form == "json"
+    )
+    return _EXIT_CODES[result.verdict]
+
+
+def _render(result: Stability, form: str, page: Page, *, explain: bool) -> str:
+    if form == "json":
+        return json_document(result.to_dict())
+    from satcheck.cli.report.stability import render
+
+    return render(result, page, explain=explain)

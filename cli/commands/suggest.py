@@ -7,18 +7,31 @@ from typing import Any
 
 import click
 
-from satcheck.cli.commands.options import (
+from satcheck.audit.suggest import Suggestions, suggest
+from satcheck.cli import exit_codes
+from satcheck.cli.inputs import Inputs, load, poses_of, refuse_early
+from satcheck.cli.options import (
     HELP_NAMES,
     Command,
     debug_option,
     output_option,
     outside_option,
+    package_option,
     paths_argument,
     planar_option,
+    pose_options,
+    settings_of,
     split_option,
     units_option,
 )
-from satcheck.cli.commands.robots import POSE_OPTIONS, package_option, pose_options
+from satcheck.cli.output import Document, talk
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.suggest import chosen, remark, srdf, toml
+from satcheck.cli.report.words import issue_line
+from satcheck.core.frozen import replace
+from satcheck.scene import Scene
+from satcheck.scene.robot import Pose, posed
 
 FORMATS = ("toml", "json", "srdf")
 
@@ -50,7 +63,7 @@ def _form_of(output: Path | None) -> str:
 @package_option
 @pose_options
 @debug_option
-def command(debug: bool, **options: Any) -> int:
+def command(form: str | None, output: Path | None, never: bool, debug: bool, **options: Any) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
     These are the pairs in contact as they are placed, and links of a robot with a joint between
@@ -61,10 +74,54 @@ def command(debug: bool, **options: Any) -> int:
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
     error; 3, something could not be decided.
     """
-    from satcheck.cli.posing import Posing
-    from satcheck.cli.suggesting import Choices, run
-
     del debug
-    options["form"] = options["form"] or _form_of(options["output"])
-    options["posing"] = Posing(*(options.pop(name) for name in POSE_OPTIONS))
-    return run(Choices(**options))
+    inputs = Inputs.taken_from(options)
+    form = form or _form_of(output)
+    refuse_early(inputs, output)
+    document = Document()
+    scene = load(inputs)
+    if form == "srdf" and len(scene.robots) != 1:
+        raise click.UsageError("SRDF is about one robot: give one URDF")
+    result = _suggest(scene, inputs, options)
+    pairs = chosen(result, never=never)
+    text = {
+        "json": lambda: json_document(result.to_dict()),
+        "srdf": lambda: srdf(result, pairs, scene.robots[0].robot.name),
+        "toml": lambda: toml(result, pairs),
+    }[form]()
+    document.deliver(lambda _: text, output, utf8=True)
+    told = {issue.code for issue in scene.issues}
+    errors = [issue for issue in result.issues if issue.severity == "error"]
+    for issue in errors:
+        if issue.code not in told:
+            talk(f"satcheck: {issue_line(issue)}")
+    talk(remark(result, pairs, never=never))
+    if form == "srdf" and pairs:
+        talk("An SRDF has one line for two links: it covers all pairs of their bodies.")
+    if errors:
+        return exit_codes.ERROR
+    return exit_codes.INCOMPLETE if result.undecided else exit_codes.CLEAN
+
+
+def _suggest(scene: Scene, inputs: Inputs, options: dict[str, Any]) -> Suggestions:
+    placed, poses = _poses(scene, inputs)
+    if placed:
+        scene = posed(scene, placed)
+    held = tuple(placed) if inputs.sample else ()
+    settings = settings_of(options, scene)
+    with Bar("poses") as bar:
+        return suggest(scene, settings, poses, inputs.random_seed, progress=bar, held=held)
+
+
+def _poses(scene: Scene, inputs: Inputs) -> tuple[Pose, list[Pose]]:
+    """(as the robots are placed, the other poses to look at). The pose that --sample starts from
+    places them too; a list of poses does not."""
+    if not inputs.has_poses:
+        return {}, []
+    poses = poses_of(scene, inputs)
+    if not isinstance(poses, list):
+        return poses, []
+    fixed = replace(inputs, pose=inputs.pose if inputs.sample else (), sample=None, seed=None)
+    placed = poses_of(scene, fixed)
+    assert not isinstance(placed, list)  # --sample takes no list
+    return placed, poses

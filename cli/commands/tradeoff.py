@@ -7,10 +7,13 @@ from typing import Any
 
 import click
 
-from satcheck.cli.commands.options import (
+from satcheck.cli import exit_codes
+from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.options import (
     HELP_NAMES,
     Command,
     debug_option,
+    form_of,
     form_option,
     output_option,
     outside_option,
@@ -18,7 +21,13 @@ from satcheck.cli.commands.options import (
     split_option,
     units_option,
 )
-from satcheck.cli.output import form_of
+from satcheck.cli.output import Document, Page, write_file
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.png import EXTRA, is_available, png
+from satcheck.studies.tradeoff import Tradeoff, tradeoff
+
+PLOTS = (".svg", ".png", ".html")
 
 
 @click.command("tradeoff", cls=Command, context_settings=HELP_NAMES)
@@ -59,7 +68,16 @@ from satcheck.cli.output import form_of
 @units_option
 @outside_option
 @debug_option
-def command(debug: bool, **options: Any) -> int:
+def command(
+    form: str | None,
+    output: Path | None,
+    repeat: int,
+    budget: float,
+    pairs: int,
+    plot: Path | None,
+    debug: bool,
+    **options: Any,
+) -> int:
     """What accuracy costs in time: every rung of the ladder on one pair.
 
     Boxes, oriented boxes, hulls, convex parts from coarse to fine, triangles and the Boolean of
@@ -69,8 +87,51 @@ def command(debug: bool, **options: Any) -> int:
     Exit codes: 0, every rung has answered; 2, wrong usage, an unreadable input, or an internal
     error; 3, a rung failed or was not run, or the truth is not known.
     """
-    from satcheck.cli.tradeoff import Choices, run
-
     del debug
-    options["form"] = form_of(options["form"], options["output"])
-    return run(Choices(**options))
+    inputs = Inputs.taken_from(options)
+    form = form_of(form, output)
+    refuse_early(inputs, output)
+    _refuse_plot(inputs, plot, output)
+    document = Document()
+    scene = load(inputs)
+    if scene.unreadable:
+        raise click.ClickException("an input could not be used: nothing is compared without it")
+    with Bar("runs") as bar:
+        result = tradeoff(scene, repeat=repeat, budget=budget, pairs=pairs, progress=bar)
+    if plot:
+        _write_plot(result, plot)
+    document.deliver(lambda page: _render(result, form, page), output, utf8=form == "json")
+    return exit_codes.CLEAN if result.complete else exit_codes.INCOMPLETE
+
+
+def _refuse_plot(inputs: Inputs, plot: Path | None, output: Path | None) -> None:
+    """What cannot be drawn is said before any work is done."""
+    if plot is None:
+        return
+    if plot.suffix.lower() not in PLOTS:
+        raise click.UsageError(f"--plot {plot}: drawn as {', '.join(PLOTS[:-1])} or {PLOTS[-1]}")
+    if plot.suffix.lower() == ".png" and not is_available():
+        raise click.UsageError(
+            f"--plot {plot}: a PNG needs more libraries: pip install 'satcheck[{EXTRA}]'"
+        )
+    refuse_early(inputs, plot, option="--plot")
+    if output is not None and plot.absolute() == output.absolute():
+        raise click.UsageError("--plot and -o name the same file")
+
+
+def _write_plot(result: Tradeoff, path: Path) -> None:
+    from satcheck.cli.report.tradeoff_plot import page, svg
+
+    form = path.suffix.lower()
+    if form == ".png":
+        write_file(path, png(svg(result.pairs)))
+    else:
+        write_file(path, svg(result.pairs) if form == ".svg" else page(result.pairs))
+
+
+def _render(result: Tradeoff, form: str, page: Page) -> str:
+    if form == "json":
+        return json_document(result.to_dict())
+    from satcheck.cli.report.tradeoff import render
+
+    return render(result, page)

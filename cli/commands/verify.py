@@ -2,20 +2,45 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import click
 
-from satcheck.cli.commands.options import (
+from satcheck._version import __version__
+from satcheck.cli import exit_codes
+from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.options import (
     HELP_NAMES,
     Command,
     debug_option,
+    form_of,
     form_option,
     output_option,
     outside_option,
 )
-from satcheck.cli.output import form_of
+from satcheck.cli.output import Document, harmless, talk
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.words import counted
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.loading.regular_file import size_of
+from satcheck.verify import Checked, Rejected, Verification, parse, verify
+from satcheck.verify.document import Outcome
+
+SCHEMA = "satcheck.verification/1"
+MOST_BYTES = 1 << 30
+# At most this many files that are not there are named.
+MOST_NAMED = 3
+# Outcomes that are not "accepted", in the words of the last line.
+_CALLED: dict[Outcome, str] = {
+    "rejected": "rejected",
+    "not certified": "not certified",
+    "open": "indeterminate",
+    "no file": "not checked, as files are missing",
+}
 
 
 @click.command("verify", cls=Command, context_settings=HELP_NAMES)
@@ -31,7 +56,14 @@ from satcheck.cli.output import form_of
 @output_option
 @outside_option
 @debug_option
-def command(debug: bool, **options: Any) -> int:
+def command(
+    report: Path,
+    root: Path,
+    form: str | None,
+    output: Path | None,
+    allow_outside: bool,
+    debug: bool,
+) -> int:
     """Re-check the certificates of a report from the mesh files.
 
     satcheck --certificate -o REPORT.json A B writes such a report. Its verdicts are checked in
@@ -41,8 +73,117 @@ def command(debug: bool, **options: Any) -> int:
     Exit codes: 0, every verdict is accepted; 1, a verdict is rejected or not certified; 2, wrong
     usage, an unreadable report, no certificate in it, a missing mesh file, or an internal error.
     """
-    from satcheck.cli.verifying import Choices, run
-
     del debug
-    options["form"] = form_of(options["form"], options["output"])
-    return run(Choices(**options))
+    form = form_of(form, output)
+    refuse_early(Inputs((str(report),)), output)
+    document = Document()
+    content = _read(report)
+    try:
+        with Bar() as bar:
+            result = verify(content, root, bar, allow_outside=allow_outside)
+    except Rejected as why:
+        raise SatcheckError("bad-report", f"{report}: {why}") from None
+    text = json_document(_values(result)) if form == "json" else _table(result)
+    document.deliver(lambda _: text, output, utf8=form == "json")
+    if result.missing:
+        talk(f"satcheck: {_missing(result, root)}")
+    if not result.certified:
+        talk(f"satcheck: {report}: no certificates: was it made with --certificate?")
+        return exit_codes.ERROR
+    if result.missing and not result.rejected:
+        return exit_codes.ERROR
+    return exit_codes.CLEAN if result.accepted else exit_codes.FINDINGS
+
+
+def _read(report: Path) -> Any:
+    try:
+        if size_of(report) > MOST_BYTES:
+            raise SatcheckError("bad-report", "too large")
+        text = report.read_text("utf-8")
+    except SatcheckError as error:
+        raise SatcheckError(error.code, error.message, file=str(report)) from None
+    except OSError as error:
+        raise SatcheckError("unreadable-file", f"{report}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise SatcheckError("bad-report", f"{report}: not UTF-8") from None
+    try:
+        return parse(text)
+    except Rejected as why:
+        raise SatcheckError("bad-report", f"{report}: {why}") from None
+
+
+def _values(result: Verification) -> dict[str, Any]:
+    return {
+        "schema": SCHEMA,
+        "tool": {"name": "satcheck", "version": __version__},
+        "accepted": result.accepted and result.certified,
+        "findings": [asdict(finding) for finding in result.findings],
+        "faults": list(result.faults),
+        "not_certified": list(result.beyond),
+        "pruned": result.pruned,
+        "exempt": result.exempt,
+        "missing": list(result.missing),
+        "not_covered": [asdict(field) for field in result.uncovered],
+    }
+
+
+def _missing(result: Verification, root: Path) -> str:
+    first = ", ".join(result.missing[:MOST_NAMED])
+    more = len(result.missing) - MOST_NAMED
+    files = first + (f" and {more:,} more" if more > 0 else "")
+    return (
+        f"{counted(len(result.missing), 'file is', 'files are')} missing below {root.absolute()}: "
+        f"{files}; --root names the folder where the check ran"
+    )
+
+
+def _table(result: Verification) -> str:
+    """What was not accepted, line by line, and a sentence about all."""
+    unsaid = ("accepted", "no file")  # a line on stderr speaks of all files
+    lines = [_line(finding) for finding in result.findings if finding.outcome not in unsaid]
+    lines += [f"rejected: {fault}" for fault in result.faults]
+    lines += [f"not certified: {what}" for what in result.beyond]
+    lines.append(_summary(result))
+    lines += _not_covered(result)
+    return "".join(f"{harmless(line)}\n" for line in lines)
+
+
+def _not_covered(result: Verification) -> Iterator[str]:
+    """The fields that are not proven, by the names that readers know."""
+    for title, kinds in (
+        ("Taken as stated", ("stated",)),
+        ("Not covered", ("not covered", "certified")),
+    ):
+        names: dict[str, int] = {}
+        for field in result.uncovered:
+            if field.kind in kinds:
+                names[field.called] = max(names.get(field.called, 0), field.findings or 0)
+        if names:
+            named = (f"{name} ({count:,})" if count else name for name, count in names.items())
+            yield f"{title}: {', '.join(named)}."
+
+
+def _line(finding: Checked) -> str:
+    return f"{finding.outcome}: {finding.a} and {finding.b}, {finding.relation}: {finding.reason}"
+
+
+def _summary(result: Verification) -> str:
+    accepted = [f for f in result.findings if f.outcome == "accepted"]
+    parts = [f"{counted(len(accepted), 'verdict')} accepted"]
+    for outcome, called in _CALLED.items():
+        if count := sum(f.outcome == outcome for f in result.findings):
+            parts.append(f"{count:,} {called}")
+    if result.faults:
+        parts.append(f"{counted(len(result.faults), 'fault')} in the rest of the report")
+    if result.pruned:
+        parts.append(f"{counted(result.pruned, 'pair')} apart by their boxes")
+    if result.exempt:
+        parts.append(f"{counted(result.exempt, 'pair')} exempt by the scene, not checked")
+    depths, moves = sum(f.depth for f in accepted), sum(f.mtv for f in accepted)
+    proven = [
+        counted(count, *words)
+        for count, words in ((depths, ("depth",)), (moves, ("way out", "ways out")))
+        if count
+    ]
+    extra = f" Proven besides: {', '.join(proven)}." if proven else ""
+    return ", ".join(parts) + "." + extra

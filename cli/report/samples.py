@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
 from typing import TYPE_CHECKING
 
 from rich import box
@@ -12,7 +11,7 @@ from rich.text import Text
 
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.summary import doubts, nothing_checked
+from satcheck.cli.report.summary import samples_line
 from satcheck.cli.report.words import counted, depth, in_motion, issue_line, with_unit
 from satcheck.scene.units import unit_of
 
@@ -54,37 +53,8 @@ def render(found: Samples, page: Page) -> str:
             console.print(issue_line(issue))
     for line in _remarks(found.samples):
         console.print(line)
-    console.print(summary_line(found))
+    console.print(samples_line(found))
     return console.text()
-
-
-def summary_line(found: Samples) -> str:
-    """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail. 9 pairs overlap.`"""
-    kind = "pose" if found.seed is None else "random pose"
-    seed = "" if found.seed is None else f" (seed {found.seed})"
-    verdicts = Counter(sample.verdict for sample in found.samples)
-    one = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
-    many = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
-    parts = [
-        f"{count:,} {one[verdict] if count == 1 else many[verdict]}"
-        for verdict in ("pass", "fail", "incomplete")
-        if (count := verdicts[verdict])
-    ]
-    line = (
-        f"{counted(len(found.samples), kind)}{seed}, "
-        f"{counted(len(found.bodies), 'body', 'bodies')}, "
-        f"{counted(found.counts.total, 'pair')}"
-        f"{f', {found.counts.allowed:,} allowed' if found.counts.allowed else ''}"
-        f"{f', {found.counts.exempt:,} more exempt' if found.counts.exempt else ''}"
-        f": {', '.join(parts)}."
-    )
-    overlapping = sum(pair.overlaps > 0 for pair in found.pairs)
-    if overlapping:
-        verb = "overlaps" if overlapping == 1 else "overlap"
-        line += f" {counted(overlapping, 'pair')} {verb}."
-    elif found.verdict == "pass":
-        line += " No collision."
-    return " ".join([line, *nothing_checked(found.issues), *doubts(found.issues)])
 
 
 def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Table:

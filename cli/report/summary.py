@@ -22,6 +22,7 @@ from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from satcheck.audit.report.report import Finding, Issue, Report
+    from satcheck.audit.samples import Samples
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
@@ -52,6 +53,35 @@ def summary_line(report: Report, *, offers_depth: bool = True) -> str:
             *doubts(report.issues),
         ]
     )
+
+
+def samples_line(result: Samples) -> str:
+    """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail. 9 pairs overlap.`"""
+    kind = "pose" if result.seed is None else "random pose"
+    seed = "" if result.seed is None else f" (seed {result.seed})"
+    verdicts = Counter(sample.verdict for sample in result.samples)
+    one = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
+    many = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
+    parts = [
+        f"{count:,} {one[verdict] if count == 1 else many[verdict]}"
+        for verdict in ("pass", "fail", "incomplete")
+        if (count := verdicts[verdict])
+    ]
+    line = (
+        f"{counted(len(result.samples), kind)}{seed}, "
+        f"{counted(len(result.bodies), 'body', 'bodies')}, "
+        f"{counted(result.counts.total, 'pair')}"
+        f"{f', {result.counts.allowed:,} allowed' if result.counts.allowed else ''}"
+        f"{f', {result.counts.exempt:,} more exempt' if result.counts.exempt else ''}"
+        f": {', '.join(parts)}."
+    )
+    overlapping = sum(pair.overlaps > 0 for pair in result.pairs)
+    if overlapping:
+        verb = "overlaps" if overlapping == 1 else "overlap"
+        line += f" {counted(overlapping, 'pair')} {verb}."
+    elif result.verdict == "pass":
+        line += " No collision."
+    return " ".join([line, *nothing_checked(result.issues), *doubts(result.issues)])
 
 
 def nothing_checked(issues: Iterable[Issue]) -> list[str]:

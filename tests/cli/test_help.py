@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import shutil
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
+from satcheck.cli.commands import COMMANDS
 from satcheck.cli.report.schema import text
 from tests.cli.process import (
     SAMPLES,
@@ -34,6 +36,12 @@ def test_help_advertises_what_exists() -> None:
         assert word in ran.out
     for later in ("batch", "view"):
         assert f"satcheck {later}" not in ran.out
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_says_of_each_command_what_its_own_help_says(name: str) -> None:
+    own = import_module(f"satcheck.cli.commands.{name}").command
+    assert own.get_short_help_str(limit=200) == COMMANDS[name]
 
 
 def test_usage_errors_name_the_command_as_typed() -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 import pytest
 
-from satcheck.cli import tradeoff
+from satcheck.cli.commands.tradeoff import command
 from satcheck.cli.report import png as drawing
 from tests.cli.process import PUSHED, satcheck
 
@@ -42,18 +42,7 @@ def test_without_the_extra_nothing_runs_and_the_way_to_get_it_is_told(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr(drawing, "find_spec", lambda name: None if name == "resvg_py" else object())
-    choices = tradeoff.Choices(
-        paths=tuple(map(str, PUSHED)),
-        form="table",
-        output=None,
-        repeat=1,
-        budget=1.0,
-        pairs=1,
-        plot=tmp_path / "plot.png",
-        split=None,
-        units=None,
-        allow_outside=False,
-    )
+    plot = tmp_path / "plot.png"
     with pytest.raises(click.UsageError, match=r"pip install 'satcheck\[png\]'"):
-        tradeoff.run(choices)
-    assert not choices.plot or not choices.plot.exists()
+        command.main([*PUSHED, "--plot", str(plot)], standalone_mode=False)
+    assert not plot.exists()

@@ -1,0 +1,142 @@
+"""What a command reads: the options that say which files and how, and the scene they give."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, Self
+
+import click
+
+from satcheck.cli.commands import COMMANDS
+from satcheck.cli.output import cannot_write, talk
+from satcheck.cli.report.words import issue_line
+from satcheck.core import keep_freed_memory
+from satcheck.core.frozen import fields, frozen
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.loader import is_mesh
+from satcheck.scene.robot import Pose, joint_samples, pose_of_states, read_poses
+from satcheck.scene.scene_builder import Split
+
+
+@frozen
+class Inputs:
+    """The values of options, each under the name of its option."""
+
+    paths: tuple[str, ...]
+    packages: Mapping[str, Path] | None = None
+    split: Split | None = None
+    units: str | None = None
+    allow_outside: bool = False
+    pose: tuple[str, ...] = ()
+    state: tuple[str, ...] = ()
+    sample: int | None = None
+    seed: int | None = None
+
+    @classmethod
+    def taken_from(cls, options: dict[str, Any]) -> Self:
+        """Removes its own options from `options` and leaves the others."""
+        names = [name for name in fields(cls) if name in options]
+        return cls(**{name: options.pop(name) for name in names})
+
+    @property
+    def has_poses(self) -> bool:
+        return bool(self.pose or self.state or self.sample or self.seed is not None)
+
+    @property
+    def random_seed(self) -> int | None:
+        """Of the random poses, if there are any."""
+        return (self.seed or 0) if self.sample else None
+
+
+def refuse_early(inputs: Inputs, output: Path | None, option: str = "-o") -> None:
+    """What can be seen to fail before any work is done. option: that names the output."""
+    if not inputs.paths:
+        raise click.UsageError("give two or more mesh files, or a scene file")
+    if output is None:
+        return
+    if not output.absolute().parent.is_dir():
+        raise cannot_write(str(output), "its folder does not exist")
+    if any(_is_same_file(output, path) for path in (*inputs.paths, *inputs.pose)):
+        raise click.UsageError(f"{option} {output} would overwrite an input")
+
+
+def _is_same_file(output: Path, path: str) -> bool:
+    try:
+        return output.samefile(path)
+    except OSError:  # one of them does not exist yet
+        return output.absolute() == Path(path).absolute()
+
+
+def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
+    """The bodies; inputs that cannot be used are told on stderr.
+
+    hashed: whether the document states the SHA-256 of files. least: how many bodies are needed.
+    UsageError for fewer, and for a split of what says itself what its bodies are; ClickException
+    where no input is left.
+    """
+    paths = inputs.paths
+    if inputs.split and not any(map(is_mesh, paths)):
+        raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
+    keep_freed_memory()
+    scene = load_scene(
+        paths,
+        split=inputs.split,
+        packages=inputs.packages,
+        allow_outside=inputs.allow_outside,
+        units=inputs.units,
+        hashed=hashed,
+    )
+    for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
+        talk(f"satcheck: {issue_line(issue)}")
+    _hint(paths[0])
+    if len(scene.bodies) + len(scene.unreadable) < least:
+        if scene.unreadable:
+            raise click.ClickException("an input could not be used: there is no pair to check")
+        what = "one body alone cannot collide" if scene.bodies else "there is no body"
+        raise click.UsageError(f"{what}: {_advice(inputs)}")
+    return scene
+
+
+def _advice(inputs: Inputs) -> str:
+    mesh = next(filter(is_mesh, inputs.paths), None)
+    if mesh is None:
+        return f"give mesh files beside {inputs.paths[0]}, or a scene of two bodies"
+    if inputs.split == "components":
+        return f"{mesh} is one connected component"
+    others = "--split components makes a body of each connected component"
+    return f"give two or more mesh files, or a scene file; {others}"
+
+
+def _hint(first: str) -> None:
+    """The first word is a path unless it names a command; a misspelt command is a missing path."""
+    if "." in first or Path(first).exists():
+        return
+    for name in get_close_matches(first, COMMANDS, n=1):
+        talk(f"satcheck: did you mean the command `satcheck {name}`?")
+
+
+def poses_of(scene: Scene, inputs: Inputs) -> list[Pose] | Pose:
+    """A pose, or a list of poses where several or random ones are given, even if it has only one.
+
+    UsageError for a combination that makes no sense; what is wrong with a pose is a SatcheckError.
+    """
+    if not scene.robots:
+        raise click.UsageError("there is no robot to pose: give a URDF")
+    if inputs.seed is not None and not inputs.sample:
+        raise click.UsageError("--seed chooses among random poses: add --sample N")
+    base = pose_of_states(scene, inputs.state)
+    given = [read_poses(text) for text in inputs.pose]
+    if inputs.sample:
+        if len(given) > 1 or any(isinstance(poses, list) for poses in given):
+            raise click.UsageError(
+                "--sample draws random poses: give one --pose at most, whose joints stay"
+            )
+        held = {**base, **(given[0] if given and not isinstance(given[0], list) else {})}
+        robots = [robot.robot for robot in scene.robots]
+        return joint_samples(robots, inputs.sample, inputs.random_seed or 0, held)
+    if len(given) == 1 and not isinstance(given[0], list):
+        return {**base, **given[0]}
+    listed = [pose for poses in given for pose in (poses if isinstance(poses, list) else [poses])]
+    return [{**base, **pose} for pose in listed] if listed else base

@@ -1,0 +1,234 @@
+"""The options that several commands share, each spelled here once. Those named like a field of
+`audit.Settings` set that field; their defaults are those of the fields."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+from click.shell_completion import CompletionItem
+
+from satcheck.audit import Settings
+from satcheck.cli.output import Document
+from satcheck.core.conventions import PLANES
+from satcheck.scene import Scene
+from satcheck.scene.units import MICROMETRES, Length, parse_length
+
+FORMATS = ("table", "json")
+SPLITS = ("nodes", "components", "none")
+HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
+DEFAULTS = Settings()
+# Documents of other kinds, by the end of their names.
+_NO_REPORTS = frozenset(
+    {".html", ".htm", ".svg", ".png", ".pdf", ".xml", ".sarif", ".csv", ".toml", ".yaml"}
+)
+_STANDARD_OUTPUT = Path("-")
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+
+class Command(click.Command):
+    """Its help is a document like any other: when it cannot be written, that is said."""
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        return _written(super().get_help_option(ctx))
+
+
+class Group(click.Group):
+    """The same of a group of commands, and of those in it."""
+
+    command_class = Command
+
+    def get_help_option(self, ctx: click.Context) -> click.Option | None:
+        return _written(super().get_help_option(ctx))
+
+
+def _written(option: click.Option | None) -> click.Option | None:
+    if option is not None:
+        option.callback = _show_help
+    return option
+
+
+def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and not ctx.resilient_parsing:
+        Document().write(f"{ctx.get_help()}\n")
+        ctx.exit()
+
+
+def form_of(form: str | None, output: Path | None) -> str:
+    """The format: as given, else as the name of the output file says.
+
+    Raises click.UsageError for a name that promises what no report is.
+    """
+    suffix = output.suffix.lower() if output else ""
+    if form is None and suffix in _NO_REPORTS:
+        raise click.UsageError(
+            f"{output}: a report is JSON or a table: name it .json, or give --format table"
+        )
+    return form or ("json" if suffix == ".json" else "table")
+
+
+def length(text: str) -> Length:
+    """A click parameter type; click.BadParameter for what is not a length."""
+    try:
+        return parse_length(text)
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def in_units_of(value: Length, declared: str | None, option: str) -> float:
+    """The length in the declared units of the scene; click.UsageError if they are unknown."""
+    try:
+        return value.in_units_of(declared)
+    except ValueError as error:
+        raise click.UsageError(f"{option} {error}, or state the unit with --units") from None
+
+
+def settings_of(options: Mapping[str, Any], scene: Scene) -> Settings:
+    """options: values of fields of Settings; a Length is converted to the units of the scene."""
+    values: dict[str, Any] = {
+        name: in_units_of(value, scene.units, f"--{name.replace('_', '-')}")
+        if isinstance(value, Length)
+        else value
+        for name, value in options.items()
+    }
+    return Settings(**values)
+
+
+def _file_or_nothing(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
+    return None if path == _STANDARD_OUTPUT else path
+
+
+def _complete_paths(ctx: click.Context, _: click.Parameter, start: str) -> list[CompletionItem]:
+    """Files, and before the first of them the names of the commands."""
+    files = [CompletionItem(start, type="file")]
+    group = ctx.parent.command if ctx.parent else None
+    if not start or ctx.params.get("paths") or not isinstance(group, click.Group):
+        return files
+    names = [name for name in group.list_commands(ctx) if name.startswith(start)]
+    return files + [CompletionItem(name) for name in names]
+
+
+def _packages(_: click.Context, __: click.Parameter, texts: tuple[str, ...]) -> dict[str, Path]:
+    packages: dict[str, Path] = {}
+    for text in texts:
+        name, _equals, folder = text.partition("=")
+        if not name or not folder:
+            raise click.BadParameter(f"{text!r} should be NAME=DIR")
+        if not Path(folder).is_dir():
+            raise click.BadParameter(f"{folder!r} is no folder")
+        packages[name] = Path(folder)
+    return packages
+
+
+def paths_argument(metavar: str) -> Callable[[_Command], _Command]:
+    return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
+
+
+form_option = click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    help="How to report. [default: table; json where the name after -o ends in .json]",
+)
+output_option = click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
+    metavar="FILE",
+    callback=_file_or_nothing,
+    help="Write the result to FILE; - is standard output.",
+)
+outside_option = click.option(
+    "--allow-outside",
+    is_flag=True,
+    help="Read files that lie outside of the folder of the scene, robot or glTF file that names "
+    "them.",
+)
+split_option = click.option(
+    "--split",
+    type=click.Choice(SPLITS),
+    help="What a body is: a node of a GLB, glTF, 3MF or 3DXML file, a connected component, or a "
+    "whole file. [default: nodes for one file alone, otherwise none]",
+)
+planar_option = click.option(
+    "--planar",
+    type=click.Choice(PLANES),
+    default=DEFAULTS.planar,
+    help="Check the outlines of bodies in this plane: flat layouts, SVG and DXF drawings too.",
+)
+units_option = click.option(
+    "--units",
+    type=click.Choice(tuple(MICROMETRES)),
+    help="The unit of length of the inputs that state none: OBJ, STL, PLY, OFF, XAML, a scene "
+    "without `units`.",
+)
+tolerance_option = click.option(
+    "--tolerance",
+    type=length,
+    default=DEFAULTS.tolerance,
+    help="Call it touching when gap or depth is at most this. "
+    "[default: the precision of the input files]",
+)
+open_option = click.option(
+    "--allow-open",
+    is_flag=True,
+    default=DEFAULTS.allow_open,
+    help="Meshes that are not closed are meant to be open: their open parts are sheets, which have "
+    "no inside, and not solids with holes.",
+)
+jobs_option = click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(min=0),
+    metavar="N",
+    default=DEFAULTS.jobs,
+    show_default=True,
+    help="Threads; 0 is one per core. Changes no answer.",
+)
+debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")
+package_option = click.option(
+    "--package",
+    "packages",
+    multiple=True,
+    metavar="NAME=DIR",
+    callback=_packages,
+    help="The folder of the ROS package NAME that a URDF names; NAME can also be a folder in a "
+    "package (arm/meshes). Repeatable.",
+)
+_POSE_OPTIONS = (
+    click.option(
+        "--pose",
+        multiple=True,
+        metavar="FILE",
+        help='Values of joints, {"joint": value}: a JSON file, or the text; radians, metres. '
+        "Several poses, or a list of them, are checked one by one. Joints that are not named are "
+        "at 0, or at the limit nearest to 0.",
+    ),
+    click.option(
+        "--state",
+        multiple=True,
+        metavar="NAME",
+        help="A state that the SRDF names. Several are combined; --pose overrides them.",
+    ),
+    click.option(
+        "--sample",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="Check N random poses within the limits; joints in --pose and --state stay.",
+    ),
+    click.option(
+        "--seed",
+        type=click.IntRange(min=0),
+        metavar="N",
+        help="Which random poses: the same seed draws the same poses.  [default: 0]",
+    ),
+)
+
+
+def pose_options(command: _Command) -> _Command:
+    """Adds the options that pose robots, in their order."""
+    for option in reversed(_POSE_OPTIONS):
+        command = option(command)
+    return command
