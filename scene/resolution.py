@@ -6,10 +6,16 @@ import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from satcheck.scene.loading.raw_mesh import RawMesh
+    from satcheck.scene.loading.raw_mesh import Precision, RawMesh
 
-FLOAT32_STEP = 2.0**-23  # spacing of float32 numbers relative to their power of two
+FLOAT16_STEP = 2.0**-10  # spacing of float16 numbers relative to their power of two
+FLOAT32_STEP = 2.0**-23  # the same of float32
 FLOAT64_ROUNDING = 2.0**-53  # largest relative error of rounding to float64
+STEPS: dict[Precision, float] = {
+    "float16": FLOAT16_STEP,
+    "float32": FLOAT32_STEP,
+    "float64": FLOAT64_ROUNDING,
+}
 
 
 def placement_step(raw: RawMesh, *, by_file: bool) -> float:
@@ -24,18 +30,16 @@ def placement_step(raw: RawMesh, *, by_file: bool) -> float:
 def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
     """The input's own precision, in file units.
 
-    max_coordinate: largest |coordinate| of the mesh. float32 formats: the spacing of float32 there.
-    float64 formats: half the spacing of float64 there. Written digits: half a unit of the last
+    max_coordinate: largest |coordinate| of the mesh. float16, float32: the spacing of these there.
+    float64: half the spacing of float64 there. Written digits: half a unit of the last
     digit of the most precise number, between these two. A number with an exponent shows digits
     relative to its own size, so its digits are counted down from the largest coordinate: the
     -4.4e-08 that stands for 0 in many files does not promise eight decimals.
     """
+    if raw.precision in STEPS:
+        return max_coordinate * STEPS[raw.precision]
     float32 = max_coordinate * FLOAT32_STEP
     float64 = max_coordinate * FLOAT64_ROUNDING
-    if raw.precision == "float32":
-        return float32
-    if raw.precision == "float64":
-        return float64
     decimals = raw.decimals
     if raw.significant > 0 and max_coordinate > 0.0:
         leading = math.floor(math.log10(max_coordinate))

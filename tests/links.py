@@ -11,6 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LINKS = ROOT / "build" / "links"
+PACKAGE = ROOT / "api" / "satcheck"  # its own files, beside the rooms
 ROOMS = ("cli", "studies", "audit", "verify", "scene", "decompose", "core")
 
 
@@ -19,13 +20,14 @@ def make_links(folder: Path) -> None:
     package = folder / "satcheck"
     package.mkdir(parents=True, exist_ok=True)
     (package / "_version.py").write_text('__version__ = "0"\n', encoding="utf-8")
-    for room in ROOMS:
-        link = package / room
-        if link.is_symlink():
+    for source in (*PACKAGE.glob("*.py"), *(ROOT / room for room in ROOMS)):
+        link = package / source.name
+        if link.is_symlink() or link.is_file():
             link.unlink()
         elif link.exists():
             shutil.rmtree(link)
         try:
-            link.symlink_to(ROOT / room, target_is_directory=True)
+            link.symlink_to(source, target_is_directory=source.is_dir())
         except OSError:
-            shutil.copytree(ROOT / room, link)
+            copy = shutil.copytree if source.is_dir() else shutil.copy
+            copy(source, link)

@@ -7,7 +7,7 @@ from typing import Literal
 from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 
-Precision = Literal["written-digits", "float32", "float64"]
+Precision = Literal["written-digits", "float16", "float32", "float64"]
 Block = bytes | memoryview
 NO_SURFACE = "no-surface"  # the code of a mesh of lines or points alone
 Matrix = tuple[float, ...]  # row-major 4x4 for column vectors

@@ -1,0 +1,53 @@
+"""Two meshes in memory in, one finding out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.check import DEFAULT_SETTINGS, check
+from satcheck.audit.report.report import Finding
+from satcheck.core.errors import SatcheckError
+from satcheck.core.frozen import replace
+from satcheck.scene.meshes import MeshLike, scene_of_meshes
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+
+def check_meshes(
+    a: MeshLike,
+    b: MeshLike,
+    *,
+    pose_a: ArrayLike | None = None,
+    pose_b: ArrayLike | None = None,
+    settings: Settings = DEFAULT_SETTINGS,
+) -> Finding:
+    """How two meshes in memory relate, how deep they overlap, and the shortest way out.
+
+    a, b: an object with `vertices` and `faces` (or `triangles`), such as a trimesh.Trimesh, or a
+    pair (vertices, faces). vertices: (n, 3), any integer or float type, one unit of length for
+    both meshes. faces: (m, 3), any integer type, counter-clockwise seen from outside.
+    pose_a, pose_b: rigid 4x4 matrices for column vectors, world = pose * (x, y, z, 1); None: the
+    vertices are world coordinates.
+
+    This is `check` of two files that hold these meshes: the same steps and the same verdicts, to
+    the precision of the array types. Useful fields of the finding, world frame:
+
+    - relation: "separated", "near", "touching", "penetrating", "contains" (b in a), "inside" (a in
+      b), "coincident", or "indeterminate" with a `reason`.
+    - distance: the gap, >= 0, of bodies that do not overlap; None where nobody asks for it: a gap
+      larger than settings.clearance is not measured.
+    - depth and depth_bounds of bodies that overlap; mtv: the translation that frees a, verified.
+    - quality: "exact", "bounded" (depth lies within depth_bounds) or "estimate" (not proven).
+
+    Raises SatcheckError: `bad-argument` for arrays and poses of another form, for indices out of
+    range, for coordinates that are not finite and for poses that are not rigid; the code of a mesh
+    file for a mesh that cannot be used, such as `only-degenerate`; `bad-setting` for certificates,
+    which name files.
+    """
+    if settings.certificate:
+        raise SatcheckError("bad-setting", "certificate: certificates name files; write the meshes")
+    scene = scene_of_meshes({"a": a, "b": b}, {"a": pose_a, "b": pose_b})
+    (finding,) = check(scene, replace(settings, list_pruned=True)).findings
+    return finding
