@@ -7,6 +7,9 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.asked.effects import effects_of
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Asked, Planner
@@ -29,7 +32,6 @@ from satcheck.audit.summary import (
     truncated_of,
 )
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
@@ -42,8 +44,7 @@ DEFAULT_SETTINGS = Settings()
 Progress = Callable[[int, int], None]
 
 
-@frozen
-class Examined:
+class Examined(Struct, frozen=True):
     finding: Finding
     asked: Asked
     issues: tuple[Issue, ...] = ()

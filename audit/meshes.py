@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.report.report import Finding
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.scene.meshes import MeshLike, scene_of_meshes
 
 if TYPE_CHECKING:

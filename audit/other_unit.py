@@ -10,12 +10,13 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
+from msgspec.structs import replace
+
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.report.contact_report import Contacts, Vector
 from satcheck.audit.report.motion_report import Interval, Place, Sweep, WorstPose
 from satcheck.audit.report.report import BodyReport, Finding, Issue, Report, Stage, Witness
 from satcheck.audit.summary import health_values
-from satcheck.core.frozen import replace
 from satcheck.core.power_of_two import held_times_power, limit_times_power
 from satcheck.scene import Scene
 from satcheck.scene.mesh_units import placing_file, shape_of_file

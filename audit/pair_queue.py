@@ -12,9 +12,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from typing import TYPE_CHECKING, Generic, TypeVar
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
-from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -33,8 +34,7 @@ BATCH_PAIRS = 256
 BATCH_TRIANGLES = 250_000
 
 
-@frozen
-class Steps(Generic[C, T]):
+class Steps(Struct, Generic[C, T], frozen=True):
     """What is done about pairs. start_climbs(pairs, threads): about a batch at once; the call that
     it returns waits for what was found. examine(pair, climb): one by one. leaves_work(pair, climb):
     whether that takes time."""
@@ -44,8 +44,7 @@ class Steps(Generic[C, T]):
     leaves_work: Callable[[Pair, C], bool]
 
 
-@frozen
-class InTurn:
+class InTurn(Struct, frozen=True):
     """jobs: threads, 0 for one a core. keep: what is made of the bodies, for another check."""
 
     jobs: int

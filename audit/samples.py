@@ -7,6 +7,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
+from msgspec import Struct, to_builtins
+from msgspec.structs import replace
+
 from satcheck.audit.asked.rule_book import RuleBook
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.roster import Known
@@ -24,7 +27,6 @@ from satcheck.audit.report.report import (
     Tool,
     Verdict,
 )
-from satcheck.core.frozen import as_dict, frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -35,8 +37,7 @@ SCHEMA = "satcheck.samples/1"
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 
-@frozen
-class Sample:
+class Sample(Struct, frozen=True):
     """One pose. number: from 1. findings: the pairs that are not plainly separated there, at rest
     and on the way."""
 
@@ -87,8 +88,7 @@ class PairTally:
             self.undecided += 1
 
 
-@frozen
-class Samples:
+class Samples(Struct, frozen=True):
     """What `check_poses` found.
 
     pairs: of every asked pair, in the order of the bodies, those that never met included. counts:
@@ -140,11 +140,11 @@ class Samples:
                 {"id": body.id, "file": body.file, "sha256": body.sha256, "shape": body.shape}
                 for body in self.bodies
             ],
-            "exempt": as_dict(self.exempt),
+            "exempt": to_builtins(self.exempt),
             "rules": [report_values.rule(rule) for rule in self.rules],
             "samples": [_sample_values(sample, timings) for sample in self.samples],
-            "pairs": [as_dict(pair) for pair in self.pairs if not pair.settled],
-            "issues": [as_dict(issue) for issue in self.issues],
+            "pairs": [to_builtins(pair) for pair in self.pairs if not pair.settled],
+            "issues": [to_builtins(issue) for issue in self.issues],
         }
 
 
@@ -227,7 +227,7 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
         "pose": sample.posture.pose(),
         "verdict": sample.verdict,
         "findings": report_values.plain(sample.findings, None if timings else TIME),
-        "issues": [as_dict(issue) for issue in sample.issues],
+        "issues": [to_builtins(issue) for issue in sample.issues],
     }
 
 

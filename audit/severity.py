@@ -11,17 +11,18 @@ from collections.abc import Iterator, Mapping
 from math import inf
 from typing import Any
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.asked.planner import Asked
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Relation, Severity, Undecided
 from satcheck.audit.tolerances import EXACT_WIDTH, is_within
-from satcheck.core.frozen import frozen, replace
 
 CLEARANCE_RULE = "clearance"
 
 
-@frozen
-class Judgement:
+class Judgement(Struct, frozen=True):
     """A severity, the rule that decided it, and what was left open, with the reason."""
 
     severity: Severity
@@ -139,8 +140,7 @@ def _limited(known: Mapping[str, Any], asked: Asked) -> Judgement:
     return Judgement("note", ", ".join(dict.fromkeys(limit.rule for limit in limits)))
 
 
-@frozen
-class _Limit:
+class _Limit(Struct, frozen=True):
     """What the pair has is between least and greatest (None: not known), and may have at most
     `most`."""
 

@@ -8,10 +8,12 @@ from collections.abc import Callable, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.bodies.roster import Known
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
-from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.audit.asked.settings import Settings
@@ -26,8 +28,7 @@ Why = Literal["adjacent", "always", "contact", "never"]
 Names = tuple[str, str]
 
 
-@frozen
-class Suggestion:
+class Suggestion(Struct, frozen=True):
     """One pair that no rule allows, ids in the order of the bodies.
 
     links: that carry them; None: not of one robot. relation: as placed; None: "never" needs none.
@@ -43,8 +44,7 @@ class Suggestion:
     contacts: int | None = None
 
 
-@frozen
-class Unchecked:
+class Unchecked(Struct, frozen=True):
     """One pair that no rule allows and of which the check as placed could not say how it relates,
     so that it is not suggested. adjacent: a joint connects the links. reason: why it could not."""
 
@@ -55,8 +55,7 @@ class Unchecked:
     reason: str
 
 
-@frozen
-class Undecided:
+class Undecided(Struct, frozen=True):
     """A pair, and the first reason why something about it was not decided."""
 
     a: str
@@ -64,8 +63,7 @@ class Undecided:
     reason: str
 
 
-@frozen
-class Suggestions:
+class Suggestions(Struct, frozen=True):
     """poses: how many others were checked; seed: of random ones. held: joints that did not move
     among them. undecided: pairs of which something was not decided, and why. may_meet: links of
     which some bodies met in some of the poses, or may have.

@@ -26,7 +26,6 @@ from satcheck.audit.report.report import (
     Verdict,
 )
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import fields
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
@@ -100,7 +99,7 @@ def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
 
 
 def health_values(health: MeshHealth) -> Health:
-    return {name: _finite(getattr(health, name)) for name in fields(health)}
+    return {name: _finite(getattr(health, name)) for name in health.__struct_fields__}
 
 
 def _lost_report(body: Lost) -> BodyReport:

@@ -8,20 +8,19 @@ from pathlib import Path
 from typing import Any, Self
 
 import click
+from msgspec import Struct
 
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.report.words import issue_line
 from satcheck.core import keep_freed_memory
-from satcheck.core.frozen import fields, frozen
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.loader import is_mesh
 from satcheck.scene.robot import Pose, joint_samples, pose_of_states, read_poses
 from satcheck.scene.scene_builder import Split
 
 
-@frozen
-class Inputs:
+class Inputs(Struct, frozen=True):
     """The values of options, each under the name of its option."""
 
     paths: tuple[str, ...]
@@ -37,7 +36,7 @@ class Inputs:
     @classmethod
     def taken_from(cls, options: dict[str, Any]) -> Self:
         """Removes its own options from `options` and leaves the others."""
-        names = [name for name in fields(cls) if name in options]
+        names = [name for name in cls.__struct_fields__ if name in options]
         return cls(**{name: options.pop(name) for name in names})
 
     @property

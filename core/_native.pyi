@@ -598,6 +598,3 @@ def least_gap(
     pad: float,
     slack: float,
 ) -> MotionAnswer: ...
-def make_by_fields(
-    cls: type, given: tuple[str, ...], defaults: dict[str, Any], by_place: int
-) -> None: ...

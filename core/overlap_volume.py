@@ -7,17 +7,17 @@ import math
 from types import TracebackType
 from typing import Final
 
+from msgspec import Struct
+
 from satcheck.core._native import Mesh
 from satcheck.core.blocks import pack_blocks
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
 from satcheck.core.worker import Worker, WorkerError
 
 _SERVER: Final = "satcheck.core.manifold_server"
 
 
-@frozen
-class OverlapVolume:
+class OverlapVolume(Struct, frozen=True):
     """volume: in float64. error: what moving both surfaces by the tolerance of the Boolean changes
     at most; an estimate of how far off it is, not a proof."""
 

@@ -19,7 +19,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Final
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 DIRECTORY_VARIABLE: Final = "SATCHECK_CACHE_DIR"
 _SUBDIRECTORY: Final = "decompositions"  # the user's directory may hold other things: never touched
@@ -30,8 +30,7 @@ _HEADER: Final = struct.Struct("<8s32s32s")  # magic, key, SHA-256 of the payloa
 _MAGIC: Final = b"SATPARTS"
 
 
-@frozen
-class CacheInfo:
+class CacheInfo(Struct, frozen=True):
     """path: where the entries are; bytes: their total size."""
 
     path: Path

@@ -6,8 +6,9 @@ import hashlib
 import time
 from typing import Final
 
+from msgspec.structs import replace
+
 from satcheck.core import Mesh, Polytope
-from satcheck.core.frozen import replace
 from satcheck.decompose import errors
 from satcheck.decompose.cache import Cache
 from satcheck.decompose.errors import DecompositionError

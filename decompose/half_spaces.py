@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from msgspec import Struct
 
 from satcheck.core import Mesh
-from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,8 +22,7 @@ _CENTRE_STEPS: Final = 200
 _CENTRE_STEP_RATIO: Final = 0.95  # of one step to the one before: the last is 4e-5 of the size
 
 
-@frozen
-class HalfSpaces:
+class HalfSpaces(Struct, frozen=True):
     """normals: (f, 3), unit, outward; offsets: (f,); size: of the body, the unit of NOISE."""
 
     normals: Floats

@@ -5,9 +5,10 @@ from __future__ import annotations
 import struct
 from typing import Final
 
+from msgspec import Struct
+
 from satcheck.core import Mesh, Polytope
 from satcheck.core.blocks import pack_blocks, unpack_blocks
-from satcheck.core.frozen import frozen
 from satcheck.decompose.settings import DecompositionSettings
 
 NOT_SOLID: Final = "decomposition-not-solid"
@@ -19,16 +20,14 @@ _NUMBERS: Final = struct.Struct("<ddd")
 _COUNTS: Final = struct.Struct("<QQ")
 
 
-@frozen
-class Note:
+class Note(Struct, frozen=True):
     """Something a reader of the result should know; `code` is stable."""
 
     code: str
     message: str
 
 
-@frozen
-class Decomposition:
+class Decomposition(Struct, frozen=True):
     """A mesh as convex parts, in the mesh's frame and units, with their measured error.
 
     parts: solid convex polytopes. They over- and under-cover the mesh: nothing about the mesh

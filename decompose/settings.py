@@ -5,15 +5,15 @@ from __future__ import annotations
 import struct
 from typing import Final, Self
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.decompose.errors import BAD_SETTING, DecompositionError
 
 _SEED_LIMIT: Final = 1 << 32  # CoACD's seed is a C unsigned int
 _LAYOUT: Final = struct.Struct("<dIIII")
 
 
-@frozen
-class DecompositionSettings:
+class DecompositionSettings(Struct, frozen=True):
     """CoACD's parameters.
 
     threshold: the concavity at which it stops splitting, in CoACD's own measure, 0 < t <= 1. Parts

@@ -5,9 +5,10 @@ from __future__ import annotations
 from math import frexp
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
@@ -24,8 +25,7 @@ Transform = tuple[float, ...]
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
 
-@frozen
-class MeshFile:
+class MeshFile(Struct, frozen=True):
     """One mesh file, flattened into one mesh in file units, or one mesh of it.
 
     path: as given, with "/". sha256: of the file's bytes; None: not needed. format: "obj",
@@ -59,8 +59,7 @@ class MeshFile:
     exponent: int = 0
 
 
-@frozen
-class Body:
+class Body(Struct, frozen=True):
     """A mesh file, or a primitive shape, placed in the world.
 
     transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1) for a point of the
@@ -100,8 +99,7 @@ class Body:
         return resolution_in_world(self.file, self.transform, max(map(abs, (*low, *high))))
 
 
-@frozen
-class Unreadable:
+class Unreadable(Struct, frozen=True):
     """A body that could not be loaded, and why."""
 
     id: str
@@ -112,8 +110,7 @@ class Unreadable:
     static: bool = False
 
 
-@frozen
-class Scene:
+class Scene(Struct, frozen=True):
     """Everything that was asked to be checked, in the order given.
 
     order: the ids of bodies and unreadable ones together, in the order given.

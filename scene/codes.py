@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 Severity = Literal["error", "warning", "note"]
 
 
-@frozen
-class Code:
+class Code(Struct, frozen=True):
     """One kind of finding about an input."""
 
     name: str

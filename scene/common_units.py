@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal
 
-from satcheck.core.frozen import frozen, replace
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body, Transform
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.units import MICROMETRES, is_unit, ratio, stated_unit, unit_in
@@ -34,8 +36,7 @@ class Input:
         self.ids: list[str] = []
 
 
-@frozen
-class InOneUnit:
+class InOneUnit(Struct, frozen=True):
     """bodies: in the common unit, those whose unit is known. unit: the common one; None: no input
     states any. label: what the lengths of all bodies are in; None: unknown, or not all in one.
     scales: path of a scene -> how many common units one of its units is. issues: about all this."""

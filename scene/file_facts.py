@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from satcheck.core.frozen import replace
+from msgspec.structs import replace
+
 from satcheck.scene.bodies import Body
 from satcheck.scene.issue import Issue
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from msgspec import Struct
+
 from satcheck.core import Inspection, Mesh, Topology, inspect, inspect_bytes, with_cracks_closed
-from satcheck.core.frozen import frozen
 from satcheck.core.power_of_two import held_times_power
 from satcheck.scene.errors import MeshFileError
 
 
-@frozen
-class MeshHealth:
+class MeshHealth(Struct, frozen=True):
     """The mesh as read, welded. Edges are counted where triangles meet.
 
     closed: every edge has an even number of triangles, once cracks are closed. manifold: exactly
@@ -47,8 +47,7 @@ class MeshHealth:
     solid: bool
 
 
-@frozen
-class Examined:
+class Examined(Struct, frozen=True):
     """A welded mesh, wound outward where that could be decided, and what was found on the way.
 
     topology: before the repair. warnings: (code, message).

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.codes import CODES, Severity
 
 
-@frozen
-class Issue:
+class Issue(Struct, frozen=True):
     """A finding about an input. `code` is one of `codes.CODES` and decides the severity.
 
     body: id of the body concerned; file: path as given. Either may be None.

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
+from msgspec.structs import replace
+
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene, Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import mesh_file

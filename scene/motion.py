@@ -14,8 +14,10 @@ import math
 from collections import Counter
 from itertools import pairwise
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen, replace
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -23,8 +25,7 @@ Quaternion = tuple[float, float, float, float]
 NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
-@frozen
-class Translation:
+class Translation(Struct, frozen=True):
     """M(t) moves by t * vector. vector: world, may be zero."""
 
     vector: Vector
@@ -33,8 +34,7 @@ class Translation:
         _require_finite("the vector of a translation", self.vector, 3)
 
 
-@frozen
-class Rotation:
+class Rotation(Struct, frozen=True):
     """M(t) turns by t * degrees about the line through `point` along `axis`, world.
 
     Right-handed: seen with the axis pointing at the eye, positive degrees turn counter-clockwise.
@@ -53,8 +53,7 @@ class Rotation:
             raise _refused("the axis of a rotation must not be zero")
 
 
-@frozen
-class Waypoint:
+class Waypoint(Struct, frozen=True):
     """A rigid pose: world = turn(orientation) * (x, y, z) + position, (x, y, z) as placed.
 
     time: in [0, 1]. orientation: a quaternion (x, y, z, w) of any length but zero.
@@ -72,8 +71,7 @@ class Waypoint:
             raise _refused("the orientation of a waypoint must not be zero")
 
 
-@frozen
-class PosePath:
+class PosePath(Struct, frozen=True):
     """M(t) runs through the waypoints, the first at time 0, the last at time 1.
 
     Between two of them the position is interpolated along a line and the orientation along the
@@ -95,8 +93,7 @@ class PosePath:
 Path = Translation | Rotation | PosePath
 
 
-@frozen
-class Motion:
+class Motion(Struct, frozen=True):
     """Bodies that move together, rigidly, along one path. bodies: their ids, each once."""
 
     bodies: tuple[str, ...]

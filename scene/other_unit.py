@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.core.power_of_two import (
     exponent_into_range,
     exponent_of,

@@ -10,8 +10,9 @@ import math
 from array import array
 from collections.abc import Callable, Iterator, Sequence
 
+from msgspec import Struct
+
 from satcheck.core import Mesh
-from satcheck.core.frozen import fields, frozen
 from satcheck.core.power_of_two import times_power
 
 Point = tuple[float, float, float]
@@ -20,8 +21,7 @@ Values = dict[str, str | float | list[float]]
 DEFAULT_SEGMENTS = 64
 
 
-@frozen
-class Box:
+class Box(Struct, frozen=True):
     """size: its whole extent along x, y and z."""
 
     size: Point
@@ -30,8 +30,7 @@ class Box:
         _validate(self)
 
 
-@frozen
-class Sphere:
+class Sphere(Struct, frozen=True):
     """All points at most `radius` from the origin."""
 
     radius: float
@@ -40,8 +39,7 @@ class Sphere:
         _validate(self)
 
 
-@frozen
-class Capsule:
+class Capsule(Struct, frozen=True):
     """All points at most `radius` from a segment of `length`, the caps not counted, along z."""
 
     radius: float
@@ -51,8 +49,7 @@ class Capsule:
         _validate(self)
 
 
-@frozen
-class Cylinder:
+class Cylinder(Struct, frozen=True):
     """height: from one flat end to the other."""
 
     radius: float
@@ -62,8 +59,7 @@ class Cylinder:
         _validate(self)
 
 
-@frozen
-class Cone:
+class Cone(Struct, frozen=True):
     """radius: of its base, at z = -height / 2; the apex is at z = height / 2."""
 
     radius: float
@@ -73,8 +69,7 @@ class Cone:
         _validate(self)
 
 
-@frozen
-class Ellipsoid:
+class Ellipsoid(Struct, frozen=True):
     """radii: along x, y and z."""
 
     radii: Point
@@ -104,14 +99,14 @@ def is_curved(shape: Primitive) -> bool:
 def values_of(shape: Primitive) -> Values:
     """{"type": "box", "size": [x, y, z]} and the like: as a scene file states the shape."""
     values: Values = {"type": type(shape).__name__.lower()}
-    for name in fields(shape):
+    for name in shape.__struct_fields__:
         size = getattr(shape, name)
         values[name] = list(map(float, size)) if name in _TRIPLES else float(size)
     return values
 
 
 def sizes_of(shape: Primitive) -> tuple[float, ...]:
-    sizes = (getattr(shape, name) for name in fields(shape))
+    sizes = (getattr(shape, name) for name in shape.__struct_fields__)
     return tuple(s for size in sizes for s in (size if isinstance(size, tuple) else (size,)))
 
 
@@ -120,7 +115,7 @@ def times_power_of_two(shape: Primitive, exponent: int) -> Primitive | None:
     sizes = times_power(sizes_of(shape), exponent)
     if sizes is None:
         return None
-    values: tuple[object, ...] = (sizes,) if fields(shape)[0] in _TRIPLES else sizes
+    values: tuple[object, ...] = (sizes,) if shape.__struct_fields__[0] in _TRIPLES else sizes
     form: Callable[..., Primitive] = type(shape)
     return form(*values)
 
@@ -134,7 +129,7 @@ def primitive_of(values: object) -> Primitive:
     if form is None:
         raise ValueError(f"type should be one of {', '.join(PRIMITIVES)}, not {kind!r}")
     sizes = {key: value for key, value in values.items() if key != "type"}
-    wanted = fields(form)
+    wanted = form.__struct_fields__
     if sorted(sizes) != sorted(wanted):
         raise ValueError(
             f"a {kind} has {' and '.join(wanted)}, not {', '.join(sizes) or 'nothing'}"
@@ -217,7 +212,7 @@ def _circle(segments: int) -> list[tuple[float, float]]:
 
 
 def _validate(shape: Primitive) -> None:
-    for name in fields(shape):
+    for name in shape.__struct_fields__:
         value = getattr(shape, name)
         wanted = 3 if name in _TRIPLES else 1
         numbers = value if isinstance(value, tuple) else (value,)

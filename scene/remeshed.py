@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck.core import Mesh, sha256
-from satcheck.core.frozen import replace
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.health import examine
 

@@ -12,8 +12,10 @@ import re
 from collections.abc import Collection, Iterator, Sequence
 from typing import Literal, Protocol, TypeVar, get_args
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen, replace
 
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
@@ -44,8 +46,7 @@ class Selectable(Protocol):
 B = TypeVar("B", bound=Selectable)
 
 
-@frozen
-class Selector:
+class Selector(Struct, frozen=True):
     """Bodies by the glob of their ids, "arm/*", or of their groups, "group:links*".
 
     `*` any text, `?` one character, `[abc]` one of these, `[!abc]` one other; case counts. "[*]" is
@@ -111,8 +112,7 @@ class Selector:
         return [body for body in bodies if body.id in ids]
 
 
-@frozen(kw_only=True)
-class Rule:
+class Rule(Struct, frozen=True, kw_only=True):
     """What is asked of the pairs with one body in each selector. None: the rule does not say.
 
     Lengths and volumes are in the units of the scene, absolute.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.primitives import Primitive, Sphere
 
 Vector = tuple[float, float, float]
@@ -13,8 +14,7 @@ UNTURNED: Columns = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _TURN_ROUNDING = 2.0**-47
 
 
-@frozen
-class ShapeImage:
+class ShapeImage(Struct, frozen=True):
     """The points origin + y[0] columns[0] + y[1] columns[1] + y[2] columns[2], in rationals, for y
     in the primitive."""
 

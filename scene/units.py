@@ -6,7 +6,7 @@ import math
 import re
 from functools import lru_cache
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 # Micrometres of one unit: whole numbers, so that a conversion rounds once.
 MICROMETRES = {"um": 1, "mm": 1_000, "cm": 10_000, "m": 1_000_000, "in": 25_400, "ft": 304_800}
@@ -32,8 +32,7 @@ _SAME = 1e-9  # relative: a factor in a few digits is that of the unit
 _LENGTH = r"\s*(\+?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*"
 
 
-@frozen
-class Length:
+class Length(Struct, frozen=True):
     """A length >= 0 as written. unit None: in the units of the files."""
 
     value: float

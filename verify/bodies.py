@@ -220,7 +220,7 @@ def _check_figures(entry: dict[str, Any], shape: Shape, resolution: float) -> No
     """What the report says of the mesh, against the file."""
     file = shape.file
     health = entry.get("health") or {}
-    for name in MeshHealth.__slots__:  # type: ignore[attr-defined]
+    for name in MeshHealth.__struct_fields__:
         value = getattr(file.health, name)
         if isinstance(value, float) and not math.isfinite(value):
             value = None  # as a report says it

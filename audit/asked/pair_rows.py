@@ -7,15 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.rules import Rule
 
 # Which side of a rule a body is on; it may be on both.
 A, B = 1, 2
 
 
-@frozen
-class Kind:
+class Kind(Struct, frozen=True):
     """sides: number of a rule -> on which sides of it the bodies are, in the order of the rules."""
 
     sides: tuple[tuple[int, int], ...]

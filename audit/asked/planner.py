@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.asked.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.report.report import Effect
 from satcheck.audit.tolerances import EXACT_WIDTH
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene.rules import Rule, Severity
 
 # The key by which a rule asks for an effect.
@@ -25,8 +27,7 @@ MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
 
 
-@frozen
-class Asked:
+class Asked(Struct, frozen=True):
     """What is asked about one pair. Lengths and volumes in the units of the scene.
 
     by: effect -> the flags and rules that need it; no entry: none does.

@@ -9,16 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.asked.pair_rows import A, B, Kind, PairRows, ones
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene.rules import KEYS, Rule, Selector
 
 # More pairs of kinds than this are not listed.
 _MOST_KINDS = 1_000_000
 
 
-@frozen
-class Terms:
+class Terms(Struct, frozen=True):
     """Of each key the rule that decides it for a pair, the last that sets it; None: none does."""
 
     allowed: Rule | None = None
@@ -36,8 +37,7 @@ class Terms:
 NO_TERMS = Terms()
 
 
-@frozen
-class Subject:
+class Subject(Struct, frozen=True):
     """A body, as rules see it."""
 
     id: str

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Literal
 
+from msgspec import Struct
+
 from satcheck.core.conventions import PLANES, Plane
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
 
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
 ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
@@ -27,8 +28,7 @@ LISTED_PAIRS = 60
 CONTACT_POINTS = 100_000
 
 
-@frozen
-class Settings:
+class Settings(Struct, frozen=True):
     """Lengths are in the units of the files. None means "not computed" unless said otherwise.
 
     depth: depth and MTV of overlapping pairs; None: of mesh files, and in a scene that places its

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+from msgspec.structs import force_setattr
+
 from satcheck.audit.asked.planner import Asked
 from satcheck.audit.asked.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.bodies.boxes import diagonal, largest_coordinate
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.conventions import axes_of
-from satcheck.core.frozen import derived, frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.cross_check.peers import Peers
@@ -21,8 +23,7 @@ if TYPE_CHECKING:
 _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
 
 
-@frozen
-class Pair:
+class Pair(Struct, frozen=True):
     """tolerance: half width of the touch band, world units. asked_gap: a gap beyond this needs no
     figure, it is neither near nor in the touch band.
 
@@ -43,23 +44,23 @@ class Pair:
     peers: Peers | None = None
     paths: Paths | None = None
     alone: bool = False
-    tolerance: float = derived()
-    asked_gap: float = derived()
-    closer: float = derived()
-    farther: float = derived()
+    tolerance: float = 0.0  # __post_init__ sets it
+    asked_gap: float = 0.0  # __post_init__ sets it
+    closer: float = 0.0  # __post_init__ sets it
+    farther: float = 0.0  # __post_init__ sets it
 
     def __post_init__(self) -> None:
         tolerance = self.asked.tolerance
         if tolerance is None:
             tolerance = self._precision()
-        object.__setattr__(self, "tolerance", tolerance)
+        force_setattr(self, "tolerance", tolerance)
         files = (self.a.body.file, self.b.body.file) if self.settings.planar else ()
         closer = sum((file.deviation for file in files), 0.0)
         farther = sum((file.deviation for file in files if not file.inscribed), 0.0)
         asked_gap = max((self.asked.clearance or 0.0) + closer, tolerance)
-        object.__setattr__(self, "asked_gap", asked_gap)
-        object.__setattr__(self, "closer", closer)
-        object.__setattr__(self, "farther", farther)
+        force_setattr(self, "asked_gap", asked_gap)
+        force_setattr(self, "closer", closer)
+        force_setattr(self, "farther", farther)
 
     def _precision(self) -> float:
         plane = self.settings.planar

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.decompose import Decomposition
 
 
-@frozen
-class Part:
+class Part(Struct, frozen=True):
     """A convex body in the world frame, with its box."""
 
     shape: core.Shape
     bounds: Box
 
 
-@frozen
-class Covering:
+class Covering(Struct, frozen=True):
     """Convex parts that stand for a mesh: they stick out of it by at most `outside`, and it out of
     them by at most `missing`; world units."""
 

@@ -8,11 +8,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic, TypeVar
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.boxes import Box, diagonal, largest_coordinate
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
-from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import resolution_in_world
 
 if TYPE_CHECKING:
@@ -51,8 +52,7 @@ def mesh_key(file: MeshFile) -> MeshKey:
     return file.path, file.sha256 or id(file.mesh), file.part
 
 
-@frozen
-class Work:
+class Work(Struct, frozen=True):
     """What was done for the bodies of one file, counted.
 
     hierarchies: built; refits: fitted again to placed vertices; decompositions: asked for.

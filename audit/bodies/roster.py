@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from itertools import combinations, product
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from satcheck.audit.asked.rule_book import RuleBook, Subject
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.boxes import Box
@@ -17,7 +19,6 @@ from satcheck.audit.bodies.placed_body import (
     world_bounds,
 )
 from satcheck.audit.report.report import Issue
-from satcheck.core.frozen import frozen
 from satcheck.scene import Body
 
 if TYPE_CHECKING:
@@ -25,8 +26,7 @@ if TYPE_CHECKING:
     from satcheck.scene.rules import Rule
 
 
-@frozen
-class Lost:
+class Lost(Struct, frozen=True):
     """A body that takes part in pairs, none of which can be decided."""
 
     id: str
@@ -37,8 +37,7 @@ class Lost:
     static: bool = False
 
 
-@frozen
-class Roster:
+class Roster(Struct, frozen=True):
     """Bodies by index, in the order given: each is either placed or lost. ids follow it, and so
     does the book of rules. units: of the placed ones, None where nobody states any; bodies of
     different ones have no common frame."""

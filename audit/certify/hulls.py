@@ -10,7 +10,8 @@ import math
 from fractions import Fraction
 from typing import Any
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.verify.exact import Point, Vector, cross, dot, nearest_to_origin, sub
 from satcheck.verify.relations import Pair
 
@@ -18,8 +19,7 @@ MOST_EXPANSIONS = 2000
 Vertex = tuple[int, int]  # a_i - b_j
 
 
-@frozen
-class Nearest:
+class Nearest(Struct, frozen=True):
     """point: of the Minkowski difference A - B, next to the origin, on the lattice; weights: of the
     vertex differences that it is made of."""
 
@@ -27,8 +27,7 @@ class Nearest:
     weights: dict[Vertex, Fraction]
 
 
-@frozen
-class Expanded:
+class Expanded(Struct, frozen=True):
     """axis: along which the bodies do not overlap, or overlap least; vertices, faces: the polytope
     around the origin, where there is one."""
 

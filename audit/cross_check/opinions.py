@@ -11,6 +11,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
@@ -18,15 +20,13 @@ from satcheck.audit.cross_check.peers import Peers
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
 
 DISAGREEMENT = "cross-check-disagreement"
 
 Standing = Literal["agrees", "disagrees", "no answer"]
 
 
-@frozen
-class Opinion:
+class Opinion(Struct, frozen=True):
     """theirs: what the peer answered, or why it gave no answer that counts. ours: the same, proven;
     empty where there is nothing to compare."""
 

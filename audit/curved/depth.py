@@ -3,6 +3,8 @@ around it. What frees the outer mesh frees the shape, and no less than frees the
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
@@ -14,7 +16,6 @@ from satcheck.audit.ladder.ladder import settle
 from satcheck.audit.report.report import OVERLAPS, Vector
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.core import Mesh
-from satcheck.core.frozen import replace
 from satcheck.scene.remeshed import remeshed
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from satcheck.audit.bodies.boxes import holds as box_holds
 from satcheck.audit.curved.contact import CLOSE_CONTACT, PROOF, STAGE, TOO_CLOSE
 from satcheck.audit.curved.nesting import holds
@@ -13,7 +15,6 @@ from satcheck.audit.curved.triangles import Nearest, against_triangles
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, scaled
-from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck import core

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck import core
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, ORTHOGONALITY, UNIT_ROUNDOFF
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene.primitives import (
     Capsule,
     Cone,
@@ -23,8 +25,7 @@ Vector = tuple[float, float, float]
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 
-@frozen
-class CurvedShape:
+class CurvedShape(Struct, frozen=True):
     """shape: in its own frame; pose: rigid. slack: no point of the body is farther from where the
     pose puts it than this, world units. primitive: the shape's sizes, scaling folded in. image:
     what the pose and the sizes are rounded from."""

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck import core
-from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from satcheck.audit.bodies.placed_body import PlacedBody
@@ -22,8 +24,7 @@ ORIGIN: Vector = (0.0, 0.0, 0.0)
 Outcome = Literal["separated", "touching", "penetrating", "undecided"]
 
 
-@frozen
-class Signed:
+class Signed(Struct, frozen=True):
     """A signed distance with bounds that hold for the bodies; fields as of core.PairResult.
 
     exact: the outcome does not hang on the width of the bounds.

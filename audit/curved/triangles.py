@@ -6,19 +6,19 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit.curved.shape import CurvedShape
 from satcheck.audit.curved.signed import AT_ORIGIN, ORIGIN, Outcome, Signed, Vector, signed
-from satcheck.core.frozen import frozen, replace
 
 Indices = npt.NDArray[np.int64]
 # The graver first.
 _OUTCOMES: tuple[Outcome, ...] = ("penetrating", "touching", "separated")
 
 
-@frozen
-class Nearest:
+class Nearest(Struct, frozen=True):
     """The triangles of a mesh against a curved shape.
 
     nearest: the signed distance from the shape to the triangles of which that is known, with the

@@ -18,6 +18,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
@@ -33,7 +35,6 @@ from satcheck.audit.severity import keeps
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import axes_of
-from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed

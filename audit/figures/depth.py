@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.verify import Escape, verified_escape
 from satcheck.audit.report.report import Vector, Witness
-from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
     from satcheck.audit.ladder.ladder import Contact
 
 
-@frozen
-class Depth:
+class Depth(Struct, frozen=True):
     """World units: lower <= true depth <= upper.
 
     normal: unit, from A to B, along which A retreats; escape: the translation that was verified,

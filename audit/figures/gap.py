@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
@@ -12,7 +14,6 @@ from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector, Witness
 from satcheck.audit.severity import keeps
 from satcheck.audit.tolerances import rounding_pad
-from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,8 +24,7 @@ if TYPE_CHECKING:
     Compare = Callable[[float], int | None]
 
 
-@frozen
-class Gap:
+class Gap(Struct, frozen=True):
     """The distance, world units: lower <= true distance <= upper (inf: unknown), rounding included.
 
     within: it is at most the tolerance; kept: it is at least the clearance. Where the bounds leave

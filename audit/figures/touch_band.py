@@ -14,6 +14,8 @@ import math
 from time import perf_counter_ns
 from typing import Literal
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
@@ -24,7 +26,6 @@ from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import EXACT_WIDTH, UNIT_ROUNDOFF
 from satcheck.audit.vectors import scaled
-from satcheck.core.frozen import frozen
 
 # A way out that exceeds the tolerance by no more than this factor is tried again as long as that.
 LITTLE_LONGER = 1 + EXACT_WIDTH
@@ -49,8 +50,7 @@ def estimate_is_within(pair: Pair, plan: Plan) -> bool:
 Side = Literal["open", "within", "deeper", "hidden"]
 
 
-@frozen
-class Band:
+class Band(Struct, frozen=True):
     """Whether an overlap is within the tolerance. side: as of core.WayWithin. move: a translation
     of A, at most the tolerance long, after which it is free; None: none was found."""
 

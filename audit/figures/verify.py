@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import math
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import LENGTHENING_ULPS, UNIT_ROUNDOFF
-from satcheck.core.frozen import frozen
 
 FREE = frozenset({"separated", "touching"})
 
 
-@frozen
-class Escape:
+class Escape(Struct, frozen=True):
     """A translation of A, world units. verified: A's mesh, moved, has no common interior with B.
 
     bound: then an upper bound of the depth, its length plus the rounding of A's moved coordinates

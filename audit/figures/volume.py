@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import math
 
+from msgspec import Struct
+
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.tolerances import UNIT_ROUNDOFF, VOLUME_ROUNDOFFS, is_within
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
 
 
-@frozen
-class CommonVolume:
+class CommonVolume(Struct, frozen=True):
     """volume and error: None where refused; refusal: why."""
 
     volume: float | None = None

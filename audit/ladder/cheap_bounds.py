@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.bodies.boxes import box_escape
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
-from satcheck.core.frozen import frozen
 
 
-@frozen
-class WayOut:
+class WayOut(Struct, frozen=True):
     """length: of the nominal translation along -normal; upper: that length rounded outward; by:
     the shapes that it frees."""
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.boxes import Box
@@ -11,7 +13,6 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.report.report import OVERLAPS, Relation
 from satcheck.core.conventions import Plane, axes_of, axis_across
-from satcheck.core.frozen import replace
 
 if TYPE_CHECKING:
     from satcheck.audit.ladder.ladder import Contact

@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.ladder.climb import climb
 from satcheck.audit.report.report import Relation, Vector
 from satcheck.audit.tolerances import rounding_pad
-from satcheck.core.frozen import frozen
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
@@ -32,8 +33,7 @@ RELATION_NAMED: dict[str, Relation] = {
 }
 
 
-@frozen
-class Contact:
+class Contact(Struct, frozen=True):
     """How two bodies relate, without a touch band.
 
     proven: False where a capped ladder or a degenerate contact left it open. overlaps: although it

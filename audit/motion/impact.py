@@ -15,16 +15,16 @@ from __future__ import annotations
 
 import math
 
+from msgspec import Struct
+
 from satcheck.audit.figures.verify import FREE
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.motion.nudges import Nudges
 from satcheck.audit.report.report import OVERLAPS, Finding
-from satcheck.core.frozen import frozen
 
 
-@frozen
-class Impact:
+class Impact(Struct, frozen=True):
     """lower, upper: of the first t at which the bodies overlap by more than the touch band. Before
     lower they do not; at upper they do, None where no overlap was found.
 

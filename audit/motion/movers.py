@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from msgspec import Struct, to_builtins
+
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.motion.swept import swept_box
 from satcheck.audit.motion.track import track_of
 from satcheck.audit.report.report import Issue
-from satcheck.core.frozen import as_dict, frozen
 from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation
 
 
-@frozen
-class Paths:
+class Paths(Struct, frozen=True):
     """How the bodies of a pair move; None: not at all. Not both."""
 
     a: Path | None
@@ -46,7 +46,7 @@ class Movers:
     def values(self) -> tuple[dict[str, Any], ...]:
         """The motions as JSON values: the kind of the path, and what it is made of."""
         return tuple(
-            {"bodies": list(one.bodies), "kind": KINDS[type(one.path)], **as_dict(one.path)}
+            {"bodies": list(one.bodies), "kind": KINDS[type(one.path)], **to_builtins(one.path)}
             for one in self._motions
         )
 

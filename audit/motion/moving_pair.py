@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import ALWAYS, Asked
@@ -16,7 +19,6 @@ from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
 from satcheck.audit.tolerances import TOUCH_FRACTION, UNIT_ROUNDOFF
-from satcheck.core.frozen import frozen, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,8 +37,7 @@ class BudgetSpent(Unanswerable):
         super().__init__("the budget of the sweep was spent")
 
 
-@frozen
-class Obstacle:
+class Obstacle(Struct, frozen=True):
     """time: nothing is in the way for so long, in t. triangles: of A and B, what then is; None
     where nothing is, or where only the hulls were asked."""
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from msgspec.structs import replace
+
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.motion.impact import Impact, first_impact, possible_overlap
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
@@ -15,7 +17,6 @@ from satcheck.audit.motion.worst import (
     least_hull_distance,
 )
 from satcheck.audit.report.motion_report import Place, Relation, Sweep, WorstPose
-from satcheck.core.frozen import replace
 from satcheck.scene.motion import Path, Rotation, Translation
 
 

@@ -11,6 +11,8 @@ import math
 from bisect import bisect_right
 from itertools import pairwise
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.motion.turn import (
@@ -24,7 +26,6 @@ from satcheck.audit.motion.turn import (
     unit,
 )
 from satcheck.audit.tolerances import UNIT_ROUNDOFF
-from satcheck.core.frozen import frozen
 from satcheck.scene.motion import Path, Rotation, Translation
 
 Vector = tuple[float, float, float]
@@ -55,8 +56,7 @@ RATE_ROUNDOFFS = 128
 LEG_ROUNDOFFS = 16
 
 
-@frozen
-class Piece:
+class Piece(Struct, frozen=True):
     """start <= t <= end. centre, velocity: at start, per unit of t. turn: at start; axis, degrees:
     what the body turns by until the end, about the centre, world. pivot: comes to lie there."""
 
@@ -86,8 +86,7 @@ class Piece:
         return self.axis[0] * rate, self.axis[1] * rate, self.axis[2] * rate
 
 
-@frozen
-class Track:
+class Track(Struct, frozen=True):
     """The pieces of a motion, from t = 0 to t = 1 without a hole."""
 
     pieces: tuple[Piece, ...]

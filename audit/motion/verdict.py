@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from msgspec.structs import replace
+
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Asked
 from satcheck.audit.bodies.pair import Pair
@@ -13,7 +15,6 @@ from satcheck.audit.report.motion_report import Sweep
 from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
 from satcheck.audit.severity import Judgement, by_rule, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
-from satcheck.core.frozen import replace
 
 
 def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Finding:

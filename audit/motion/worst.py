@@ -13,6 +13,9 @@ import math
 from collections.abc import Callable
 from itertools import pairwise
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import ALWAYS
 from satcheck.audit.finding import examine
@@ -20,15 +23,13 @@ from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_RE
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.audit.severity import keeps
-from satcheck.core.frozen import frozen, replace
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
 # An interval whose least bound is below this share of the best figure is halved in any case.
 WORTHLESS = 0.5
 
 
-@frozen
-class Worst:
+class Worst(Struct, frozen=True):
     """lower <= least signed distance over the motion <= upper, which is that at `time`."""
 
     time: float

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 Vector = tuple[float, float, float]
 
 
-@frozen
-class Curve:
+class Curve(Struct, frozen=True):
     """A polyline along which the surfaces cross or touch; a closed one does not repeat its start.
 
     It does not branch: curves that meet end there.
@@ -21,8 +20,7 @@ class Curve:
     length: float
 
 
-@frozen
-class Patch:
+class Patch(Struct, frozen=True):
     """A flat polygon in which faces of both surfaces lie.
 
     outlines: the outer one first, then its holes; counter-clockwise about `normal`, the unit normal
@@ -36,8 +34,7 @@ class Patch:
     area: float
 
 
-@frozen
-class ContactTotals:
+class ContactTotals(Struct, frozen=True):
     """Everything there is, listed or not."""
 
     curves: int = 0
@@ -48,8 +45,7 @@ class ContactTotals:
     triangle_pairs: int = 0
 
 
-@frozen
-class Contacts:
+class Contacts(Struct, frozen=True):
     """The common points of two surfaces: curves by falling length, patches by falling area, points.
 
     triangle_pairs: a triangle of A and one of B that have a common point, by their numbers.

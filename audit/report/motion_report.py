@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 Interval = tuple[float, float]
 Relation = Literal["separated", "near", "touching", "penetrating", "indeterminate"]
 
 
-@frozen
-class Place:
+class Place(Struct, frozen=True):
     """How far a body has come, in its motion's own terms: degrees turned, the length moved, or t on
     a path of poses."""
 
@@ -26,8 +25,7 @@ class Place:
         return {"body": self.body, "term": self.term, "value": self.value + 0.0}
 
 
-@frozen
-class WorstPose:
+class WorstPose(Struct, frozen=True):
     """The deepest pose of bodies that overlap, else the nearest. distance, depth: proven bounds of
     the least distance, or the greatest depth, over the whole motion; the end that is worse is
     bounded, the other is reached at `time`. One of the two is None."""
@@ -46,8 +44,7 @@ class WorstPose:
         }
 
 
-@frozen
-class Sweep:
+class Sweep(Struct, frozen=True):
     """A pair over its whole motion.
 
     relation: the worst of it. `separated`: no common point at any t; `near`: closer than the

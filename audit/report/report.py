@@ -11,9 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
+from msgspec import Struct
+
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.contact_report import Vector as Vector
-from satcheck.core.frozen import frozen
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
@@ -65,14 +66,12 @@ SIZES_DIFFER = "sizes-differ"
 OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
 
 
-@frozen
-class Tool:
+class Tool(Struct, frozen=True):
     name: str
     version: str
 
 
-@frozen
-class PairCounts:
+class PairCounts(Struct, frozen=True):
     """total = pruned + decided + allowed + indeterminate.
 
     Pruned: the world boxes are apart by more than was asked about. Allowed: the scene permits
@@ -93,8 +92,7 @@ class PairCounts:
         return self.total - self.allowed
 
 
-@frozen
-class Summary:
+class Summary(Struct, frozen=True):
     """by_relation counts every pair that is not allowed; pruned pairs count as separated.
 
     surfaces_only: the pairs of which one body may come to lie in the other while they move, as what
@@ -114,24 +112,21 @@ class Summary:
     disputed: int = 0
 
 
-@frozen
-class Truncated:
+class Truncated(Struct, frozen=True):
     """What `findings` leaves out: how many pairs, and why."""
 
     pairs: int
     reason: str
 
 
-@frozen
-class PartError:
+class PartError(Struct, frozen=True):
     """Proven upper bounds, world units: how far parts stick out of the mesh, and it out of them."""
 
     outside: float
     missing: float
 
 
-@frozen(kw_only=True)
-class BodyReport:
+class BodyReport(Struct, frozen=True, kw_only=True):
     """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
 
     An unreadable body has None everywhere but id, name and file. `sha256` is None, too, where the
@@ -164,8 +159,7 @@ class BodyReport:
     part_error: PartError | None
 
 
-@frozen
-class Stage:
+class Stage(Struct, frozen=True):
     """One step of a pair's plan: what ran, what it found, what it cost, why it settled nothing."""
 
     stage: str
@@ -174,16 +168,14 @@ class Stage:
     detail: str
 
 
-@frozen
-class Witness:
+class Witness(Struct, frozen=True):
     """World points, one per body: where the gap is smallest, or a common point."""
 
     a: Vector
     b: Vector
 
 
-@frozen(kw_only=True)
-class Finding:
+class Finding(Struct, frozen=True, kw_only=True):
     """One pair.
 
     relation: with the touch band, as the bodies are placed, and at the worst of their way where
@@ -244,8 +236,7 @@ class Finding:
         return self.placed_relation or self.relation
 
 
-@frozen
-class EffectReport:
+class EffectReport(Struct, frozen=True):
     """What a check computes beyond reading files, over all pairs.
 
     asked_by: the flags and rules that need it; empty: none does. pairs: on how many it ran.
@@ -259,8 +250,7 @@ class EffectReport:
     microseconds: float
 
 
-@frozen
-class Issue:
+class Issue(Struct, frozen=True):
     """Something about the input or the run, with a stable code."""
 
     code: str
@@ -270,8 +260,7 @@ class Issue:
     message: str
 
 
-@frozen
-class Exempt:
+class Exempt(Struct, frozen=True):
     """What the scene does not ask about, and does not count: pairs within these groups, and pairs
     of static bodies."""
 
@@ -279,8 +268,7 @@ class Exempt:
     static_pairs: bool = False
 
 
-@frozen
-class Report:
+class Report(Struct, frozen=True):
     """pose: of the robots, joint -> value; None without robots. motions: those of
     the scene, as JSON values. truncated: what `findings` leaves out; None: nothing.
 

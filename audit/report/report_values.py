@@ -12,7 +12,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from satcheck.audit.report.report import RELATIONS, Summary
-from satcheck.core.frozen import fields
 from satcheck.scene.rules import Rule
 
 
@@ -32,7 +31,7 @@ def plain(value: Any, without: str | None = None) -> Any:
     if hasattr(value, "to_dict"):
         return value.to_dict()
     optional = getattr(value, "SAID_IF_KNOWN", ())
-    members = ((name, getattr(value, name)) for name in fields(value) if name != without)
+    members = ((name, getattr(value, name)) for name in value.__struct_fields__ if name != without)
     return {
         name: plain(member, without)
         for name, member in members

@@ -6,6 +6,8 @@ import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Planner
@@ -20,7 +22,6 @@ from satcheck.audit.resolve.opinion import Opinion, is_objected, is_overlap_excu
 from satcheck.audit.resolve.wall import BodyPair
 from satcheck.audit.side_by_side import side_by_side
 from satcheck.audit.vectors import added, scaled
-from satcheck.core.frozen import replace
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:

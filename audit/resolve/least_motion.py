@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from msgspec import Struct
+
 from satcheck import core
 from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.wall import Wall
 from satcheck.audit.vectors import added, dot, scaled
-from satcheck.core.frozen import frozen
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 # Of the longest way that a wall asks for: by what a wall may be missed and still is no sign that
@@ -17,8 +18,7 @@ MISSED = 1e-3
 NOISE = 1e-13
 
 
-@frozen
-class Motion:
+class Motion(Struct, frozen=True):
     """broken: walls that are not kept, because they exclude each other, the worst first."""
 
     offsets: dict[int, Vector]

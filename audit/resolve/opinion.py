@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from typing import Literal
 
+from msgspec import Struct
+
 from satcheck.audit.asked.settings import FailOn
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Vector
 from satcheck.audit.resolve.separation import longer, nudge, way_outside
 from satcheck.audit.vectors import scaled
-from satcheck.core.frozen import frozen
 
 
-@frozen
-class Opinion:
+class Opinion(Struct, frozen=True):
     """How a pair is judged where it is.
 
     open: a hole of one body leaves open whether they overlap. push: a translation of the first body

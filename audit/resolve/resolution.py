@@ -6,11 +6,12 @@ import math
 from collections.abc import Mapping
 from typing import Any, Literal, cast
 
+from msgspec import Struct
+
 from satcheck.audit.asked.settings import FailOn
 from satcheck.audit.report.report import OVERLAPS, Finding, Relation, Report, Vector
 from satcheck.audit.report.report_values import plain
 from satcheck.audit.resolve.opinion import is_objected
-from satcheck.core.frozen import frozen
 
 SCHEMA = "satcheck.resolution/1"
 
@@ -22,8 +23,7 @@ _VERDICTS: dict[str, Verdict] = {
 }
 
 
-@frozen
-class Move:
+class Move(Struct, frozen=True):
     """translation: of the body in the world, units of the scene. length: of it."""
 
     body: str
@@ -31,8 +31,7 @@ class Move:
     length: float
 
 
-@frozen
-class Left:
+class Left(Struct, frozen=True):
     """A pair that still is not as asked, and why nothing was done about it. relation: of the bodies
     as they are placed, or the worst on their way if that is what is wrong."""
 
@@ -42,8 +41,7 @@ class Left:
     reason: str
 
 
-@frozen
-class Resolution:
+class Resolution(Struct, frozen=True):
     """moves: of the bodies that were moved, in the order of the scene. pinned: those that had to
     stay. overlaps, gaps: pairs that a check of the scene as it was fails on, because they overlap
     beyond what rules allow, or are closer than their clearance. open: pairs of which a hole leaves

@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import ExitStack
 
+from msgspec.structs import replace
+
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check, volume_meter
 from satcheck.audit.report.report import Vector
@@ -19,7 +21,6 @@ from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.vectors import dot
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 

@@ -16,11 +16,12 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from msgspec.structs import replace
+
 from bench.accuracy.case import Case, Effort, case_of
 from satcheck.audit import Settings, check
 from satcheck.cli.report.json import render
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.scene import Body, load_scene
 from satcheck.studies.tradeoff import RUNGS, Budget, Row, measure_pair
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from msgspec.structs import replace
 
 from satcheck._version import __version__
 from satcheck.audit import Report, Settings, check
@@ -43,7 +44,6 @@ from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.json import render as render_json
 from satcheck.cli.report.summary import samples_line, summary_line
 from satcheck.cli.report.words import counted, issue_line
-from satcheck.core.frozen import replace
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose, posed
 

@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import click
+from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.resolve import Resolution, proof_of, resolve
@@ -35,7 +37,6 @@ from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import issue_line
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.moved_file import moved_scene_file, scene_file_of, stray_mesh
@@ -145,8 +146,7 @@ def command(
     return exit_codes.of_verdict(summary.verdict, result.report.issues, exit_zero=False)
 
 
-@frozen
-class _Target:
+class _Target(Struct, frozen=True):
     """Where the moved scene goes, and what it is made from.
 
     path: None: it is not written. rules: inputs beside others that state rules alone. scene: the

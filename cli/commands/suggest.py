@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from msgspec.structs import replace
 
 from satcheck.audit.suggest import Suggestions, suggest
 from satcheck.cli import exit_codes
@@ -29,7 +30,6 @@ from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.suggest import chosen, remark, srdf, toml
 from satcheck.cli.report.words import issue_line
-from satcheck.core.frozen import replace
 from satcheck.scene import Scene
 from satcheck.scene.robot import Pose, posed
 

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kUsual = 4096, kPiece = 1 << 16;
 constexpr std::size_t kStep = 2;  // blanks that a depth more takes
 
-// How the instances of a class of core/frozen.py are written: an object of their fields, or what their to_dict makes.
+// How the instances of a msgspec.Struct are written: an object of their fields, or what their to_dict makes.
 struct Form {
   struct Field {
     Py_ssize_t offset;  // in bytes, in an instance
@@ -36,14 +36,14 @@ struct Form {
 // Of a class as the last one says it; nothing of it is let go before the process ends.
 Form form_of(nb::handle cls) {
   Form form;
-  form.known = nb::hasattr(cls, "_given");
+  form.known = nb::hasattr(cls, "__struct_fields__");
   if (!form.known) return form;
   if (nb::hasattr(cls, "to_dict")) {
     form.to_dict = nb::object(cls.attr("to_dict")).release().ptr();
     return form;
   }
   const nb::object optional = nb::getattr(cls, "SAID_IF_KNOWN", nb::make_tuple());
-  for (const nb::handle name : cls.attr("__slots__")) {
+  for (const nb::handle name : cls.attr("__struct_fields__")) {
     const nb::object member = cls.attr(name);
     if (!Py_IS_TYPE(member.ptr(), &PyMemberDescr_Type)) throw nb::type_error("a field without a slot");
     const Py_ssize_t offset = reinterpret_cast<PyMemberDescrObject*>(member.ptr())->d_member->offset;

@@ -10,12 +10,12 @@ import re
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
 from rich.cells import cell_len, chop_cells
 
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import bounds, duration, number, vector
 from satcheck.cli.report.words import contacts, depth, in_motion
-from satcheck.core.frozen import frozen
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -28,8 +28,7 @@ GAP = 2  # ... and without one
 _PIECES = re.compile(r"[^\s_./-]*[\s_./-]*")
 
 
-@frozen
-class Column:
+class Column(Struct, frozen=True):
     """Cells in the order of the findings. folds: figures, which may be broken between numbers."""
 
     name: str
@@ -48,8 +47,7 @@ class Column:
         )
 
 
-@frozen
-class Layout:
+class Layout(Struct, frozen=True):
     """Columns with their widths, as they fit a page."""
 
     columns: tuple[Column, ...]

@@ -12,10 +12,11 @@ from collections.abc import Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from satcheck.cli.report.numbers import duration, number
 from satcheck.cli.report.tradeoff_labels import around, baseline, place
 from satcheck.cli.report.tradeoff_steps import steps
-from satcheck.core.frozen import frozen
 from satcheck.studies.tradeoff import choices, labels_of
 
 if TYPE_CHECKING:
@@ -32,8 +33,7 @@ _NEAR = 20.0  # points of one kind within so many pixels share a label
 _KINDS = {0: "proven", 1: "guess", 2: "wrong"}
 
 
-@frozen
-class TimeAxis:
+class TimeAxis(Struct, frozen=True):
     """Decades of seconds, first and last, that all panels share."""
 
     first: int
@@ -57,8 +57,7 @@ def time_axis(pairs: Sequence[PairTradeoff]) -> TimeAxis:
     return TimeAxis(first, max(math.ceil(math.log10(max(known, default=1.0))), first + 1))
 
 
-@frozen
-class _Errors:
+class _Errors(Struct, frozen=True):
     """The vertical axis: decades of error from the top down, then the lanes."""
 
     decades: tuple[int, int] | None
@@ -79,8 +78,7 @@ class _Errors:
         return _TITLE + self.height + len(self.lanes) * _LANE
 
 
-@frozen
-class _Dot:
+class _Dot(Struct, frozen=True):
     row: Row
     x: float
     y: float

@@ -7,7 +7,8 @@ import math
 from collections.abc import Iterable
 from typing import Literal
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.errors import MeshFileError
 
 Point = tuple[float, float]
@@ -21,8 +22,7 @@ FLATNESS = 2.0**-14
 MAX_SEGMENTS = 4096  # of one curve
 
 
-@frozen
-class Contour:
+class Contour(Struct, frozen=True):
     """A closed polygon, drawing units; the last corner joins the first.
 
     deviation: the curve that it stands for is nowhere farther from it than this; 0.0: a polygon.
@@ -41,8 +41,7 @@ class Contour:
         return Contour(points, self.deviation * _stretch(a, b, d, e), self.inscribed)
 
 
-@frozen
-class DrawnShape:
+class DrawnShape(Struct, frozen=True):
     """What lies within the contours by the fill rule, or within one of `filled`."""
 
     name: str
@@ -51,8 +50,7 @@ class DrawnShape:
     filled: tuple[Contour, ...] = ()
 
 
-@frozen
-class RefusedShape:
+class RefusedShape(Struct, frozen=True):
     """A shape that cannot be read; the others still can. code: of `codes.CODES`."""
 
     name: str
@@ -60,8 +58,7 @@ class RefusedShape:
     message: str
 
 
-@frozen
-class Drawing:
+class Drawing(Struct, frozen=True):
     """units: of its coordinates, where the file says so. ignored: what was left out, in words."""
 
     shapes: tuple[DrawnShape | RefusedShape, ...]

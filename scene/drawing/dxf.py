@@ -12,7 +12,8 @@ import io
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from satcheck.core.frozen import replace
+from msgspec.structs import replace
+
 from satcheck.scene.drawing.contour import (
     Affine,
     Contour,

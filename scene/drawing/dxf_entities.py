@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any, Literal
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.drawing.contour import FLATNESS, Affine, Contour, Point, refuse_non_finite
 from satcheck.scene.drawing.joining import JOIN
 from satcheck.scene.errors import MeshFileError
@@ -25,8 +26,7 @@ _FILLED = frozenset({"SOLID", "TRACE", "3DFACE"})
 _FITTED = 2 | 4  # of a POLYLINE: its vertices are not corners, or not all of them
 
 
-@frozen
-class Outline:
+class Outline(Struct, frozen=True):
     """closed: a line, the last point next to the first; open: a line; filled: an area. inscribed:
     as of a Contour."""
 

@@ -11,7 +11,8 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.drawing.contour import Point
 
 # Ends of lines that meet lie within this of each other, relative to the drawing: a rounding of
@@ -19,16 +20,14 @@ from satcheck.scene.drawing.contour import Point
 JOIN = 1e-9
 
 
-@frozen
-class Line:
+class Line(Struct, frozen=True):
     """An open line through its points. deviation: as of a Contour."""
 
     points: tuple[Point, ...]
     deviation: float
 
 
-@frozen
-class Joined:
+class Joined(Struct, frozen=True):
     """Loops: closed, the last point next to the first. dead_ends: some lines lead nowhere.
     repeated: some were drawn twice. branching: some meet three or more at a point."""
 

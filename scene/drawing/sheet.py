@@ -11,7 +11,9 @@ import itertools
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from satcheck.core.frozen import frozen, replace
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.scene.drawing.contour import Contour, DrawnShape, Point
 from satcheck.scene.errors import MeshFileError
 
@@ -20,8 +22,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 
-@frozen
-class Sheet:
+class Sheet(Struct, frozen=True):
     """points: (n, 2); triangles: (m, 3), signed as above. deviation, inscribed: as of a contour, of
     the whole area."""
 

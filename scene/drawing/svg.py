@@ -13,7 +13,9 @@ from collections.abc import Iterator
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
-from satcheck.core.frozen import frozen, replace
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.scene.drawing.contour import Affine, Drawing, DrawnShape, RefusedShape
 from satcheck.scene.drawing.expansion import refuse_explosion
 from satcheck.scene.drawing.svg_shapes import SHAPES, outlines
@@ -81,8 +83,7 @@ def _describe(element: Element) -> str:
     return f"<{_kind(element)} id={id_!r}>" if id_ else f"<{_kind(element)}>"
 
 
-@frozen
-class _Place:
+class _Place(Struct, frozen=True):
     """Where and how an element is drawn. caller: the <use> that draws it."""
 
     affine: Affine

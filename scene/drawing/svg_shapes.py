@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from xml.etree.ElementTree import Element
 
-from satcheck.core.frozen import replace
+from msgspec.structs import replace
+
 from satcheck.scene.drawing.contour import Contour, Tracer
 from satcheck.scene.drawing.svg_path import contours_of
 from satcheck.scene.drawing.svg_values import Viewport, bad, numbers, unread

@@ -12,7 +12,8 @@ import re
 from collections.abc import Mapping
 from typing import Literal
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.drawing.contour import Affine
 from satcheck.scene.drawing.svg_values import (
     IDENTITY,
@@ -39,16 +40,14 @@ _PIXELS_IN = {**PIXELS, "um": 96 / 25400, "m": 96 / 0.0254}
 _SIDE = re.compile(rf"\s*({NUMBER})\s*([a-z]*)\s*")
 
 
-@frozen
-class Drawn:
+class Drawn(Struct, frozen=True):
     """affine: from user units to coordinates. units: of these; None: the file does not say."""
 
     affine: Affine = IDENTITY
     units: str | None = None
 
 
-@frozen
-class _Side:
+class _Side(Struct, frozen=True):
     value: float
     written: str  # its unit
 

@@ -12,8 +12,8 @@ from xml.etree.ElementTree import Element
 
 import cssselect2
 import tinycss2
+from msgspec import Struct
 
-from satcheck.core.frozen import frozen
 from satcheck.scene.drawing.contour import FillRule
 from satcheck.scene.drawing.svg_values import unread
 
@@ -32,8 +32,7 @@ _OF_TRANSFORM = frozenset({"transform-origin", "transform-box"})
 _HARMLESS_VALUES = {"transform": "none", "transform-origin": "0 0"}
 
 
-@frozen
-class Style:
+class Style(Struct, frozen=True):
     """As computed. is_cut: by a clip path or a mask."""
 
     is_displayed: bool = True
@@ -43,8 +42,7 @@ class Style:
     is_cut: bool = False
 
 
-@frozen
-class _Declaration:
+class _Declaration(Struct, frozen=True):
     key: str
     value: str
     important: bool = False

@@ -6,7 +6,8 @@ import math
 import re
 from functools import reduce
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.core.transform import cos_sin
 from satcheck.scene.drawing.contour import Affine
 from satcheck.scene.errors import MeshFileError
@@ -74,8 +75,7 @@ def numbers(text: str, what: str) -> list[float]:
     return values
 
 
-@frozen
-class Viewport:
+class Viewport(Struct, frozen=True):
     """What percentages are of, user units; None: the file does not say."""
 
     width: float | None
@@ -168,8 +168,7 @@ def view_box(text: str) -> tuple[float, float, float, float] | None:
     return (found[0], found[1], found[2], found[3])
 
 
-@frozen
-class AspectRatio:
+class AspectRatio(Struct, frozen=True):
     """left, top: the share of the room that is left over before the drawing. slices: the larger
     scale is taken, and the drawing reaches beyond its room."""
 

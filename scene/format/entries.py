@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 if TYPE_CHECKING:
     from satcheck.scene.bodies import Transform
@@ -19,8 +19,7 @@ SCENE_1 = "satcheck.scene/1"
 SIMPLE = "satcheck-scene-1"
 
 
-@frozen
-class MeshPath:
+class MeshPath(Struct, frozen=True):
     """path: for messages and reports. location: on disk."""
 
     path: str
@@ -30,8 +29,7 @@ class MeshPath:
 NO_MESH = MeshPath("", Path())
 
 
-@frozen
-class BodyEntry:
+class BodyEntry(Struct, frozen=True):
     """One body as the scene file describes it.
 
     mesh: NO_MESH where there is a shape instead. part: what to take of the mesh file; None: all.
@@ -49,8 +47,7 @@ class BodyEntry:
     units: str | None = None
 
 
-@frozen
-class SceneFile:
+class SceneFile(Struct, frozen=True):
     """ids are as written; rules and motions speak of the bodies of this file alone."""
 
     path: str

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from satcheck.core.frozen import replace
+from msgspec.structs import replace
+
 from satcheck.scene.bodies import Body, Unreadable
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import SceneFile

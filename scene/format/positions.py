@@ -13,9 +13,8 @@ from dataclasses import dataclass, field
 import numpy as np
 import tree_sitter_json
 import tree_sitter_toml
+from msgspec import Struct
 from tree_sitter import Language, Node, Parser
-
-from satcheck.core.frozen import frozen
 
 Key = str | int
 Keys = tuple[Key, ...]
@@ -23,8 +22,7 @@ Keys = tuple[Key, ...]
 _TABLES = frozenset({"object", "inline_table", "table", "table_array_element"})
 
 
-@frozen
-class Place:
+class Place(Struct, frozen=True):
     """Offsets in the text: where the key or, in a list, the item starts; the value's extent.
 
     A TOML table under a header of its own has its header as key, and nothing as value.

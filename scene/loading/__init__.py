@@ -9,8 +9,9 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
+from msgspec import Struct
+
 from satcheck.core import Mesh
-from satcheck.core.frozen import frozen
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import Examined, examine, examine_bytes
@@ -25,8 +26,7 @@ from satcheck.scene.resolution import file_resolution, placement_step
 Made = TypeVar("Made")
 
 
-@frozen
-class ReadLimits:
+class ReadLimits(Struct, frozen=True):
     """What reading one file may take, of which the file itself may be a quarter of the megabytes.
 
     allow_outside: whether the files that it refers to may lie outside of its folder. hashed:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
-from satcheck.core.frozen import frozen
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns, Floats, Indices
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
@@ -24,8 +24,7 @@ class NeedsChild(Exception):
     """The file has data for a library that may crash: it is to be read in a child process."""
 
 
-@frozen
-class Shape:
+class Shape(Struct, frozen=True):
     """A mesh in the shape that it has at a node: with these weights of its morph targets and this
     skin, by its number."""
 
@@ -34,8 +33,7 @@ class Shape:
     skin: int | None = None
 
 
-@frozen
-class Skin:
+class Skin(Struct, frozen=True):
     """joints: where each stands in the world. bound: for each the matrix from the mesh to the joint
     as it was bound, column-major 4x4; None: the identity."""
 

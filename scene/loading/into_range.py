@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from array import array
 
-from satcheck.core.frozen import replace
+from msgspec.structs import replace
+
 from satcheck.core.power_of_two import exponent_into_range, exponent_of, times_power
 from satcheck.scene.loading.raw_mesh import RawMesh
 

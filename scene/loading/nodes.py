@@ -5,8 +5,10 @@ from __future__ import annotations
 from array import array
 from pathlib import Path
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.core import Mesh
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import CRACK_WIDTH
@@ -31,8 +33,7 @@ _CORNER = Mesh.from_bytes(
 )
 
 
-@frozen
-class Node:
+class Node(Struct, frozen=True):
     """A mesh of a file where the file places it, or why it cannot be used.
 
     path: unique in the file, "#3" at its end for the third component; None: the whole file, which
@@ -44,8 +45,7 @@ class Node:
     transform: Matrix | None = None
 
 
-@frozen
-class Nodes:
+class Nodes(Struct, frozen=True):
     """All nodes of a file, in its order, and warnings that belong to none of them."""
 
     nodes: tuple[Node, ...]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import Generic, TypeVar
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.core.transform import compose
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
@@ -19,8 +20,7 @@ _CUT = "..."
 Key = TypeVar("Key", bound=Hashable)
 
 
-@frozen
-class Instance(Generic[Key]):
+class Instance(Struct, Generic[Key], frozen=True):
     """Part `key` at `matrix` (None: as it is). path: the names that lead to it, unique."""
 
     key: Key

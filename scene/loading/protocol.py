@@ -15,7 +15,8 @@ from array import array
 from collections.abc import Iterator
 from typing import Any
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import Block, RawMesh, RawNode, RawPart, RawScene
 
@@ -26,8 +27,7 @@ _MATRIX = struct.Struct("<12d")
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
 
 
-@frozen
-class Request:
+class Request(Struct, frozen=True):
     """A file to read: its format, its bytes, the directory its references start from and whether
     they may leave it, and whether all of it is wanted as one mesh."""
 

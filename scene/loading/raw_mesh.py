@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.errors import MeshFileError
 
 Precision = Literal["written-digits", "float16", "float32", "float64"]
@@ -13,8 +14,7 @@ NO_SURFACE = "no-surface"  # the code of a mesh of lines or points alone
 Matrix = tuple[float, ...]  # row-major 4x4 for column vectors
 
 
-@frozen
-class RawMesh:
+class RawMesh(Struct, frozen=True):
     """What a reader found, in file units, not welded.
 
     vertices: little-endian float64 x, y, z of each vertex; triangles: little-endian uint32 vertex
@@ -34,16 +34,14 @@ class RawMesh:
     exponent: int = 0
 
 
-@frozen
-class RawPart:
+class RawPart(Struct, frozen=True):
     """One mesh of a file in its own coordinates, or why it cannot be used. name: unique there."""
 
     name: str
     mesh: RawMesh | MeshFileError
 
 
-@frozen
-class RawNode:
+class RawNode(Struct, frozen=True):
     """Part number `part` where the file places it. path: unique there; None: the whole file."""
 
     path: str | None
@@ -51,8 +49,7 @@ class RawNode:
     matrix: Matrix | None = None
 
 
-@frozen
-class RawScene:
+class RawScene(Struct, frozen=True):
     """The meshes of a file and where they are placed; every part is placed at least once.
 
     warnings: (code, message) about what belongs to no part.

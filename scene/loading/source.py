@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from msgspec import Struct
+
 from satcheck.core import sha256
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
 from satcheck.scene import _readers
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.regular_file import size_of
@@ -64,8 +65,7 @@ _FIRST_WORDS = (
 _TEXT_HEAD_BYTES = 4096
 
 
-@frozen
-class Source:
+class Source(Struct, frozen=True):
     """A mesh file as it lies on disk.
 
     path: as given, for messages. location: where it was read from. sha256: of the file, hex; None:

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
+from msgspec.structs import replace
 
 from satcheck.core import Mesh, Surface, largest_stretch
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from msgspec import Struct
 
 from satcheck.core import Mesh
 from satcheck.core.conventions import Plane, axes_of
-from satcheck.core.frozen import frozen
 from satcheck.scene.planar.turns import Floats, Indices, turns
 
 
-@frozen
-class Region:
+class Region(Struct, frozen=True):
     """The points where the signs of the triangles do not add up to 0. points: (n, 2), each once;
     triangles: (m, 3), none of area 0."""
 

@@ -7,8 +7,10 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations, product
 from pathlib import Path
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen, replace
 from satcheck.core.transform import compose
 from satcheck.scene.bodies import Scene, Transform
 from satcheck.scene.errors import MeshFileError, SceneFileError
@@ -25,8 +27,7 @@ SAME_LINK = "one rigid link"
 _SHOWN = 5
 
 
-@frozen
-class Part:
+class Part(Struct, frozen=True):
     """One <collision> that becomes a body. offset: its geometry in the frame of the link.
 
     source: the path of a mesh file, a shape, or why there is neither.
@@ -38,8 +39,7 @@ class Part:
     source: Path | Primitive | MeshFileError
 
 
-@frozen
-class RobotBody:
+class RobotBody(Struct, frozen=True):
     """A body of the scene, readable or not, that a link of a robot carries."""
 
     id: str
@@ -47,8 +47,7 @@ class RobotBody:
     offset: Transform
 
 
-@frozen
-class SceneRobot:
+class SceneRobot(Struct, frozen=True):
     """A robot, the bodies that it moves, and the SRDF about it."""
 
     robot: Robot

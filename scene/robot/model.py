@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.bodies import Transform
 from satcheck.scene.primitives import Primitive
 
@@ -16,16 +17,14 @@ Vector = tuple[float, float, float]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 
 
-@frozen
-class MeshReference:
+class MeshReference(Struct, frozen=True):
     """A mesh file by its URI as written. scale: of its x, y, z; negative ones mirror."""
 
     uri: str
     scale: Vector
 
 
-@frozen
-class RefusedShape:
+class RefusedShape(Struct, frozen=True):
     """Geometry that cannot be used, and why. code: of `codes.CODES`. reason: without the line, so
     that bodies that are refused for one reason are told together."""
 
@@ -36,8 +35,7 @@ class RefusedShape:
 Geometry = MeshReference | Primitive | RefusedShape
 
 
-@frozen
-class Collision:
+class Collision(Struct, frozen=True):
     """One <collision> of a link. origin: its pose in the link's frame. line: in the URDF; of what
     cannot be used the element to blame."""
 
@@ -47,8 +45,7 @@ class Collision:
     line: int
 
 
-@frozen
-class Link:
+class Link(Struct, frozen=True):
     """A rigid body. visual: whether it has geometry for display."""
 
     name: str
@@ -56,16 +53,14 @@ class Link:
     visual: bool
 
 
-@frozen
-class Limits:
+class Limits(Struct, frozen=True):
     """What a joint may do: radians, or metres of a prismatic one; lower <= upper."""
 
     lower: float
     upper: float
 
 
-@frozen
-class Mimic:
+class Mimic(Struct, frozen=True):
     """Value = multiplier * value of `joint` + offset."""
 
     joint: str
@@ -73,8 +68,7 @@ class Mimic:
     offset: float
 
 
-@frozen
-class Joint:
+class Joint(Struct, frozen=True):
     """Carries the link `child` in the frame of the link `parent`.
 
     origin: the pose of the joint's frame in that of the parent. axis: unit vector in the joint's
@@ -101,8 +95,7 @@ class Joint:
         return self.freedoms > 0 and self.mimic is None
 
 
-@frozen
-class Robot:
+class Robot(Struct, frozen=True):
     """A tree of links, checked.
 
     file: the URDF's path as given. joints: each after the one that carries its parent.

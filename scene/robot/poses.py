@@ -16,8 +16,9 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
+from msgspec import Struct
+
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.robot.kinematics import Values
@@ -31,8 +32,7 @@ _SAME = 1e-6
 _MAX_BYTES = 256 << 20
 
 
-@frozen
-class Posture:
+class Posture(Struct, frozen=True):
     """A complete pose. joints: of every joint that moves. issues: about it.
 
     mimics: the joints whose values follow from those of others.

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
+
 from satcheck.scene.robot.kinematics import Values
 from satcheck.scene.robot.xml_tree import Element, read_tree
 
 
-@frozen
-class State:
+class State(Struct, frozen=True):
     """A <group_state>: values of some joints under a name. lines: where the file, as given, says
     them."""
 
@@ -25,8 +25,7 @@ class State:
     lines: dict[str, int]
 
 
-@frozen
-class Srdf:
+class Srdf(Struct, frozen=True):
     """file: path as given. robot: the name of the robot that it is about.
 
     disabled: two links -> the reason given. silent: links that by default are not checked against

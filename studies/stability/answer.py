@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck import core
 from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.asked.settings import Settings
@@ -20,7 +23,6 @@ from satcheck.audit.report.report import (
     Vector,
     Witness,
 )
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene import Body, Scene
 from satcheck.studies.stability.variant import Rows, Variant
 
@@ -28,8 +30,7 @@ MIRRORED: dict[Relation, Relation] = {"contains": "inside", "inside": "contains"
 NESTED = frozenset({"contains", "inside"})
 
 
-@frozen
-class Answer:
+class Answer(Struct, frozen=True):
     """relation: the exact one; indeterminate, with a reason, where it is not proven.
 
     gap: of bodies that do not overlap. depth: proven bounds, of overlapping ones. hold: however the

@@ -12,8 +12,9 @@ from __future__ import annotations
 
 from typing import Literal
 
+from msgspec import Struct
+
 from satcheck.audit.report.report import OVERLAPS
-from satcheck.core.frozen import fields, frozen
 from satcheck.studies.stability.answer import NESTED, Answer
 from satcheck.studies.stability.bounds import rounding_of_figures
 from satcheck.studies.stability.variant import Variant
@@ -23,8 +24,7 @@ Judgement = Literal["same", "within", "beyond", "undecided"]
 UNCOMPARED = frozenset({"largest", "convex", "reason", "hold"})
 
 
-@frozen
-class Comparison:
+class Comparison(Struct, frozen=True):
     """relation_changed: and may, where the judgement is within. change: of the signed distance, in
     units of the files, None where one answer has no figure. bound: how much of it was allowed.
     beyond: what changed that must not have."""
@@ -59,7 +59,7 @@ def compare(asked: Answer, seen: Answer, variant: Variant) -> Comparison:
 def _must_be_equal(asked: Answer, seen: Answer) -> Comparison:
     beyond = tuple(
         name
-        for name in fields(Answer)
+        for name in Answer.__struct_fields__
         if name not in UNCOMPARED and getattr(asked, name) != getattr(seen, name)
     )
     change = 0.0 if asked.signed == seen.signed else _change(asked, seen)

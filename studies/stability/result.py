@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+from msgspec import Struct, to_builtins
+
 from satcheck.audit.report.report import Relation, Vector
 from satcheck.audit.summary import tool
-from satcheck.core.frozen import as_dict, frozen
 from satcheck.studies.stability.answer import Answer
 from satcheck.studies.stability.comparison import Comparison, Judgement
 from satcheck.studies.stability.variant import Family
@@ -18,8 +19,7 @@ Verdict = Literal["stable", "changed", "undecided"]
 JUDGEMENTS: tuple[Judgement, ...] = ("same", "within", "undecided", "beyond")
 
 
-@frozen
-class Sample:
+class Sample(Struct, frozen=True):
     """how: what was done, for people."""
 
     how: str
@@ -27,8 +27,7 @@ class Sample:
     comparison: Comparison
 
 
-@frozen
-class FamilyResult:
+class FamilyResult(Struct, frozen=True):
     """samples: none where the family has nothing to say about this pair, see `skipped`."""
 
     family: Family
@@ -60,8 +59,7 @@ class FamilyResult:
         return max((one.comparison.bound for one in self.samples), default=0.0)
 
 
-@frozen
-class Stability:
+class Stability(Struct, frozen=True):
     """a, b: the names of the files. asked: the answer to the question as given. band: up to this
     gap or depth a plain check says `touching`; here nothing is within a band."""
 
@@ -94,7 +92,7 @@ class Stability:
         """JSON values in a fixed order; equal input and seed give equal values."""
         return {
             "schema": SCHEMA,
-            "tool": as_dict(tool()),
+            "tool": to_builtins(tool()),
             "a": self.a,
             "b": self.b,
             "seed": self.seed,

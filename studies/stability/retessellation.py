@@ -9,11 +9,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
+from msgspec import Struct
 from numpy.random import Generator
 from numpy.typing import NDArray
 
 from satcheck.core import Mesh
-from satcheck.core.frozen import frozen
 
 Triangles = NDArray[np.uint32]
 Exact = tuple[Fraction, Fraction, Fraction]
@@ -22,8 +22,7 @@ Exact = tuple[Fraction, Fraction, Fraction]
 TRIES = 8
 
 
-@frozen
-class Retessellated:
+class Retessellated(Struct, frozen=True):
     """rounded: a middle was no float64, so the surface is off by its rounding there."""
 
     mesh: Mesh

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Literal, get_args
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
-from satcheck.core.frozen import frozen
 from satcheck.scene import Body, MeshFile
 
 Family = Literal[
@@ -22,8 +22,7 @@ IDENTITY: Rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 UNMOVED = (0.0, 0.0, 0.0)
 
 
-@frozen
-class Variant:
+class Variant(Struct, frozen=True):
     """how: for people. a, b: in the order asked.
 
     turn, scale, swapped: the variant's world is scale * turn * the asked world, moved; answers are
@@ -43,8 +42,7 @@ class Variant:
     identical: bool = False
 
 
-@frozen
-class Question:
+class Question(Struct, frozen=True):
     """The pair as asked: two mesh files, in place."""
 
     a: MeshFile

@@ -5,6 +5,9 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.asked.settings import Settings
@@ -15,7 +18,6 @@ from satcheck.audit.ladder.ladder import Contact, settle
 from satcheck.audit.report.report import Finding
 from satcheck.audit.tolerances import rounding_pad
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene import Body
 from satcheck.studies.tradeoff.climbed import picked
 from satcheck.studies.tradeoff.cpu import CpuClock
@@ -29,8 +31,7 @@ Bodies = tuple[Body, Body]
 Rooms = tuple[float | None, float | None]
 
 
-@frozen
-class Asked:
+class Asked(Struct, frozen=True):
     """The answer of a ladder.
 
     contact: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
@@ -57,8 +58,7 @@ class Asked:
     failure: str | None = None
 
 
-@frozen
-class Measured:
+class Measured(Struct, frozen=True):
     """The volume in common, and about how far it is off.
 
     cold: seconds with the start of the child process; cached: when it runs already.

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import math
 
+from msgspec import Struct
+
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import OVERLAPS, Finding, Relation
-from satcheck.core.frozen import frozen
 
 
-@frozen
-class Figure:
+class Figure(Struct, frozen=True):
     """value: the figure a rung gives. low, high: what it leaves open; None: no bound."""
 
     value: float
@@ -25,8 +25,7 @@ class Figure:
         return None if self.low is None or self.high is None else self.high - self.low
 
 
-@frozen
-class Truth:
+class Truth(Struct, frozen=True):
     """What the exact rung has proven; relation, figure: None where it has not, reason says why.
 
     pad: what the rounding of a coordinate can make of a length.

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Literal
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.report.report import OVERLAPS, Relation, Tool
-from satcheck.core.frozen import frozen, replace
 from satcheck.studies.tradeoff.figure import Figure, Truth
 from satcheck.studies.tradeoff.pareto import front
 from satcheck.studies.tradeoff.rungs import Rung
@@ -17,8 +19,7 @@ SCHEMA = "satcheck.tradeoff/1"
 State = Literal["answered", "failed", "not run"]
 
 
-@frozen(kw_only=True)
-class Row:
+class Row(Struct, frozen=True, kw_only=True):
     """A rung and what came of it.
 
     reason: why it failed, was not run, or cannot say. overlap: None where it cannot say. relation:
@@ -97,8 +98,7 @@ class Row:
         }
 
 
-@frozen
-class Picked:
+class Picked(Struct, frozen=True):
     """The rung at which a plain check ends its climb, whether that settles the relation, and what
     each step said."""
 
@@ -110,8 +110,7 @@ class Picked:
         return {"rung": self.rung, "settled": self.settled, "why": self.why}
 
 
-@frozen
-class PairTradeoff:
+class PairTradeoff(Struct, frozen=True):
     """picked: None where the budget was spent before anything ran."""
 
     a: str
@@ -139,8 +138,7 @@ class PairTradeoff:
         }
 
 
-@frozen
-class Tradeoff:
+class Tradeoff(Struct, frozen=True):
     """left_out: how many more pairs have boxes that meet. spent: seconds."""
 
     tool: Tool

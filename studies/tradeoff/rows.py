@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck.audit.report.report import OVERLAPS
-from satcheck.core.frozen import replace
 from satcheck.studies.tradeoff.asking import Asked, Measured, Rooms
 from satcheck.studies.tradeoff.figure import Truth, figure_of, is_of_bodies, plain, truth_of
 from satcheck.studies.tradeoff.gauge import Gauge

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from msgspec import Struct
+
 from satcheck.audit.asked.settings import Accuracy
-from satcheck.core.frozen import frozen
 
 
-@frozen
-class Rung:
+class Rung(Struct, frozen=True):
     """accuracy: where the ladder ends; None: the Boolean, which is no rung of it.
 
     threshold: of the convex parts, see satcheck.decompose; None for the other rungs.

@@ -5,11 +5,10 @@ from __future__ import annotations
 from statistics import median, quantiles
 from typing import Any
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 
-@frozen
-class Times:
+class Times(Struct, frozen=True):
     """Seconds of every run, in the order in which they ran; one at least."""
 
     runs: tuple[float, ...]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Report, Settings, check
 from satcheck.cli.report.summary import summary_line
-from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Selector, load_scene
 from tests.audit.shapes import box, write
 

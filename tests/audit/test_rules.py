@@ -7,10 +7,10 @@ from fractions import Fraction
 from itertools import combinations
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
 from satcheck.audit.report.report import Finding, Report
-from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Scene, Selector, load_scene
 from tests.audit.shapes import bracket, open_box, placed_scene, pose, scene_of, unit_box, write
 from tests.audit.test_kettle import KETTLE, SNOWFLAKE

@@ -6,12 +6,12 @@ import sys
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import check
 from satcheck.audit.finding import examine
 from satcheck.audit.report.report import INTERNAL_ERROR
 from satcheck.audit.suggest import Suggestions, suggest
-from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Selector, load_scene
 from satcheck.scene.robot import joint_samples
 from tests.audit.shapes import open_box, scene_of, unit_box

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck.audit import Settings
 from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
 from satcheck.audit.report.motion_report import Sweep
@@ -17,7 +19,6 @@ from satcheck.audit.report.report import (
     Tool,
     Witness,
 )
-from satcheck.core.frozen import replace
 
 PENETRATING = Finding(
     id="block|block_pushed",
@@ -111,12 +112,13 @@ CONTACTS = Contacts(
     triangle_pairs=((3, 4), (3, 5)),
     totals=ContactTotals(1, 4.0, 1, 1.0, 1, 2),
 )
+SWEEP = Sweep("separated", 0.0, 1.0)
 SWEPT = replace(
     SEPARATED,
     id="block|passer",
     b="passer",
     placed_relation="separated",
-    motion=Sweep("separated", 0.0, 1.0),
+    motion=SWEEP,
 )
 HIT = replace(
     SWEPT,

@@ -10,13 +10,13 @@ import struct
 import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
+from msgspec.structs import replace
 
 from satcheck.audit import Contacts, Report, Stage
 from satcheck.audit.report.report_values import plain
 from satcheck.cli._json import pieces, text
 from satcheck.cli.report import json as report_json
 from satcheck.cli.report.schema import text as schema_text
-from satcheck.core.frozen import replace
 from tests.cli import reports
 
 SCHEMA = json.loads(schema_text())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Contacts
 from satcheck.audit.asked.settings import LISTED_PAIRS
@@ -18,7 +19,6 @@ from satcheck.audit.report.report import (
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import render
-from satcheck.core.frozen import replace
 from tests.cli import reports
 from tests.cli.reports import (
     BOUNDED,
@@ -27,6 +27,7 @@ from tests.cli.reports import (
     ESTIMATE,
     PENETRATING,
     SEPARATED,
+    SWEEP,
     SWEPT,
     TOUCHING,
     UNDECIDED,
@@ -247,7 +248,7 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
         (
             (
                 SWEPT,
-                replace(SWEPT, motion=replace(SWEPT.motion, reason="what fills the holes ...")),
+                replace(SWEPT, motion=replace(SWEEP, reason="what fills the holes ...")),
             ),
             "2 bodies, 2 pairs: 2 separated. "
             "No collision found, but 1 pair moves past holes that may be filled.",
@@ -329,7 +330,7 @@ def test_exempt_pairs_are_counted_apart(static: int, exempt: int, said: str) -> 
 
 
 def test_one_line_a_body_with_holes() -> None:
-    hollow = replace(SWEPT.motion, reason="what fills the holes ...")
+    hollow = replace(SWEEP, reason="what fills the holes ...")
     text = shown(*(replace(SWEPT, a=f"far{i}", b="soup", motion=hollow) for i in range(3)))
     assert "soup has holes: 3 pairs move past them, and they may be filled\n" in text
     assert "but 3 pairs move past holes that may be filled." in text

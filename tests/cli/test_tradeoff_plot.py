@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from xml.etree import ElementTree
 
+from msgspec.structs import replace
+
 from satcheck.cli.report.tradeoff_plot import page, svg
-from satcheck.core.frozen import replace
 from satcheck.studies.tradeoff import (
     RUNGS,
     Figure,

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from satcheck.core import Mesh
-from satcheck.core.frozen import replace
 from satcheck.core.worker import run_isolated
 from satcheck.decompose import Cache, Decomposition, DecompositionError, computation, decompose
 from satcheck.decompose import errors as codes

@@ -6,9 +6,9 @@ import json
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
-from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene
 from satcheck.scene.primitives import Box, Sphere
 from satcheck.scene.shape_file import shape_file

@@ -8,10 +8,10 @@ from itertools import combinations
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
 from satcheck.audit.asked.rule_book import RuleBook, Subject
-from satcheck.core.frozen import replace
 from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.primitives import Box
 from satcheck.scene.shape_file import shape_file

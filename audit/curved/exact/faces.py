@@ -10,16 +10,17 @@ import math
 from collections.abc import Iterator
 from fractions import Fraction
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from satcheck.audit.curved.exact.lattice import Point, Vector, between, dot, of_rational, shifted
-from satcheck.core.frozen import frozen, replace
 
 Flat = tuple[Fraction, Fraction]
 # How far a point on the border of a polygon is moved towards its middle, in turn.
 SHARES = tuple(Fraction(1, 4**k) for k in range(1, 12))
 
 
-@frozen
-class Polygon:
+class Polygon(Struct, frozen=True):
     """The hull of points in a plane, in any order: a point, a segment, a polygon."""
 
     points: tuple[Point, ...]
@@ -34,8 +35,7 @@ class Polygon:
         return x, y, z, w * len(self.points)
 
 
-@frozen
-class Disc:
+class Disc(Struct, frozen=True):
     """The image of a disc. radius: about, in lattice units. inverse: rows that take a step from the
     centre to its two coordinates in the frame of the shape, times some number."""
 

@@ -8,6 +8,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck.audit.curved.exact.axes import candidates
 from satcheck.audit.curved.exact.curved_body import CurvedBody, sizes_of
@@ -17,15 +19,13 @@ from satcheck.audit.curved.exact.proof import Proof, prove
 from satcheck.audit.curved.exact.reach import root_bounds
 from satcheck.audit.curved.signed import ORIGIN, Signed
 from satcheck.audit.report.report import Vector as Floating
-from satcheck.core.frozen import frozen, replace
 from satcheck.scene.shape_image import ShapeImage
 
 if TYPE_CHECKING:
     from satcheck.audit.bodies.placed_body import PlacedBody
 
 
-@frozen
-class Faces:
+class Faces(Struct, frozen=True):
     """vertices: (n, 3), world; triangles: (m, 3), outward, all of a solid, or one by itself."""
 
     vertices: Floats

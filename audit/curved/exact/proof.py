@@ -7,11 +7,12 @@ from fractions import Fraction
 from itertools import product
 from typing import Literal
 
+from msgspec import Struct
+
 from satcheck.audit.curved.exact.body import ExactBody
 from satcheck.audit.curved.exact.faces import Disc, Polygon, common_points
 from satcheck.audit.curved.exact.lattice import Point, Vector, between, dot, negated, shifted
 from satcheck.audit.curved.exact.reach import gap_bounds, sign_of_gap
-from satcheck.core.frozen import frozen
 
 # "free": the axis separates them with no gap, and no common point was found.
 Outcome = Literal["separated", "touching", "penetrating", "free"]
@@ -27,8 +28,7 @@ _NEXT_TO = Fraction(1, 1 << 100)
 NO_GAP: Bounds = (Fraction(0), Fraction(0))
 
 
-@frozen
-class Proof:
+class Proof(Struct, frozen=True):
     """axis: from A to B; gap: bounds along it, in lattice units times its length, < 0 where they
     overlap, 0 also where they are beside each other. point: of both, on the lattice: inside A where
     they penetrate, and inside B if it has an inside. ends: a point of each, across the gap."""

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from satcheck.core.frozen import frozen
+from msgspec import Struct
 
 # Bits beyond its integer part to which an irrational root is taken where a figure is asked for.
 ROOT_BITS = 128
 
 
-@frozen
-class Reach:
+class Reach(Struct, frozen=True):
     """q + sqrt(p), p >= 0: how far a body reaches along an axis, lattice units times its length."""
 
     q: int

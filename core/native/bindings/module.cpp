@@ -26,7 +26,6 @@ void bind_resolve(nb::module_& m);
 void bind_surface(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
-void bind_frozen(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_motion(nb::module_& m);
 void bind_pairs(nb::module_& m);
@@ -150,7 +149,6 @@ lower bound of the distance. normal: unit, A to B; edge_a or edge_b: the edge it
 NB_MODULE(_native, m) {
   // Shapes held by a module that lives until the interpreter ends are no leak, and no news for stderr.
   nb::set_leak_warnings(false);
-  bind_frozen(m);
   bind_mesh(m);
   bind_surface(m);
   bind_broad_phase(m);

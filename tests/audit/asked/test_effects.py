@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck import core, decompose
 from satcheck.audit import Report, Settings, check
-from satcheck.core.frozen import replace
 from satcheck.scene import Rule, Scene, Selector, load_scene
 from tests.audit.shapes import (
     bracket,

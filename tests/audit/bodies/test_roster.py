@@ -5,10 +5,10 @@ from __future__ import annotations
 from itertools import combinations
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.roster import Known, place
-from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene, Unreadable
 from satcheck.scene.issue import issue
 from satcheck.scene.primitives import Box

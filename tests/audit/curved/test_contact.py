@@ -8,6 +8,7 @@ from typing import cast
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from satcheck import core
 from satcheck.audit import Settings, check
@@ -17,7 +18,6 @@ from satcheck.audit.curved.nesting import holds, is_within_hull
 from satcheck.audit.curved.shape import curved_shape
 from satcheck.audit.curved.signed import convex_pair
 from satcheck.core import Mesh
-from satcheck.core.frozen import replace
 from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.primitives import (
     Box,

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Finding, Settings, check
-from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene, load_scene
 from satcheck.scene.primitives import Sphere
 from satcheck.scene.rules import Rule, Selector

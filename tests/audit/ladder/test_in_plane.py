@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Finding, Settings, check
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core import Mesh, Surface, sat_polygons
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.scene import Body, Scene, load_scene
 from satcheck.scene.planar.laid_flat import laid_flat
 from satcheck.scene.primitives import Box, Sphere, mesh_of

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Finding, PairCounts, Report, Settings, Stage, Summary, Tool
-from satcheck.core.frozen import replace
 
 FINDING = Finding(
     id="0123456789ab",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
-from satcheck.core.frozen import replace
 from satcheck.studies.stability.answer import Answer
 from satcheck.studies.stability.comparison import compare
 from satcheck.studies.stability.variant import Variant, body

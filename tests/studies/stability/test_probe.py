@@ -6,10 +6,10 @@ import json
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 
 from satcheck.audit import Settings
 from satcheck.core.errors import SatcheckError
-from satcheck.core.frozen import replace
 from satcheck.scene import load_scene
 from satcheck.studies.stability import FAMILIES, probe
 from satcheck.studies.stability import answer as answer_module
