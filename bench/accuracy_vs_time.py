@@ -77,7 +77,7 @@ def write_page(options: argparse.Namespace, results: Path, said: list[str]) -> N
     )
     folder.mkdir(exist_ok=True)
     for name, drawing in made.figures.items():
-        (folder / name).write_text(drawing, encoding="utf-8")
+        (folder / name).write_bytes(drawing)
     options.page.write_text(made.text, encoding="utf-8")
 
 

@@ -4,7 +4,7 @@
 
 Scenes come from scene_of.py; whole processes, verdicts only, report as JSON, as in scenes.py. The
 sizes alternate in every round, least figures count. Prints a table with the slope between sizes in
-a log-log plot (1: linear in the number of bodies) and writes the plot: CPU seconds and MiB.
+a log-log plot (1: linear in the number of bodies) and writes the plot, a light and a dark file.
 """
 
 from __future__ import annotations
@@ -19,16 +19,13 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from bench.drawing import LogAxis, plain, text
+from matplotlib.figure import Figure
+
+from bench.drawing import name_decades, plain, write_both
 from bench.scenes import Run, ask_satcheck
+from satcheck.cli.report.plot_style import style
 
 SIZES = (100, 300, 1000, 3000, 10_000, 30_000, 100_000)
-WIDTH, HEIGHT = 660, 400
-LEFT, RIGHT, TOP, BOTTOM = 64, 620, 44, 346
-# Middle tones: readable on white and on black.
-TIME, MEMORY, INK = "#2a7fde", "#d9711c", "#808080"
-GRID = f'stroke="{INK}" stroke-opacity="0.3"'
-FONT = f'font-family="system-ui, sans-serif" font-size="13" fill="{INK}"'
 
 
 def slope(sizes: Sequence[int], values: Sequence[float]) -> float:
@@ -76,54 +73,25 @@ def table(runs: dict[int, Run]) -> str:
     return "\n".join(lines)
 
 
-def curve(points: Sequence[tuple[float, float]], colour: str) -> str:
-    path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-    dots = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>' for x, y in points)
-    line = f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2.5"/>'
-    return line + dots
-
-
-def grid(x: LogAxis, y: LogAxis) -> list[str]:
-    parts = []
-    for value in y.decades:
-        at = y.at(value)
-        parts.append(f'<path d="M{LEFT} {at:.1f}H{RIGHT}" {GRID}/>')
-        parts.append(text(LEFT - 8, at + 4, plain(value)))
-    for value in x.decades:
-        at = x.at(value)
-        parts.append(f'<path d="M{at:.1f} {TOP}V{BOTTOM}" {GRID}/>')
-        parts.append(text(at, BOTTOM + 20, plain(value), "middle"))
-    return parts
-
-
-def proportional(runs: dict[int, Run], x: LogAxis, y: LogAxis) -> str:
-    """The dashed line through the last time, as far as it is within the picture."""
-    last = max(runs)
-    points = [(x.at(size), y.at(runs[last].cpu * size / last)) for size in runs]
-    path = " ".join(f"{a:.1f},{b:.1f}" for a, b in points if b <= BOTTOM)
-    return f'<polyline points="{path}" fill="none" stroke="{INK}" stroke-dasharray="5 5"/>'
-
-
-def picture(runs: dict[int, Run], steep: float) -> str:
-    """Both curves over one axis of numbers: CPU seconds and MiB."""
-    values = [v for one in runs.values() for v in (one.cpu, float(one.mebibytes))]
-    low, high = 10 ** math.floor(math.log10(min(values))), 10 ** math.ceil(math.log10(max(values)))
-    x = LogAxis(min(runs), max(runs), LEFT, RIGHT)
-    y = LogAxis(low, high, BOTTOM, TOP)
-    times = [(x.at(size), y.at(one.cpu)) for size, one in runs.items()]
-    memory = [(x.at(size), y.at(one.mebibytes)) for size, one in runs.items()]
-    title = (
-        f'<text x="{LEFT}" y="24">A check of N bodies: '
-        f'<tspan fill="{TIME}">CPU seconds</tspan>, <tspan fill="{MEMORY}">MiB</tspan>. '
-        f"From 1,000 bodies on the time grows as N^{steep:.2f}</text>"
-    )
-    foot = text(RIGHT, BOTTOM + 42, "bodies; dashed: linear")
-    parts = [*grid(x, y), proportional(runs, x, y), curve(memory, MEMORY), curve(times, TIME)]
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" '
-        f'{FONT} role="img"><title>Time and memory against the number of bodies</title>'
-        f"{''.join(parts)}{title}{foot}</svg>\n"
-    )
+def draw(runs: dict[int, Run], steep: float, *, dark: bool) -> Figure:
+    """CPU seconds and MiB over one axis of numbers; dashed: time proportional to the bodies."""
+    sizes, times = list(runs), [one.cpu for one in runs.values()]
+    with style(dark=dark) as palette:
+        figure = Figure((9, 5.5), layout="constrained")
+        axes = figure.add_subplot(xlabel="bodies", xscale="log", yscale="log")
+        axes.plot(sizes, [one.mebibytes for one in runs.values()], "o-", color=palette.guess)
+        axes.plot(sizes, times, "o-", color=palette.proven)
+        low = axes.get_ylim()[0]
+        axes.plot(sizes, [times[-1] * n / sizes[-1] for n in sizes], "--", color=palette.faint)
+        axes.set_ylim(bottom=low)
+        for axis in (axes.xaxis, axes.yaxis):
+            name_decades(axis, plain)
+        axes.set_title(
+            "A check of N bodies: time and memory\n"
+            f"From 1,000 bodies on the time grows as N^{steep:.2f}"
+        )
+        axes.legend(["MiB", "CPU seconds", "CPU seconds, if proportional"], loc="upper left")
+    return figure
 
 
 def main() -> None:
@@ -140,7 +108,7 @@ def main() -> None:
     steep = slope(large, [runs[size].cpu for size in large]) if len(large) > 1 else math.nan
     sys.stdout.write(f"{table(runs)}\n\nCPU time grows as N^{steep:.2f} from {large[0]:,} on.\n")
     if options.svg:
-        options.svg.write_text(picture(runs, steep), encoding="utf-8")
+        write_both(options.svg, lambda dark: draw(runs, steep, dark=dark))
 
 
 if __name__ == "__main__":

@@ -1,10 +1,14 @@
-"""Draw docs/tradeoff.svg: `python -m docs.tradeoff`. Takes minutes; times are of this machine."""
+"""Draw docs/tradeoff.svg and its dark twin: `python -m docs.tradeoff`.
+
+Takes minutes; times are of the machine that runs it.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from satcheck.cli.report.tradeoff_plot import svg
+from bench.drawing import write_both
+from satcheck.cli.report.tradeoff_plot import draw
 from satcheck.scene import load_scene
 from satcheck.studies.tradeoff import tradeoff
 
@@ -23,7 +27,7 @@ def main() -> None:
         tradeoff(load_scene([SAMPLES / a, SAMPLES / b]), budget=budget) for a, b, budget in PAIRS
     ]
     pairs = [pair for run in runs for pair in run.pairs]
-    (HERE / "tradeoff.svg").write_text(svg(pairs), encoding="utf-8")
+    write_both(HERE / "tradeoff.svg", lambda dark: draw(pairs, dark=dark))
 
 
 if __name__ == "__main__":

@@ -3,165 +3,176 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
-from bench.accuracy.figure_rungs import kind_of
-from bench.accuracy.palette import series
-from bench.accuracy.rungs import Cost
-from bench.drawing import LogAxis, disc, figure, line, plain, text, whole_decades
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullLocator
+
+from bench.accuracy.palette import Colours, kind_of, series
+from bench.accuracy.rungs import PARTS, Cost
+from bench.drawing import name_decades, percent, plain
 from satcheck.cli.report.numbers import number
-from satcheck.cli.report.tradeoff_labels import Box, around, baseline, place
+from satcheck.cli.report.plot_style import POINTS_PER_INCH, Labels, Palette, Point, style
 
-WIDTH, LEFT, RIGHT = 760.0, 92.0, 722.0
-TOP, PLOT, LANE, GAP, FOOT = 86.0, 230.0, 40.0, 56.0, 48.0
+# Points, 72 to the inch.
+WIDTH = 780.0
+_LEFT, _RIGHT, _HEAD, _GAP, _FOOT, _PANEL = 84.0, 32.0, 56.0, 34.0, 40.0, 350.0
+_TITLE = "What accuracy costs: error against time, where boxes and hulls do not settle it"
 _LEAST_ERROR = 1e-5  # of the size; quartiles below it end there
-_PART = "parts"
-_NEAR = 14.0  # pixels
+_NEAR = 14.0  # points
+
+
+def draw(apart: Sequence[Cost], overlapping: Sequence[Cost], *, dark: bool) -> Figure:
+    """Of the pairs that are apart or touch, and of those that overlap. For these, convex parts give
+    the depth of the hulls: a point for them would be compared with the hulls of other pairs."""
+    ladder = [one for one in overlapping if not one.label.startswith(PARTS)]
+    panels = [
+        _Panel("Bodies that are apart, or touch: error of the gap", apart, ""),
+        _Panel("Bodies that overlap: error of the depth", ladder, _note(overlapping)),
+    ]
+    shown = [panel for panel in panels if panel.points]
+    with style(dark=dark) as palette:
+        height = _HEAD + _PANEL * max(len(shown), 1)
+        figure = Figure((WIDTH / POINTS_PER_INCH, height / POINTS_PER_INCH))
+        figure.text(16 / WIDTH, 1 - 26 / height, _TITLE, size=13, weight="bold")
+        colours, limits = series(dark=dark), _time_limits([*apart, *overlapping])
+        corner = (8 / WIDTH, 1 - 32 / height)
+        handles = _legend(colours, palette)
+        figure.legend(handles=handles, ncols=4, loc="upper left", bbox_to_anchor=corner)
+        for k, panel in enumerate(shown):
+            bottom = height - _HEAD - (k + 1) * _PANEL + _FOOT
+            frame = (_LEFT, bottom, WIDTH - _LEFT - _RIGHT, _PANEL - _FOOT - _GAP)
+            box = [length / whole for length, whole in zip(frame, 2 * (WIDTH, height), strict=True)]
+            panel.draw(figure.add_axes((box[0], box[1], box[2], box[3])), limits, colours, palette)
+    return figure
 
 
 @dataclass(frozen=True, slots=True)
-class ErrorAxis:
-    """Decades from the top down, and below them a lane for errors of 0."""
+class _Panel:
+    """note: written into the upper right corner."""
 
-    decades: LogAxis
-    lane: float
+    title: str
+    points: Sequence[Cost]
+    note: str
 
-    def at(self, error: float) -> float:
-        return self.decades.at(max(error, self.decades.low)) if error else self.lane
-
-
-def draw(apart: Sequence[Cost], overlapping: Sequence[Cost]) -> str:
-    """Of the pairs that are apart or touch, and of those that overlap. Of these convex parts tell
-    the depth of the hulls: drawn, it would be compared with the hulls of other pairs."""
-    sides = {
-        "Bodies that are apart, or touch: error of the gap, in sizes of the smaller one": apart,
-        "Bodies that overlap: error of the depth, in sizes of the smaller one": overlapping,
-    }
-    shown = {title: points for title, points in sides.items() if points}
-    points = [point for side in shown.values() for point in side]
-    spreads = [one for p in points for one in (p.cold, p.cached) if one is not None]
-    ends = [end for one in spreads for end in (one.first, one.third)]
-    time = whole_decades(ends or [1.0], LEFT, RIGHT)
-    head = "What accuracy costs: error against time, where boxes and hulls do not settle it"
-    parts = [text(16, 24, head, "start", "head"), *_legend()]
-    top = TOP
-    for title, side in shown.items():
-        own = side if side is apart else [one for one in side if not one.label.startswith(_PART)]
-        parts += _panel(title, own, time, top)
-        if len(own) < len(side):
-            note = f"convex parts: the depth of the hulls, {_costs(side)} the time of the proof"
-            parts.append(text(RIGHT - 8, top + 18, note, "end", "small"))
-        top += PLOT + LANE + GAP
-    under = "CPU time, made anew, over that of the exact rung on the same pair"
-    parts.append(text(RIGHT, top - GAP + 36, under, "end", "small"))
-    high = top - GAP + FOOT
-    return figure(WIDTH, high, "Error against time by rung", parts, series())
+    def draw(
+        self, axes: Axes, limits: tuple[float, float], colours: Colours, palette: Palette
+    ) -> None:
+        axes.set_title(self.title)
+        axes.set(xscale="log", xlim=limits)
+        axes.set_xlabel("CPU time, nothing cached, over that of the exact rung on the same pair")
+        name_decades(axes.xaxis, lambda value: f"{plain(value)} x")
+        _error_axis(axes, self.points)
+        corner: dict[str, Any] = {"xycoords": "axes fraction", "ha": "right"}
+        axes.annotate(self.note, (0.985, 0.9), color=palette.faint, va="top", **corner)
+        axes.annotate(
+            "in sizes of the smaller body", (1, 1.03), color=palette.faint, size=10, **corner
+        )
+        for (x, y), (to_x, to_y) in _path(self.points):
+            axes.plot([x, to_x], [y, to_y], color=palette.faint, linewidth=1)
+        for point in self.points:
+            _mark(axes, point, colours[kind_of(point.label)], palette)
+        _name(axes, self.points)
 
 
-def _panel(title: str, points: Sequence[Cost], time: LogAxis, top: float) -> Iterator[str]:
+def _error_axis(axes: Axes, points: Sequence[Cost]) -> None:
+    """Decades of error, and below them a row for 0."""
     known = [e for p in points for e in (p.error.first, p.error.third) if e > _LEAST_ERROR]
-    decades = whole_decades(known or [_LEAST_ERROR], top + PLOT, top)
-    errors = ErrorAxis(decades, top + PLOT + 0.5 * LANE)
-    bottom = top + PLOT + LANE
-    yield text(LEFT, top - 10, title, "start", "title")
-    for value in time.decades:
-        x = time.at(value)
-        yield line(x, top, x, bottom, "grid")
-        yield text(x, bottom + 16, times(value), "middle", "small")
-    for value in decades.decades:
-        yield line(LEFT, decades.at(value), RIGHT, decades.at(value), "grid")
-        yield text(LEFT - 8, decades.at(value) + 4, f"{number(100 * value)} %", "end", "small")
-    yield line(LEFT, bottom, RIGHT, bottom, "grid")
-    yield text(LEFT - 8, errors.lane + 4, "0", "end", "small")
-    ladder = [point for point in points if not point.label.startswith(_PART)]
-    parts = [point for point in points if point.label.startswith(_PART)]
-    yield from _path(ladder, time, errors, "rule")
-    yield from _path(parts, time, errors, "rule dashed")
-    for point in points:
-        yield from _cross(point, time, errors)
-    yield from _labels(points, time, errors, (LEFT, top - 8, WIDTH, bottom))
+    first = math.floor(math.log10(min(known, default=_LEAST_ERROR)))
+    last = max(math.ceil(math.log10(max(known, default=_LEAST_ERROR))), first + 1)
+    axes.set_yscale("symlog", linthresh=10.0**first, linscale=0.5)
+    axes.set_ylim(-0.6 * 10.0**first, 10.0**last * 1.6)
+    ticks = [0.0, *(10.0**k for k in range(first, last + 1))]
+    axes.set_yticks(ticks, [percent(value) for value in ticks])
+    axes.yaxis.set_minor_locator(NullLocator())
 
 
-def _costs(points: Sequence[Cost]) -> str:
-    """`30 x .. 400 x`: the least and the most of the medians of parts."""
-    medians = [one.cold.median for one in points if one.label.startswith(_PART)]
-    return " .. ".join(
-        dict.fromkeys(f"{number(float(f'{m:.2g}'))} x" for m in (min(medians), max(medians)))
-    )
-
-
-def _path(points: Sequence[Cost], time: LogAxis, errors: ErrorAxis, kind: str) -> Iterator[str]:
-    for one, other in pairwise(points):
-        a, b = ((time.at(p.cold.median), errors.at(p.error.median)) for p in (one, other))
-        yield line(*a, *b, kind)
-
-
-def _cross(point: Cost, time: LogAxis, errors: ErrorAxis) -> Iterator[str]:
-    kind = kind_of(point.label)
-    x, y = time.at(point.cold.median), errors.at(point.error.median)
-    said = f"{point.label}: {100 * point.error.median:.3g} %, "
-    said += times(point.cold.median)
-    yield '<g stroke-width="2" opacity="0.6">'
-    yield line(time.at(point.cold.first), y, time.at(point.cold.third), y, f"{kind}-line")
-    yield line(x, errors.at(point.error.first), x, errors.at(point.error.third), f"{kind}-line")
-    yield "</g>"
-    if point.cached is not None:
-        yield disc(time.at(point.cached.median), y, 4, f"{kind}-open", f"{said}, cached")
-    yield disc(x, y, 5, f"{kind}-fill", said)
-
-
-def _labels(points: Sequence[Cost], time: LogAxis, errors: ErrorAxis, frame: Box) -> Iterator[str]:
-    at = {p.label: (time.at(p.cold.median), errors.at(p.error.median)) for p in points}
-    taken = [around(*place) for place in at.values()]
-    taken += [
-        around(time.at(p.cached.median), at[p.label][1]) for p in points if p.cached is not None
+def _path(points: Sequence[Cost]) -> list[tuple[Point, Point]]:
+    """From each rung to the next finer one, convex parts among themselves."""
+    kinds = [
+        [_at(p) for p in points if p.label.startswith(PARTS) is kind] for kind in (False, True)
     ]
-    counts = {point.label: point.pairs for point in points}
-    for group in _groups(points, at):
-        words = _words(group, counts)
-        across = [at[label][0] for label in group]
-        box = place(words, (min(across), max(across), at[group[0]][1]), taken, frame)
-        taken.append(box)
-        yield text(*baseline(box), words, "start", "label")
+    return [piece for places in kinds for piece in pairwise(places)]
 
 
-def _words(group: Sequence[str], counts: dict[str, int]) -> str:
-    """`hull (60)`, `parts 0.5 .. 0.1 (20 .. 12)`: with the number of pairs."""
-    first, last = group[0], group[-1]
-    ends = list(dict.fromkeys((counts[first], counts[last])))
-    words = first if first == last else f"{first} .. {last.split()[-1]}"
-    return f"{words} ({' .. '.join(map(str, ends))})"
+def _at(point: Cost) -> tuple[float, float]:
+    return point.cold.median, point.error.median
 
 
-def _groups(points: Sequence[Cost], at: dict[str, tuple[float, float]]) -> list[list[str]]:
-    """Parts of neighbouring thresholds whose points lie on each other share a label."""
-    found: list[list[str]] = []
+def _mark(axes: Axes, point: Cost, colour: str, palette: Palette) -> None:
+    x, y = _at(point)
+    quartiles: dict[str, Any] = {"color": colour, "alpha": 0.6, "linewidth": 2}
+    axes.plot([point.cold.first, point.cold.third], [y, y], **quartiles)
+    axes.plot([x, x], [point.error.first, point.error.third], **quartiles)
+    if point.cached is not None:
+        axes.plot(point.cached.median, y, "o", color=colour, markerfacecolor=palette.paper)
+    axes.plot(x, y, "o", color=colour, markersize=9, zorder=4)
+
+
+def _name(axes: Axes, points: Sequence[Cost]) -> None:
+    """With the number of pairs; parts whose points lie on each other share a label."""
+    cached = [(p.cached.median, p.error.median) for p in points if p.cached is not None]
+    labels = Labels(axes, [*map(_at, points), *cached])
     for point in points:
-        last = found[-1] if found else None
-        alike = last is not None and last[-1].startswith(_PART) and point.label.startswith(_PART)
-        if last is not None and alike and math.dist(at[last[-1]], at[point.label]) < _NEAR:
-            last.append(point.label)
+        x, y = _at(point)
+        labels.keep_clear_of_line((x, point.error.first), (x, point.error.third))
+        labels.keep_clear_of_line((point.cold.first, y), (point.cold.third, y))
+    for piece in _path(points):
+        labels.keep_clear_of_line(*piece)
+    for group in _groups(axes, points):
+        # One height for all of them: the label stands beside the last.
+        heights = group[-1].error.median
+        labels.place(_words(group), [(one.cold.median, heights) for one in group])
+
+
+def _words(group: Sequence[Cost]) -> str:
+    """`hull (60)`, `parts 0.5 .. 0.1 (20 .. 12)`."""
+    first, last = group[0], group[-1]
+    pairs = " .. ".join(dict.fromkeys((str(first.pairs), str(last.pairs))))
+    words = first.label if len(group) == 1 else f"{first.label} .. {last.label.split()[-1]}"
+    return f"{words} ({pairs})"
+
+
+def _groups(axes: Axes, points: Sequence[Cost]) -> list[list[Cost]]:
+    groups: list[list[Cost]] = []
+    for point in points:
+        last = groups[-1][-1] if groups else None
+        parts = last is not None and all(one.label.startswith(PARTS) for one in (last, point))
+        here, there = (axes.transData.transform(_at(one)) for one in (point, last or point))
+        if parts and math.dist(here, there) < _NEAR:
+            groups[-1].append(point)
         else:
-            found.append([point.label])
-    return found
+            groups.append([point])
+    return groups
 
 
-def times(factor: float) -> str:
-    """`100 x`, `0.01 x`."""
-    return f"{plain(factor)} x"
+def _note(points: Sequence[Cost]) -> str:
+    """What is not drawn: the least and the most of the medians of convex parts."""
+    medians = [one.cold.median for one in points if one.label.startswith(PARTS)]
+    if not medians:
+        return ""
+    ends = dict.fromkeys(f"{number(float(f'{m:.2g}'))} x" for m in (min(medians), max(medians)))
+    return f"convex parts: the depth of the hulls, {' .. '.join(ends)} the time of the proof"
 
 
-def _legend() -> Iterator[str]:
-    x = 16.0
-    for style, words in (
-        ("sound-fill", "boxes, hulls, triangles"),
-        ("parts-fill", "convex parts, cold"),
-        ("parts-open", "convex parts, cached"),
-    ):
-        yield disc(x + 5, 46, 5, style)
-        yield text(x + 15, 50, words, "start")
-        x += 30 + 6.4 * len(words)
-    yield f'<g stroke-width="2">{line(x + 2, 46, x + 30, 46, "sound-line")}</g>'
-    yield text(x + 37, 50, "quartiles; in brackets: pairs", "start")
+def _time_limits(points: Sequence[Cost]) -> tuple[float, float]:
+    spreads = [one for point in points for one in (point.cold, point.cached) if one is not None]
+    ends = [end for one in spreads for end in (one.first, one.third)]
+    first = math.floor(math.log10(min(ends, default=1.0)))
+    return 10.0**first, 10.0 ** max(math.ceil(math.log10(2 * max(ends, default=1.0))), first + 1)
+
+
+def _legend(colours: Colours, palette: Palette) -> list[Line2D]:
+    sound, parts = colours["sound"], colours["parts"]
+    dot: dict[str, Any] = {"marker": "o", "linestyle": "none", "markersize": 8}
+    return [
+        Line2D([], [], color=sound, label="boxes, hulls, triangles", **dot),
+        Line2D([], [], color=parts, label="convex parts", **dot),
+        Line2D([], [], color=parts, mfc=palette.paper, label="convex parts, cached", **dot),
+        Line2D([], [], color=sound, linewidth=2, label="quartiles; (number of pairs)"),
+    ]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bench.accuracy import figure_ladder, figure_rungs, figure_stages, figure_verdicts, words
+from bench.accuracy import figure_bars, figure_ladder, figure_rungs, words
 from bench.accuracy.rungs import (
     EXACT,
     PARTS,
@@ -30,6 +30,7 @@ from bench.accuracy.sections import (
 )
 from bench.accuracy.stages import stage_times
 from bench.accuracy.verdicts import overlaps
+from bench.drawing import both
 from satcheck.cli.report.words import counted
 
 Record = dict[str, Any]
@@ -40,7 +41,7 @@ class Page:
     """text: Markdown, with links into a folder; figures: SVG by the name of its file there."""
 
     text: str
-    figures: dict[str, str]
+    figures: dict[str, bytes]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +62,13 @@ def page(run: Run) -> Page:
     records = [one for one in run.records if "pair" in one]
     concave = hard(records)
     found = {label: summary(records, label) for label in labels(records)}
+    apart, overlapping = _sides(concave)
+    rungs, kinds = list(found.values()), stage_times(records)
     drawn = {
-        "ladder.svg": figure_ladder.draw(*_sides(concave)),
-        "rungs.svg": figure_rungs.draw(records, list(found.values())),
-        "verdicts.svg": figure_verdicts.draw(list(found.values())),
-        "stages.svg": figure_stages.draw(stage_times(records)),
+        **both("ladder", lambda dark: figure_ladder.draw(apart, overlapping, dark=dark)),
+        **both("rungs", lambda dark: figure_rungs.draw(records, rungs, dark=dark)),
+        **both("verdicts", lambda dark: figure_bars.draw_verdicts(rungs, dark=dark)),
+        **both("stages", lambda dark: figure_bars.draw_stages(kinds, dark=dark)),
     }
     sections = [
         _opening(run, records, concave),

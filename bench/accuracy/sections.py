@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from bench.accuracy import figure_verdicts, words
+from bench.accuracy import words
+from bench.accuracy.figure_bars import WORDS
 from bench.accuracy.reasons import reasons
 from bench.accuracy.rungs import EXACT, PARTS, RungSummary, depth_widths, labels, step
 from bench.accuracy.spread import Spread
@@ -20,16 +21,13 @@ from bench.accuracy.stages import (
     stage_times,
 )
 from bench.accuracy.verdicts import OUTCOMES, agreement
+from bench.drawing import embedded
 from satcheck.cli.report.numbers import mebibytes
 from satcheck.cli.report.words import counted
 
 Record = dict[str, Any]
 HULL = "hull"
 SOUND = ("aabb", "obb", HULL)
-
-
-def _figure(folder: str, name: str, said: str) -> str:
-    return f"![{said}]({folder}/{name})"
 
 
 def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record]) -> str:
@@ -55,7 +53,7 @@ def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record
     return "\n\n".join(
         [
             "## What the next factor of accuracy costs",
-            _figure(folder, "ladder.svg", "Error against time, rung by rung"),
+            embedded(folder, "ladder", "Error against time, rung by rung"),
             f"The {len(concave)} pairs that boxes and hulls leave open. Across: CPU time on a "
             "pair, everything built from nothing, over that of the exact rung on the same pair (1 "
             "x is the proof; cached parts: wall time). Up: median error. Both with quartiles; in "
@@ -98,7 +96,7 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
     return "\n\n".join(
         [
             "## Cost and error of each rung, over all pairs",
-            _figure(folder, "rungs.svg", "Time and error of every pair, rung by rung"),
+            embedded(folder, "rungs", "Time and error of every pair, rung by rung"),
             "Wall time, cold: from meshes in memory to the answer, with hulls, trees and parts "
             "built from nothing; of the Boolean with the start of its child process. Cached: parts "
             "read from disk, the child process running. CPU: median of the cold runs, children "
@@ -127,14 +125,14 @@ def of_verdicts(folder: str, found: dict[str, RungSummary]) -> str:
         ]
         for rung in found.values()
     ]
-    head = ["rung", *(figure_verdicts.WORDS[kind] for kind in OUTCOMES), "of them proven, wrong"]
+    head = ["rung", *(WORDS[kind] for kind in OUTCOMES), "of them proven, wrong"]
     sound = [found[label] for label in SOUND if label in found]
     misses, judged = sum(one.outcomes["miss"] for one in sound), sum(one.judged for one in sound)
     proofs = sum(rung.false_proofs for rung in found.values())
     return "\n\n".join(
         [
             "## Yes or no",
-            _figure(folder, "verdicts.svg", "Right and wrong verdicts, rung by rung"),
+            embedded(folder, "verdicts", "Right and wrong verdicts, rung by rung"),
             "A false hit is a reported overlap of bodies that do not overlap, a miss the contrary. "
             f"Boxes and hulls may only err towards an overlap: "
             f"{counted(misses, 'miss', 'misses')} in {judged} verdicts. "
@@ -155,7 +153,7 @@ def of_the_default(folder: str, records: Sequence[Record]) -> str:
         "## What the default does",
         "A plain check climbs until a rung proves its answer. How many pairs each rung settled: "
         f"{said} (of {sum(settled.values())}; `exact`: triangles).",
-        _figure(folder, "stages.svg", "Where the time of a plain check goes"),
+        embedded(folder, "stages", "Where the time of a plain check goes"),
         "Mean share of each stage in the time of a pair, in a process that runs already. Placing: "
         "bodies into the world, and what a report says of them; triangles: with the tree of boxes "
         "over them, containment and the touch band; depth search: with the first way out, which "

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -24,10 +25,9 @@ from satcheck.cli.options import (
 from satcheck.cli.output import Document, Page, write_file
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
-from satcheck.cli.report.png import EXTRA, is_available, png
 from satcheck.studies.tradeoff import Tradeoff, tradeoff
 
-PLOTS = (".svg", ".png", ".html")
+PLOTS = (".svg", ".png", ".pdf")
 
 
 @click.command("tradeoff", cls=Command, context_settings=HELP_NAMES)
@@ -60,8 +60,9 @@ PLOTS = (".svg", ".png", ".html")
     "--plot",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Draw error against time: FILE.svg, FILE.png or FILE.html.",
+    help="Draw error against time: FILE.svg, FILE.png or FILE.pdf.",
 )
+@click.option("--dark", is_flag=True, help="Draw the plot on dark paper.")
 @form_option
 @output_option
 @split_option
@@ -75,6 +76,7 @@ def command(
     budget: float,
     pairs: int,
     plot: Path | None,
+    dark: bool,
     debug: bool,
     **options: Any,
 ) -> int:
@@ -99,7 +101,7 @@ def command(
     with Bar("runs") as bar:
         result = tradeoff(scene, repeat=repeat, budget=budget, pairs=pairs, progress=bar)
     if plot:
-        _write_plot(result, plot)
+        _write_plot(result, plot, dark=dark)
     document.deliver(lambda page: _render(result, form, page), output, utf8=form == "json")
     return exit_codes.CLEAN if result.complete else exit_codes.INCOMPLETE
 
@@ -110,23 +112,18 @@ def _refuse_plot(inputs: Inputs, plot: Path | None, output: Path | None) -> None
         return
     if plot.suffix.lower() not in PLOTS:
         raise click.UsageError(f"--plot {plot}: drawn as {', '.join(PLOTS[:-1])} or {PLOTS[-1]}")
-    if plot.suffix.lower() == ".png" and not is_available():
-        raise click.UsageError(
-            f"--plot {plot}: a PNG needs more libraries: pip install 'satcheck[{EXTRA}]'"
-        )
+    if find_spec("matplotlib") is None:
+        raise click.UsageError("--plot needs matplotlib: pip install 'satcheck[plot]'")
     refuse_early(inputs, plot, option="--plot")
     if output is not None and plot.absolute() == output.absolute():
         raise click.UsageError("--plot and -o name the same file")
 
 
-def _write_plot(result: Tradeoff, path: Path) -> None:
-    from satcheck.cli.report.tradeoff_plot import page, svg
+def _write_plot(result: Tradeoff, path: Path, *, dark: bool) -> None:
+    from satcheck.cli.report.plot_style import file_of
+    from satcheck.cli.report.tradeoff_plot import draw
 
-    form = path.suffix.lower()
-    if form == ".png":
-        write_file(path, png(svg(result.pairs)))
-    else:
-        write_file(path, svg(result.pairs) if form == ".svg" else page(result.pairs))
+    write_file(path, file_of(draw(result.pairs, dark=dark), path.suffix.lower()))
 
 
 def _render(result: Tradeoff, form: str, page: Page) -> str:

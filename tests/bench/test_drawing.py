@@ -1,39 +1,49 @@
-"""Axes and the colours of two schemes."""
+"""A light and a dark file of each figure, and the words of ticks."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from xml.etree import ElementTree
 
-import pytest
+from matplotlib.figure import Figure
 
-from bench.drawing import DARK, LIGHT, LogAxis, figure, plain, text, whole_decades
+from bench.drawing import both, embedded, percent, plain, write_both
+from satcheck.cli.report.plot_style import DARK, LIGHT, style
 
 
-def test_equal_factors_are_equal_lengths() -> None:
-    axis = LogAxis(1.0, 10_000.0, 100.0, 500.0)
-    assert [axis.at(10.0**k) for k in range(5)] == pytest.approx([100, 200, 300, 400, 500])
-    assert list(axis.decades) == [1, 10, 100, 1000, 10_000]
+def draw(dark: bool) -> Figure:
+    with style(dark=dark):
+        figure = Figure((2, 1))
+        figure.text(0.1, 0.5, "a < b & $c")
+    return figure
+
+
+def test_both_styles_have_their_paper_and_the_words_as_written() -> None:
+    files = both("name", draw)
+    assert list(files) == ["name.svg", "name-dark.svg"]
+    for content, palette in zip(files.values(), (LIGHT, DARK), strict=True):
+        assert "a < b & $c" in "".join(ElementTree.fromstring(content).itertext())
+        assert palette.paper in content.decode()
+    assert files["name.svg"] != files["name-dark.svg"]
+
+
+def test_the_dark_file_lies_beside_the_light_one(tmp_path: Path) -> None:
+    write_both(tmp_path / "x.svg", draw)
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == both("x", draw)
+
+
+def test_a_page_embeds_both() -> None:
+    html = embedded("folder", "name", "words")
+    source, image = ElementTree.fromstring(html)
+    assert source.attrib["srcset"] == "folder/name-dark.svg"
+    assert image.attrib == {"alt": "words", "src": "folder/name.svg"}
+
+
+def test_numbers_of_ticks() -> None:
     assert [plain(value) for value in (0.01, 1, 10_000)] == ["0.01", "1", "10,000"]
-
-
-def test_an_axis_upwards_runs_from_its_foot() -> None:
-    axis = whole_decades([0.02, 0.5, 3.0], 300.0, 0.0)
-    assert (axis.low, axis.high) == (0.01, 10.0)
-    assert axis.at(0.01) == 300
-    assert axis.at(10.0) == pytest.approx(0)
-
-
-def test_one_value_has_a_decade_around_it() -> None:
-    axis = whole_decades([1.0], 0.0, 1.0)
-    assert (axis.low, axis.high) == (1.0, 10.0)
-
-
-def test_both_schemes_are_spelled_out_and_words_are_escaped() -> None:
-    drawing = figure(10, 20, "a < b", [text(1, 2, "c & d")], ({"x": "fill: #111;"}, {}))
-    root = ElementTree.fromstring(drawing)
-    assert "c & d" in "".join(root.itertext())
-    light, dark = drawing.split("@media (prefers-color-scheme: dark)")
-    assert LIGHT["paper"] in light
-    assert DARK["paper"] in dark
-    assert ".x { fill: #111; }" in light
-    assert ".x" not in dark
+    assert [percent(share) for share in (0.0, 1e-7, 0.01, 100.0)] == [
+        "0",
+        "1e-05 %",
+        "1 %",
+        "10,000 %",
+    ]

@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from bench.accuracy.page import Page, Run, page
+from satcheck.cli.report.plot_style import DARK, LIGHT
 from tests.bench.made import HEADER, LABELS, Record, record, row, silent, times
 
 
@@ -60,18 +61,14 @@ def table(text: str, head: str) -> dict[str, list[str]]:
     return {cells[0]: cells[1:] for cells in found[2:]}
 
 
-def test_every_figure_is_shown_and_can_be_drawn(whole: Page) -> None:
-    linked = re.findall(r"\]\(folder/(\w+\.svg)\)", whole.text)
+def test_every_figure_is_shown_light_and_dark_and_can_be_drawn(whole: Page) -> None:
+    linked = re.findall(r"folder/([\w-]+\.svg)", whole.text)
     assert sorted(linked) == sorted(whole.figures)
-    for drawing in whole.figures.values():
-        root = ElementTree.fromstring(drawing)
-        assert "nan" not in drawing
-        wide, high = map(float, root.attrib["viewBox"].split()[2:])
-        for element in root.iter():
-            x, y = element.get("x"), element.get("y")
-            assert x is None or 0 <= float(x) <= wide
-            assert y is None or 0 <= float(y) <= high
-        assert "prefers-color-scheme: dark" in drawing
+    for name, drawing in whole.figures.items():
+        words = "".join(ElementTree.fromstring(drawing).itertext())
+        assert "nan" not in drawing.decode()
+        assert "hull" in words
+        assert (DARK if "-dark" in name else LIGHT).paper in drawing.decode()
 
 
 def test_tables_are_rectangles_with_every_rung(whole: Page) -> None:

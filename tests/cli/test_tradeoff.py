@@ -7,9 +7,15 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from click.testing import CliRunner
 from jsonschema import Draft202012Validator
+from matplotlib.colors import to_hex
+from matplotlib.image import imread
 
+from satcheck.cli.commands import tradeoff
+from satcheck.cli.report.plot_style import DARK
 from satcheck.cli.report.schema import text
+from satcheck.cli.report.tradeoff_plot import WIDTH
 from tests.cli.process import PUSHED, satcheck
 
 SCHEMA = json.loads(text("tradeoff"))
@@ -39,7 +45,7 @@ def test_a_spent_budget_is_a_document_too_and_exits_with_three(tmp_path: Path) -
 
 
 def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
-    plot = tmp_path / "plot.html"
+    plot = tmp_path / "plot.svg"
     ran = satcheck("tradeoff", *PUSHED, "--repeat", "1", "--plot", str(plot))
     assert ran.code == 0, ran.err
     for said in (
@@ -51,12 +57,29 @@ def test_the_table_and_the_plot_have_every_rung(tmp_path: Path) -> None:
         "parts 0.5 .. 0.01, exact: climbed no further than hull",
     ):
         assert said in ran.out
-    page = plot.read_text(encoding="utf-8")
-    drawing = page[page.index("<svg") : page.index("</svg>") + len("</svg>")]
-    hints = "".join(ElementTree.fromstring(drawing).itertext())
-    for said in ("aabb: error 0", "hull: error 0", "boolean: no distance"):
-        assert said in hints
-    assert "prefers-color-scheme: dark" in drawing
+    drawn = "".join(ElementTree.parse(plot).getroot().itertext())
+    for said in ("aabb", "hull", "boolean", "verdict only", "obb: climbed no further than aabb"):
+        assert said in drawn
+
+
+def test_a_plot_is_an_image_on_dark_paper_if_asked(tmp_path: Path) -> None:
+    plot = tmp_path / "plot.png"
+    ran = satcheck("tradeoff", *PUSHED, "--budget", "1e-9", "--plot", str(plot), "--dark")
+    assert ran.code == 3, ran.err
+    image = imread(plot)
+    assert image.shape[1] == 2 * WIDTH
+    assert to_hex(image[0, 0]) == DARK.paper
+
+
+def test_without_matplotlib_nothing_runs_and_the_way_to_get_it_is_told(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(tradeoff, "find_spec", lambda _: None)
+    plot = tmp_path / "plot.svg"
+    ran = CliRunner().invoke(tradeoff.command, [*PUSHED, "--plot", str(plot)])
+    assert ran.exit_code == 2
+    assert "pip install 'satcheck[plot]'" in ran.output
+    assert not plot.exists()
 
 
 def test_the_schema_is_printed() -> None:
@@ -68,7 +91,7 @@ def test_the_schema_is_printed() -> None:
     [
         (("box.obj",), "one body alone"),
         (("box.obj", "missing.obj"), "no such file"),
-        (("box.obj", "cube.off", "--plot", "plot.jpg"), "drawn as .svg, .png or .html"),
+        (("box.obj", "cube.off", "--plot", "plot.jpg"), "drawn as .svg, .png or .pdf"),
         (("box.obj", "cube.off", "--repeat", "0"), "--repeat"),
         (("box.obj", "cube.off", "-o", "cube.off"), "overwrite an input"),
     ],
