@@ -1,112 +1,359 @@
-"""COLLADA through pycollada. Its result must have every triangle that the file lists."""
+"""COLLADA 1.4: the triangles of the visual scene, placed by its nodes, as the file stores them.
+
+Khronos, "COLLADA 1.4.1 specification" (2008). Read here and not by pycollada, which passes over
+what it does not know: to find out whether it did takes as much code as to read the file. What could
+be geometry, or move it, and is not read, refuses the file.
+"""
 
 from __future__ import annotations
 
 import io
-import re
+import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from satcheck.core.transform import about, compose, cos_sin, placed
 from satcheck.scene._readers import ReadError, cut_polygons
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.collada_nodes import IDENTITY, Floats, mirrors, placed, walk
-from satcheck.scene.loading.collada_outline import read_outline
-from satcheck.scene.loading.raw_mesh import RawMesh
+from satcheck.scene.loading.collada_skin import Floats, morphed, skinned
+from satcheck.scene.loading.flatten import flattened
+from satcheck.scene.loading.placing import instances
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.loading.written_mesh import of_fan, of_strip
+from satcheck.scene.loading.xml_elements import Element, read_elements
 
-Triangles = NDArray[np.int64]
+Indices = NDArray[np.int64]
+Geometry = tuple[Floats, Indices]  # vertices (n, 3), triangles (m, 3)
 
-_NAME = rb"(?:[\w.-]+:)?bind_material"
-_MATERIALS = re.compile(rb"<%b(?:\s[^>]*)?(?<!/)>.*?</%b\s*>" % (_NAME, _NAME), re.DOTALL)
+_MOVES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
+_BENDS = frozenset({"lookat", "skew"})
+_MESHES = frozenset({"instance_geometry", "instance_controller"})
+_LINES = frozenset({"lines", "linestrips"})
+_ONE_P_EACH = frozenset({"polygons", "tristrips", "trifans"})
+_TRIANGLES = frozenset({"triangles", "polylist", *_ONE_P_EACH})
+_WITHOUT_SURFACE = frozenset({"asset", "extra", "source", "vertices"})
+_AXES = (["X", "Y", "Z"], ["", "", ""])
 
 
-def read_collada(data: bytes) -> RawMesh:
+def read_collada(data: bytes | memoryview) -> RawMesh:
     """The visual scene of a COLLADA file, flattened; raises MeshFileError without a file name.
 
-    pycollada keeps coordinates and transforms as float32, hence the precision.
+    The programs that write COLLADA keep coordinates as float32, hence the precision.
     """
-    outline = read_outline(data)
-    promised = outline.promised_triangles()
-    if promised == 0:
-        raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
+    root = read_elements(io.BytesIO(data))
+    if root.tag != "COLLADA":
+        raise MeshFileError("not-this-format", f"not a COLLADA file: its root is <{root.tag}>")
+    return flattened(_Document(root).read())
 
-    import collada
 
-    # It leaves out what it cannot read, such as lights, or a mesh with an unreadable material. The
-    # count of triangles shows that no mesh is missing.
-    bare = _MATERIALS.sub(b"", data)
-    document: Any = collada.Collada(io.BytesIO(bare), ignore=[collada.common.DaeError])
-    meshes = list(_scene_meshes(document)) if document.scene is not None else []
-    read = sum(len(triangles) for _, triangles in meshes)
-    if read != promised:
-        raise MeshFileError(
-            "count-mismatch", f"the file promises {promised} triangles, {read} could be read"
+class _Document:
+    def __init__(self, root: Element) -> None:
+        self._root = root
+        self._by_id: dict[tuple[str, str], list[Element]] = {}
+        for element in _without_extras(root):
+            if "id" in element.attributes:
+                key = element.tag, element.attributes["id"]
+                self._by_id.setdefault(key, []).append(element)
+        self._geometries: dict[Element, Geometry] = {}
+        self._carriers: dict[Element, bool] = {}
+        self._warnings: dict[str, str] = {}
+
+    def read(self) -> RawScene:
+        units = self._units()
+        scene = self._visual_scene()
+        nodes = instances(
+            [(scene, None)],
+            children=self._children,
+            has_mesh=lambda element: element.tag in _MESHES and self._carries(element),
+            name=lambda element: element.attributes.get("id", element.tag),
+            kind="node",
         )
-    offsets = np.cumsum([0, *(len(points) for points, _ in meshes)])
-    points = np.concatenate([points for points, _ in meshes])
-    triangles = np.concatenate(
-        [corners + offset for (_, corners), offset in zip(meshes, offsets, strict=False)]
-    )
-    if not np.isfinite(points).all():
-        raise MeshFileError("non-finite", "non-finite coordinates")
-    return RawMesh(
-        vertices=points.astype("<f8").tobytes(),
-        triangles=triangles.astype("<u4").tobytes(),
-        precision="float32",
-        units=_units(document.assetInfo.unitmeter),
-        warnings=tuple(outline.warnings.items()),
-    )
+        if not nodes:
+            raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
+        parts, placements = [], []
+        for number, node in enumerate(nodes):
+            (points, triangles), matrix = self._placed(node.key, node.matrix, scene)
+            mesh = RawMesh(
+                vertices=points.astype("<f8").tobytes(),
+                triangles=triangles.astype("<u4").tobytes(),
+                precision="float32",
+                units=units,
+                warnings=tuple(self._warnings.items()),
+            )
+            parts.append(RawPart(str(number), mesh))
+            placements.append(RawNode(node.path, number, matrix))
+        return RawScene(tuple(parts), tuple(placements))
+
+    def _units(self) -> str:
+        asset = self._root.find("asset")
+        unit = asset.find("unit") if asset else None
+        if unit is None or "meter" not in unit.attributes:
+            return "meters"
+        (metres,) = unit.floats([unit.attributes["meter"]])
+        if metres <= 0.0:
+            unit.refuse("the unit has no length")
+        return "meters" if metres == 1.0 else f"{metres} * meters"
+
+    def _visual_scene(self) -> Element:
+        scene = self._root.find("scene")
+        references = scene.all("instance_visual_scene") if scene else []
+        if not references:
+            raise MeshFileError("empty-mesh", "empty mesh: the file instantiates no visual scene")
+        if len(references) > 1:
+            references[1].refuse("a second visual scene is not read", "unsupported-feature")
+        return self._target(references[0], "visual_scene")
+
+    def _target(self, element: Element, tag: str, attribute: str = "url") -> Element:
+        """The element of that tag that a reference means."""
+        url = element.attributes.get(attribute, "")
+        if not url.startswith("#"):
+            element.refuse(f"reference {url!r} leaves the file: refused", "outside-path")
+        targets = self._by_id.get((tag, url[1:]), [])
+        if len(targets) != 1:
+            code = "duplicate-id" if targets else "index-out-of-range"
+            element.refuse(f"{len(targets)} elements <{tag}> have the id {url[1:]!r}", code)
+        return targets[0]
+
+    def _children(self, element: Element) -> list[tuple[Element, Matrix | None]]:
+        """What is placed in a node. Transforms of what has no triangles are not read."""
+        return [
+            (child, _matrix_of(child) if self._carries(child) else None)
+            for child in self._placed_in(element)
+        ]
+
+    def _placed_in(self, element: Element) -> Iterator[Element]:
+        if element.tag in _MESHES:
+            return
+        for child in element.children:
+            if child.tag == "node" or child.tag in _MESHES:
+                yield child
+            elif child.tag == "instance_node":
+                yield self._target(child, "node")
+
+    def _carries(self, element: Element) -> bool:
+        """Whether it has triangles, or something in it does."""
+        if element not in self._carriers:
+            self._carriers[element] = False  # in a circle, which is refused later
+            self._carriers[element] = (
+                len(self._mesh_of(element)[1]) > 0
+                if element.tag in _MESHES
+                else any(map(self._carries, self._placed_in(element)))
+            )
+        return self._carriers[element]
+
+    def _shaper(self, element: Element) -> Element | None:
+        """The skin or morph of an <instance_controller>; None of an <instance_geometry>."""
+        if element.tag == "instance_geometry":
+            return None
+        controller = self._target(element, "controller")
+        shaper = controller.find("skin") or controller.find("morph")
+        return shaper or controller.refuse("a controller without <skin> and <morph>")
+
+    def _mesh_of(self, element: Element) -> Geometry:
+        """What an instance shows, before anything moves its vertices."""
+        shaper = self._shaper(element)
+        owner, attribute = (element, "url") if shaper is None else (shaper, "source")
+        return self._geometry(self._target(owner, "geometry", attribute))
+
+    def _placed(
+        self, element: Element, matrix: Matrix | None, scene: Element
+    ) -> tuple[Geometry, Matrix | None]:
+        """A mesh, its vertices moved by a skin or by morph targets, and what places it."""
+        points, triangles = self._mesh_of(element)
+        shaper = self._shaper(element)
+        if shaper is None:
+            return (points, triangles), matrix
+        if shaper.tag == "morph":
+            self._warnings["rest-shape"] = "weights of morph targets are as the file stores them"
+            return (morphed(shaper, points, self._morph_target), triangles), matrix
+        self._warnings["rest-shape"] = "joints stand as the file stores them"
+        skeletons = [skeleton.text.lstrip("#") for skeleton in element.all("skeleton")]
+        points, mirrored = skinned(
+            shaper, points, lambda by, names: self._joints(scene, skeletons, by, names)
+        )
+        return (points, triangles[:, ::-1] if mirrored else triangles), None
+
+    def _morph_target(self, id_: str) -> Floats | None:
+        targets = self._by_id.get(("geometry", id_), [])
+        return self._geometry(targets[0])[0] if len(targets) == 1 else None
+
+    def _joints(
+        self, scene: Element, skeletons: list[str], attribute: str, names: list[str]
+    ) -> dict[str, Matrix]:
+        """Where the nodes of these names stand in the world: those below the skeletons, if there
+        are any, else anywhere. attribute: that holds the name."""
+        roots = [k for id_ in skeletons for k in self._by_id.get(("node", id_), [])]
+        joints: dict[str, Matrix] = {}
+        stack: list[tuple[Element, ...]] = [(scene,)]
+        while stack:
+            chain = stack.pop()
+            name = chain[-1].attributes.get(attribute)
+            is_below = not roots or any(node in roots for node in chain)
+            if name in names and name not in joints and is_below:
+                joints[name] = _world(chain)
+            inside = [child for child in self._placed_in(chain[-1]) if child.tag == "node"]
+            stack += [(*chain, child) for child in reversed(inside)]
+        return joints
+
+    def _geometry(self, element: Element) -> Geometry:
+        if element not in self._geometries:
+            self._geometries[element] = self._read_geometry(element)
+        return self._geometries[element]
+
+    def _read_geometry(self, element: Element) -> Geometry:
+        mesh = element.find("mesh")
+        if mesh is None:
+            if element.find("spline") is None:
+                element.refuse("a geometry without <mesh> is not read", "unsupported-feature")
+            self._warnings["ignored-geometry"] = "lines are ignored"
+            return np.empty((0, 3)), np.empty((0, 3), np.int64)
+        points = _points(mesh)
+        triangles = []
+        for group in mesh.children:
+            if group.tag in _LINES:
+                self._warnings["ignored-geometry"] = "lines are ignored"
+            elif group.tag in _TRIANGLES:
+                triangles.append(_triangles(group, points))
+            elif group.tag not in _WITHOUT_SURFACE:
+                group.refuse("could be geometry, and is not read", "unsupported-feature")
+        return points, np.concatenate([*triangles, np.empty((0, 3), np.int64)])
 
 
-def _units(metres: float | None) -> str:
-    return "meters" if metres is None or metres == 1.0 else f"{metres} * meters"
+def _without_extras(root: Element) -> Iterator[Element]:
+    waiting = [root]
+    while waiting:
+        element = waiting.pop()
+        yield element
+        waiting += [child for child in element.children if child.tag != "extra"]
 
 
-def _scene_meshes(document: Any) -> Iterator[tuple[Floats, Triangles]]:
-    """Vertices in the world and triangles, once for each instance."""
-    from collada.scene import ControllerNode, GeometryNode
-
-    scene = list(walk([(node, IDENTITY) for node in document.scene.nodes]))
-    for node, matrix in scene:
-        if isinstance(node, GeometryNode):
-            mirrored = mirrors(matrix)
-            for points, triangles in _primitives(node.geometry):
-                yield placed(points, matrix), triangles[:, ::-1] if mirrored else triangles
-        elif isinstance(node, ControllerNode):
-            from satcheck.scene.loading.collada_shapes import shaped
-
-            geometry, shape, mirrored = shaped(node, matrix, scene)
-            for points, triangles in _primitives(geometry):
-                yield shape(points), triangles[:, ::-1] if mirrored else triangles
+def _world(chain: tuple[Element, ...]) -> Matrix:
+    """The matrices of a node and of all around it."""
+    matrix = IDENTITY
+    for node in chain:
+        matrix = compose(matrix, _matrix_of(node))
+    return matrix
 
 
-def _primitives(geometry: Any) -> Iterator[tuple[Floats, Triangles]]:
-    """Vertices as the file has them, and triangles, of each group of polygons."""
-    from collada.polylist import Polylist
-    from collada.triangleset import TriangleSet
-
-    for primitive in geometry.primitives:
-        if not isinstance(primitive, Polylist | TriangleSet) or primitive.vertex_index is None:
-            continue
-        points = np.asarray(primitive.vertex, dtype=np.float64)
-        corners = np.asarray(primitive.vertex_index, dtype=np.int64).ravel()
-        if corners.size and (corners.min() < 0 or corners.max() >= len(points)):
-            name = geometry.id
-            raise MeshFileError("index-out-of-range", f"geometry {name!r}: index out of range")
-        if isinstance(primitive, Polylist):
-            corners = _cut(points, corners, np.asarray(primitive.vcounts))
-        yield points, corners.reshape(-1, 3)
+def _matrix_of(node: Element) -> Matrix:
+    """The transforms of a node, the first one outermost."""
+    matrix = IDENTITY
+    for child in node.children:
+        if child.tag in _BENDS:
+            child.refuse("a transform that is not read", "unsupported-feature")
+        if child.tag in _MOVES:
+            matrix = compose(matrix, _move(child))
+    return matrix
 
 
-def _cut(points: Floats, corners: Triangles, lengths: Triangles) -> Triangles:
+def _move(element: Element) -> Matrix:
+    words, wanted = element.text.split(), _MOVES[element.tag]
+    try:
+        values = [float(word) for word in words]
+    except ValueError:
+        values = []
+    if len(values) != wanted or not all(map(math.isfinite, values)):
+        element.refuse(f"should be {wanted} finite numbers")
+    if element.tag == "matrix":
+        if values[12:] != [0.0, 0.0, 0.0, 1.0]:
+            element.refuse("the last row should be 0 0 0 1")
+        return tuple(values)
+    x, y, z, *angle = values
+    if element.tag == "translate":
+        return placed((1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), (x, y, z))
+    if element.tag == "scale":
+        return placed((x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z), (0.0, 0.0, 0.0))
+    length = math.hypot(x, y, z)
+    if not any(angle):
+        return IDENTITY
+    if not (length > 0.0 and math.isfinite(length)):
+        element.refuse("an axis of length 0")
+    turn = about((x / length, y / length, z / length), cos_sin(angle[0]))
+    return placed(turn, (0.0, 0.0, 0.0))
+
+
+def _points(mesh: Element) -> Floats:
+    """The positions that <vertices> names."""
+    vertices = mesh.find("vertices")
+    inputs = vertices.all("input") if vertices else []
+    positions = [i for i in inputs if i.attributes.get("semantic") == "POSITION"]
+    if not positions:
+        return np.empty((0, 3))
+    wanted = positions[0].attributes.get("source", "").lstrip("#")
+    for source in mesh.all("source"):
+        if source.attributes.get("id") == wanted:
+            accessor = next((e for e in source.below() if e.tag == "accessor"), None)
+            if accessor is not None and _makes_points(accessor):
+                return source.need("float_array").counted_floats().reshape(-1, 3)
+    message = "positions should be X, Y, Z after X, Y, Z from the first number on"
+    return positions[0].refuse(message, "unsupported-feature")
+
+
+def _makes_points(accessor: Element) -> bool:
+    given = accessor.attributes
+    names = [param.attributes.get("name", "") for param in accessor.all("param")]
+    layout = given.get("offset", "0").strip(), given.get("stride", "1").strip()
+    return layout == ("0", "3") and names in _AXES
+
+
+def _triangles(group: Element, points: Floats) -> Indices:
+    """The triangles (m, 3) of a group of polygons, strips or fans."""
+    for hole in group.all("ph"):
+        hole.refuse("is not read", "unsupported-feature")
+    inputs = [(i.attributes.get("semantic"), i.integer("offset")) for i in group.all("input")]
+    offset = dict(inputs).get("VERTEX")
+    if offset is None:
+        return (
+            np.empty((0, 3), np.int64)
+            if not group.integer("count")
+            else group.refuse("no input of vertices")
+        )
+    stride = 1 + max(offset for _, offset in inputs)
+    rows = [p.integers() for p in group.all("p")]
+    numbers = [number for row in rows for number in row]
+    lengths = _lengths(group, rows, stride)
+    count = group.integer("count")
+    if len(lengths) != count or sum(lengths) * stride != len(numbers):
+        group.refuse(
+            f"promises {count} polygons, {sum(lengths)} corners of {stride} numbers, "
+            f"and has {len(numbers)} numbers",
+            "count-mismatch",
+        )
+    if any(length < 3 for length in lengths):
+        group.refuse("a polygon with fewer than 3 corners")
+    corners = numbers[offset::stride]
+    if corners and max(corners) >= len(points):
+        group.refuse(f"vertex {max(corners)} of {len(points)}", "index-out-of-range")
+    if group.tag in ("tristrips", "trifans"):
+        split = of_strip if group.tag == "tristrips" else of_fan
+        ends = np.cumsum(lengths)
+        pieces = (corners[e - n : e] for e, n in zip(ends, lengths, strict=True))
+        corners = [corner for piece in pieces for corner in split(piece)]
+    elif any(length > 3 for length in lengths):
+        return _cut(points, corners, lengths)
+    return np.array(corners, np.int64).reshape(-1, 3)
+
+
+def _lengths(group: Element, rows: list[list[int]], stride: int) -> list[int]:
+    """How many corners each polygon, strip or fan has."""
+    if group.tag == "polylist":
+        vcount = group.find("vcount")
+        return vcount.integers() if vcount else []
+    if group.tag in _ONE_P_EACH:
+        return [len(row) // stride for row in rows]
+    return [3] * min(group.integer("count"), sum(map(len, rows)))
+
+
+def _cut(points: Floats, corners: list[int], lengths: list[int]) -> Indices:
     """The triangles of polygons of these lengths."""
     triangles = cut_polygons(
         points.astype("<f8").tobytes(),
-        corners.astype("<u4").tobytes(),
-        lengths.astype("<u4").tobytes(),
+        np.array(corners, "<u4").tobytes(),
+        np.array(lengths, "<u4").tobytes(),
     )
     if isinstance(triangles, ReadError):
         raise MeshFileError(triangles.code, triangles.message)
-    return np.frombuffer(triangles, "<u4").astype(np.int64)
+    return np.frombuffer(triangles, "<u4").astype(np.int64).reshape(-1, 3)

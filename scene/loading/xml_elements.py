@@ -7,11 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import IO, NoReturn
 
+import numpy as np
+from numpy.typing import NDArray
+
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.xml_guard import guarded_parser, parse_stream, split_name
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Element:
     """tag and names of attributes: without their namespaces. text: all of it, in one piece."""
 
@@ -73,6 +76,32 @@ class Element:
         if values and max(values) >= count:
             self.refuse(f"vertex {max(values)} of {count}", "index-out-of-range")
         return values
+
+    def floats_of_text(self) -> list[float]:
+        return self.floats(self.text.split())
+
+    def counted_floats(self) -> NDArray[np.float64]:
+        """The numbers in the element, as many as its `count` says."""
+        words, count = self.text.split(), self.integer("count")
+        if len(words) != count:
+            message = f"{self.tag} promises {count} numbers and has {len(words)}"
+            self.refuse(message, "count-mismatch")
+        return np.array(self.floats(words), np.float64)
+
+    def integers(self, least: int = 0) -> list[int]:
+        """The whole numbers in the element."""
+        try:
+            values = [int(word) for word in self.text.split()]
+        except ValueError as error:
+            self.refuse(str(error))
+        if values and min(values) < least:
+            self.refuse(f"negative number {min(values)}", "index-out-of-range")
+        return values
+
+    def integer(self, name: str) -> int:
+        """An attribute that has to be there: a whole number >= 0."""
+        word = self.attribute(name).strip()
+        return int(word) if word.isdecimal() else self.refuse(f"{name}={word!r} is no number")
 
     def refuse(self, message: str, code: str = "bad-record") -> NoReturn:
         raise MeshFileError(code, f"line {self.line}: <{self.tag}>: {message}")

@@ -218,7 +218,7 @@ def test_the_bind_shape_itself_can_have_a_weight(tmp_path):
             "bad-record",
             "<translate>",
         ),
-        (files.collada(nodes=SKINNED), "index-out-of-range", "'controller:c'"),
+        (files.collada(nodes=SKINNED), "index-out-of-range", "<controller> have the id 'c'"),
     ],
 )
 def test_wrong_skins(tmp_path, content, code, said):
@@ -253,3 +253,33 @@ def test_mirrored_nodes_turn_the_faces_of_what_morphs_too(tmp_path):
     nodes = '<node id="n"><scale>-1 1 1</scale><instance_controller url="#c"/></node>'
     content = files.collada(nodes=nodes, controllers=morph("NORMALIZED", 0.0))
     assert set(warnings(loaded(tmp_path, "a.dae", content))) == {"rest-shape"}
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "code"),
+    [
+        ("mesh>", "convex_mesh>", "unsupported-feature"),
+        ("<vertices", '<splines count="1"/><vertices', "unsupported-feature"),
+        (
+            '<node id="n">',
+            '<node id="n"><matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1</matrix>',
+            "bad-record",
+        ),
+        ('<node id="n">', '<node id="n"><rotate>0 0 0 9</rotate>', "bad-record"),
+        ("<geometry ", '<geometry id="g"/><geometry ', "duplicate-id"),
+        ('meter="1"', 'meter="-1"', "bad-record"),
+    ],
+)
+def test_what_is_not_certain_is_refused(tmp_path, was, now, code):
+    nodes = '<node id="n"><instance_geometry url="#g"/></node>'
+    content = files.collada(nodes=nodes).decode()
+    assert was in content
+    found, _ = refusal(tmp_path, "a.dae", content.replace(was, now).encode())
+    assert found == code
+
+
+def test_what_places_no_triangles_need_not_be_read(tmp_path):
+    camera = '<node id="c"><lookat>5 0 0 5 0 -1 0 1 0</lookat></node>'
+    extra = '<extra><technique profile="x"><geometry id="g"/></technique></extra>'
+    nodes = camera + '<node id="n"><instance_geometry url="#g"/></node>' + extra
+    assert loaded(tmp_path, "a.dae", files.collada(nodes=nodes)).health.volume == 1.0
