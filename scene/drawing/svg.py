@@ -32,7 +32,7 @@ from satcheck.scene.drawing.svg_values import (
     view_box,
 )
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.xml_guard import guarded_parser, parse_xml
+from satcheck.scene.loading.xml_tree import guarded_parser, parse_xml
 
 _NAMESPACE = "http://www.w3.org/2000/svg"
 _HREFS = ("href", "{http://www.w3.org/1999/xlink}href")

@@ -7,7 +7,6 @@ be geometry, or move it, and is not read, refuses the file.
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Iterator
 
@@ -23,7 +22,7 @@ from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import instances
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
 from satcheck.scene.loading.written_mesh import of_fan, of_strip
-from satcheck.scene.loading.xml_elements import Element, read_elements
+from satcheck.scene.loading.xml_tree import Element, read_elements
 
 Indices = NDArray[np.int64]
 Geometry = tuple[Floats, Indices]  # vertices (n, 3), triangles (m, 3)
@@ -43,7 +42,7 @@ def read_collada(data: bytes | memoryview) -> RawMesh:
 
     The programs that write COLLADA keep coordinates as float32, hence the precision.
     """
-    root = read_elements(io.BytesIO(data))
+    root = read_elements(data)
     if root.tag != "COLLADA":
         raise MeshFileError("not-this-format", f"not a COLLADA file: its root is <{root.tag}>")
     return flattened(_Document(root).read())

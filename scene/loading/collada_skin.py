@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import Matrix
-from satcheck.scene.loading.xml_elements import Element
+from satcheck.scene.loading.xml_tree import Element
 
 Floats = NDArray[np.float64]
 

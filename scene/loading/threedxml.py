@@ -13,7 +13,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, tidy_name
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
 from satcheck.scene.loading.written_mesh import WrittenMesh, of_fan, of_strip
-from satcheck.scene.loading.xml_elements import Element, read_elements
+from satcheck.scene.loading.xml_tree import Element, read_elements
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 from satcheck.scene.plain_ids import UniqueNames
 

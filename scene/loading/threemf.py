@@ -15,7 +15,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances
 from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene
 from satcheck.scene.loading.threemf_model import ENCODINGS, Model, Object, part_name, read_model
-from satcheck.scene.loading.xml_guard import UnboundPrefix, guarded_parser, parse_stream, split_name
+from satcheck.scene.loading.xml_tree import UnboundPrefix, read_elements
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 from satcheck.scene.plain_ids import UniqueNames
 
@@ -66,16 +66,13 @@ class _Package:
         relationships = self._names.get("_rels/.rels")
         if relationships is None:
             return _DEFAULT_PART
-        targets: list[str] = []
-
-        def start(name: str, attributes: dict[str, str]) -> None:
-            if split_name(name)[1] == "Relationship" and attributes.get("Type") == _START_PART:
-                targets.append(attributes.get("Target", _DEFAULT_PART))
-
-        parser = guarded_parser(ENCODINGS)
-        parser.StartElementHandler = start
         with self._open(relationships) as stream:
-            parse_stream(parser, stream)
+            root = read_elements(stream, encodings=ENCODINGS)
+        targets = [
+            element.attributes.get("Target", _DEFAULT_PART)
+            for element in root.below()
+            if element.tag == "Relationship" and element.attributes.get("Type") == _START_PART
+        ]
         return part_name(targets[0]) if targets else _DEFAULT_PART
 
     def _open(self, part: str) -> IO[bytes]:

@@ -13,7 +13,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import tidy_name
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh
 from satcheck.scene.loading.written_mesh import digits_of
-from satcheck.scene.loading.xml_guard import (
+from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
     UndeclaredPrefixes,
     guarded_parser,

@@ -7,7 +7,6 @@ unit. What is bound to data, kept in resources or of another namespace could be 
 
 from __future__ import annotations
 
-import io
 import math
 
 from satcheck.core.transform import about, compose, cos_sin, of_quaternion, placed
@@ -15,7 +14,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.raw_mesh import Matrix, RawMesh
 from satcheck.scene.loading.written_mesh import WrittenMesh
-from satcheck.scene.loading.xml_elements import Element, read_elements
+from satcheck.scene.loading.xml_tree import Element, read_elements
 
 _PRESENTATION = "http://schemas.microsoft.com/winfx/2006/xaml/presentation"
 _GEOMETRY = "GeometryModel3D.Geometry"
@@ -25,7 +24,7 @@ _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 def read_xaml(data: memoryview) -> RawMesh:
     """All meshes of the scene, flattened; raises MeshFileError without a file name."""
-    root = read_elements(io.BytesIO(data))
+    root = read_elements(data)
     found: list[tuple[WrittenMesh, Matrix]] = []
     waiting = [(root, _IDENTITY)]
     while waiting:

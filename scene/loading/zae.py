@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import posixpath
 import zipfile
-from typing import IO
 from urllib.parse import unquote
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.collada import read_collada
 from satcheck.scene.loading.raw_mesh import RawMesh
-from satcheck.scene.loading.xml_guard import guarded_parser, parse_stream, split_name
+from satcheck.scene.loading.xml_tree import read_elements
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 
 _MANIFEST = "manifest.xml"
@@ -22,13 +21,9 @@ _MANIFEST = "manifest.xml"
 
 def read_zae(data: memoryview) -> RawMesh:
     """Raises MeshFileError without a file name."""
-    with opened_zip(data, "a ZAE file") as archive, _document(archive) as stream:
-        document = stream.read()
+    with opened_zip(data, "a ZAE file") as archive:
+        document = open_part(archive, _name_of_document(archive)).read()
     return read_collada(document)
-
-
-def _document(archive: zipfile.ZipFile) -> IO[bytes]:
-    return open_part(archive, _name_of_document(archive))
 
 
 def _name_of_document(archive: zipfile.ZipFile) -> str:
@@ -47,17 +42,7 @@ def _name_of_document(archive: zipfile.ZipFile) -> str:
 
 
 def _root_in_manifest(archive: zipfile.ZipFile) -> str:
-    parser = guarded_parser()
-    around: list[str] = []
-    words: list[str] = []
-
-    def text(piece: str) -> None:
-        if around[-1:] == ["dae_root"]:
-            words.append(piece)
-
-    parser.StartElementHandler = lambda name, _: around.append(split_name(name)[1])
-    parser.EndElementHandler = lambda _: around.pop()
-    parser.CharacterDataHandler = text
     with open_part(archive, _MANIFEST) as stream:
-        parse_stream(parser, stream)
-    return "".join(words).strip()
+        root = read_elements(stream)
+    roots = (element for element in (root, *root.below()) if element.tag == "dae_root")
+    return "".join(element.text for element in roots)

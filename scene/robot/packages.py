@@ -16,10 +16,13 @@ from pathlib import Path
 from urllib.parse import unquote
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.robot.package_name import MANIFESTS, name_in_manifest
+from satcheck.scene.loading.xml_tree import read_elements
 
 _SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]*)://(.*)", re.DOTALL)
 _SUBSTITUTION = re.compile(r"\$[({]")
+_PACKAGE_XML = "package.xml"
+_MANIFESTS = (_PACKAGE_XML, "model.config")  # mark the root of a package, of a Gazebo model
+_MAX_BYTES = 1 << 20
 _PACKAGE_SCHEMES = frozenset(("package", "model"))
 
 
@@ -129,7 +132,7 @@ class MeshPlaces:
     def _by_manifest(self, name: str) -> Iterator[Path]:
         for root in (self._root, *_environment()):
             for folder in (root, *_folders_in(root)):
-                if name_in_manifest(folder) == name:
+                if _name_in_manifest(folder) == name:
                     yield folder
 
     def _upwards(self, steps: int) -> Path:
@@ -148,9 +151,21 @@ def _steps_to_root(folder: Path) -> int:
     absolute = folder.absolute()
     around = (absolute, *absolute.parents)
     for steps, above in enumerate(around):
-        if any((above / manifest).is_file() for manifest in MANIFESTS):
+        if any((above / manifest).is_file() for manifest in _MANIFESTS):
             return steps
     return 1 if len(around) > 2 else 0
+
+
+def _name_in_manifest(folder: Path) -> str | None:
+    """The name that a package gives itself in its package.xml; None where there is no readable
+    one: then the name of the folder counts."""
+    try:
+        with (folder / _PACKAGE_XML).open("rb") as file:
+            root = read_elements(file.read(_MAX_BYTES))
+    except (OSError, MeshFileError):
+        return None
+    name = root.find("name") if root.tag == "package" else None
+    return name.text or None if name else None
 
 
 def _existing(folder: Path, path: str, *, quoted: bool) -> Path:

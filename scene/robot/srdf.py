@@ -58,26 +58,26 @@ def read_srdf(path: str, location: Path) -> Srdf:
     root = read_tree(path, location, "robot")
     return Srdf(
         file=path,
-        robot=root.text("name"),
+        robot=root.attribute("name"),
         disabled={_pair(e): e.attributes.get("reason", "") for e in root.all("disable_collisions")},
-        silent=frozenset(e.text("link") for e in root.all("disable_default_collisions")),
+        silent=frozenset(e.attribute("link") for e in root.all("disable_default_collisions")),
         enabled=frozenset(_pair(e) for e in root.all("enable_collisions")),
         states=tuple(_state(element) for element in root.all("group_state")),
     )
 
 
 def _pair(element: Element) -> frozenset[str]:
-    return frozenset((element.text("link1"), element.text("link2")))
+    return frozenset((element.attribute("link1"), element.attribute("link2")))
 
 
 def _state(element: Element) -> State:
     joints: dict[str, Values] = {}
     lines: dict[str, int] = {}
     for joint in element.all("joint"):
-        name = joint.text("name")
-        values = joint.numbers("value", len(joint.text("value").split()))
+        name = joint.attribute("name")
+        values = joint.numbers("value", len(joint.attribute("value").split()))
         if joints.setdefault(name, values) != values:
             joint.refuse(f"a second value of joint {name!r}", "duplicate-id")
         lines.setdefault(name, joint.line)
-    group, name = element.attributes.get("group", ""), element.text("name")
+    group, name = element.attributes.get("group", ""), element.attribute("name")
     return State(group, name, joints, element.file, lines)

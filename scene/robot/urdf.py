@@ -76,7 +76,7 @@ class _Reader:
             links[link.name] = link
         if not links:
             root.refuse("a robot without links")
-        names = [element.text("name") for element in root.all("joint")]
+        names = [element.attribute("name") for element in root.all("joint")]
         joints: dict[str, tuple[Joint, Element]] = {}
         for element in root.all("joint"):
             joint = self._joint(element, names)
@@ -88,7 +88,7 @@ class _Reader:
         return Robot(name, self._path, base, links, ordered), self._slips.issues(self._path)
 
     def _link(self, element: Element) -> Link:
-        name = element.text("name")
+        name = element.attribute("name")
         self._note_unknown(element, _LINK_PARTS)
         found = (self._collision(one) for one in element.all("collision"))
         return Link(
@@ -114,17 +114,17 @@ class _Reader:
             return Collision(name, IDENTITY, RefusedShape(error.code, error.reason), error.at)
 
     def _joint(self, element: Element, names: Sequence[str]) -> Joint:
-        name = element.text("name")
+        name = element.attribute("name")
         self._note_unknown(element, _JOINT_PARTS)
-        given = element.text("type")
+        given = element.attribute("type")
         kind = next((kind for kind in _KINDS if kind == given), None)
         if kind is None:
             element.refuse(f"type {given!r} is none of {', '.join(_KINDS)}")
         return Joint(
             name=name,
             kind=kind,
-            parent=element.need("parent").text("link"),
-            child=element.need("child").text("link"),
+            parent=element.need("parent").attribute("link"),
+            child=element.need("child").attribute("link"),
             origin=_origin(element),
             axis=_X if kind in ("fixed", "floating") else self._axis(element),
             limits=self._limits(element, kind),
@@ -168,7 +168,7 @@ class _Reader:
             element.refuse(f"a {kind} joint cannot mimic another")
         element.knows(("joint", "multiplier", "offset"))
         mimic = Mimic(
-            joint=element.text("joint"),
+            joint=element.attribute("joint"),
             multiplier=element.number("multiplier", 1.0),
             offset=element.number("offset", 0.0),
         )
@@ -227,7 +227,7 @@ def _mesh(shape: Element) -> MeshReference:
     scale = _vector(shape, "scale", (1.0, 1.0, 1.0))
     if 0.0 in scale:
         shape.refuse("scale 0 flattens the mesh", "singular-transform")
-    return MeshReference(shape.text("filename"), scale)
+    return MeshReference(shape.attribute("filename"), scale)
 
 
 def _box(shape: Element) -> Box:

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import io
 import math
 import re
 from collections.abc import Collection, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from difflib import get_close_matches
+from functools import partial
 from pathlib import Path
-from typing import NoReturn
+from typing import NoReturn, Self
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError, SceneFileError
+from satcheck.scene.loading import xml_tree
 from satcheck.scene.loading.regular_file import size_of
-from satcheck.scene.loading.xml_guard import guarded_parser, parse_xml
+from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, parse_xml
 
 _MAX_BYTES = 64 << 20
 # What C reads as a decimal number; float() would take more ("1_0", "nan", digits of any script).
@@ -37,20 +40,13 @@ class RefusedElement(SceneFileError):
         self.reason = reason
 
 
-@dataclass(slots=True)
-class Element:
-    """file: the document's path as given. line: where the element starts."""
+@dataclass(slots=True, eq=False)
+class Element(xml_tree.Element):
+    """file: the document's path as given. Names have the prefixes that the file writes."""
 
-    tag: str
-    attributes: dict[str, str]
-    line: int
-    file: str
-    children: list[Element] = field(default_factory=list)
+    file: str = ""
 
-    def all(self, tag: str) -> list[Element]:
-        return [child for child in self.children if child.tag == tag]
-
-    def only(self, tag: str) -> Element | None:
+    def only(self, tag: str) -> Self | None:
         """The one child of that name, or None; several are refused unless they say the same."""
         found = self.all(tag)
         for other in found[1:]:
@@ -58,20 +54,23 @@ class Element:
                 other.refuse(f"a second <{tag}> in one <{self.tag}>")
         return found[0] if found else None
 
-    def says_the_same_as(self, other: Element) -> bool:
+    def says_the_same_as(self, other: Self) -> bool:
         return (
             self.tag == other.tag
             and self.attributes == other.attributes
             and len(self.children) == len(other.children)
-            and all(map(Element.says_the_same_as, self.children, other.children))
+            and all(
+                mine.says_the_same_as(its)
+                for mine, its in zip(self.children, other.children, strict=True)
+            )
         )
 
-    def need(self, tag: str) -> Element:
+    def need(self, tag: str) -> Self:
         return self.only(tag) or self.refuse(f"<{tag}> is missing")
 
-    def text(self, attribute: str) -> str:
+    def attribute(self, name: str) -> str:
         """An attribute that has to be there, and not empty."""
-        return self.attributes.get(attribute) or self.refuse(f'attribute "{attribute}" is missing')
+        return self.attributes.get(name) or self.refuse(f'attribute "{name}" is missing')
 
     def numbers(
         self, attribute: str, count: int, default: tuple[float, ...] | None = None
@@ -79,7 +78,7 @@ class Element:
         """`count` finite numbers; without a default the attribute has to be there."""
         if default is not None and attribute not in self.attributes:
             return default
-        value = self.text(attribute)
+        value = self.attribute(attribute)
         words = value.split()
         if len(words) != count:
             wanted = "1 number" if count == 1 else f"{count} numbers"
@@ -180,23 +179,8 @@ def _with_declaration_first(data: bytes) -> bytes:
 
 
 def _parse(path: str, data: bytes) -> Element:
-    parser = guarded_parser(namespaces=False)
-    outside = Element("", {}, 0, path)
-    around = [outside]
-
-    def start(tag: str, attributes: dict[str, str]) -> None:
-        element = Element(tag, attributes, parser.CurrentLineNumber, path)
-        around[-1].children.append(element)
-        around.append(element)
-
-    parser.StartElementHandler = start
-    parser.EndElementHandler = lambda _: around.pop()
+    stream = io.BytesIO(_with_declaration_first(data))
     try:
-        parse_xml(lambda: parser.Parse(_with_declaration_first(data), True))
+        return parse_elements(guarded_parser(namespaces=False), stream, partial(Element, file=path))
     except MeshFileError as error:
-        still = around[-1]
-        ends = (
-            f"; <{still.tag}> of line {still.line} was still open" if still is not outside else ""
-        )
-        raise SceneFileError(error.code, f"{error.message}{ends}", file=path) from None
-    return outside.children[0]
+        raise SceneFileError(error.code, error.message, file=path) from None

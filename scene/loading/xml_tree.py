@@ -1,0 +1,266 @@
+"""XML of untrusted files: a parser that refuses entities, and elements that know their lines."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import IO, NoReturn, Self, TypeVar
+from xml.parsers import expat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from satcheck.scene.errors import MeshFileError
+
+_NAMESPACE_SEPARATOR = " "
+UNDECLARED = "undeclared:"
+_DECLARATION = "<?xml version="  # a parser that fails within this many characters has read no XML
+
+
+def guarded_parser(
+    allowed_encodings: frozenset[str] | None = None, *, namespaces: bool = True
+) -> expat.XMLParserType:
+    """A parser whose element and attribute names read "namespace local-name".
+
+    allowed_encodings: lower-case names the XML declaration may give; None: any that expat knows.
+    namespaces: False leaves names as they are written, "prefix:local-name", declared or not.
+    Raises MeshFileError from within the parse.
+    """
+    separator = _NAMESPACE_SEPARATOR if namespaces else None
+    parser = expat.ParserCreate(namespace_separator=separator)
+    parser.buffer_text = True
+
+    def refuse_entity(*_: object) -> NoReturn:
+        raise MeshFileError(
+            "entity-declaration",
+            f"line {parser.CurrentLineNumber}: entity declarations are refused",
+        )
+
+    def check_encoding(_version: str, encoding: str | None, _standalone: int) -> None:
+        if allowed_encodings and encoding and encoding.lower() not in allowed_encodings:
+            expected = " or ".join(sorted(allowed_encodings))
+            raise MeshFileError(
+                "bad-encoding", f"invalid XML encoding {encoding!r}: {expected} expected"
+            )
+
+    parser.EntityDeclHandler = refuse_entity
+    parser.ExternalEntityRefHandler = refuse_entity
+    parser.XmlDeclHandler = check_encoding
+    return parser
+
+
+class UnboundPrefix(MeshFileError):
+    """A prefix is used and not declared."""
+
+
+def parse_xml(parse: Callable[[], object]) -> None:
+    """Runs a parse and turns expat's complaint into a MeshFileError."""
+    try:
+        parse()
+    except expat.ExpatError as error:
+        reason = expat.ErrorString(error.code)
+        if reason == expat.errors.XML_ERROR_UNBOUND_PREFIX:
+            message = f"line {error.lineno}: not well-formed XML: {reason}"
+            raise UnboundPrefix("bad-record", message) from None
+        if "encoding" in reason or (error.lineno == 1 and error.offset < len(_DECLARATION)):
+            message = f"invalid XML encoding, or not XML: {reason}"
+            raise MeshFileError("bad-encoding", message) from None
+        raise MeshFileError(
+            "bad-record", f"line {error.lineno}: not well-formed XML: {reason}"
+        ) from None
+    except (LookupError, UnicodeError) as error:
+        raise MeshFileError("bad-encoding", f"invalid XML encoding: {error}") from None
+
+
+def parse_stream(parser: expat.XMLParserType, stream: IO[bytes]) -> None:
+    parse_xml(lambda: parser.ParseFile(stream))
+
+
+def split_name(name: str) -> tuple[str, str]:
+    """(namespace, local name); the namespace is "" where there is none."""
+    namespace, _, local = name.rpartition(_NAMESPACE_SEPARATOR)
+    return namespace, local
+
+
+class UndeclaredPrefixes:
+    """The namespaces of a parser that leaves names as they are written, for XML that uses prefixes
+    which it does not declare: these stand for themselves, as `UNDECLARED` and the prefix.
+
+    start, end: called for each element, with names as those of a parser that knows namespaces.
+    """
+
+    def __init__(
+        self,
+        parser: expat.XMLParserType,
+        start: Callable[[str, dict[str, str]], None],
+        end: Callable[[str], None],
+    ) -> None:
+        self._start = start
+        self._end = end
+        self._scopes: list[dict[str, str]] = [{"xml": "xml"}]
+        parser.StartElementHandler = self._on_start
+        parser.EndElementHandler = self._on_end
+
+    def _on_start(self, name: str, attributes: dict[str, str]) -> None:
+        declared = {
+            key.partition(":")[2]: attributes.pop(key)
+            for key in list(attributes)
+            if key == "xmlns" or key.startswith("xmlns:")
+        }
+        self._scopes.append({**self._scopes[-1], **declared} if declared else self._scopes[-1])
+        self._start(
+            self._resolved(name, self.namespace("") or ""),
+            {self._resolved(key, ""): value for key, value in attributes.items()},
+        )
+
+    def _on_end(self, name: str) -> None:
+        self._end(self._resolved(name, self.namespace("") or ""))
+        self._scopes.pop()
+
+    def namespace(self, prefix: str) -> str | None:
+        """That of a prefix here; of "" for names without one."""
+        return self._scopes[-1].get(prefix)
+
+    def _resolved(self, name: str, default: str) -> str:
+        prefix, colon, local = name.partition(":")
+        if not colon:
+            return f"{default}{_NAMESPACE_SEPARATOR}{name}" if default else name
+        namespace = self._scopes[-1].get(prefix, f"{UNDECLARED}{prefix}")
+        return f"{namespace}{_NAMESPACE_SEPARATOR}{local}"
+
+
+@dataclass(slots=True, eq=False)
+class Element:
+    """tag and names of attributes: without their namespaces. text: all of it, in one piece."""
+
+    tag: str
+    namespace: str
+    attributes: dict[str, str]
+    line: int
+    children: list[Self] = field(default_factory=list)
+    pieces: list[str] = field(default_factory=list)
+
+    @property
+    def text(self) -> str:
+        return "".join(self.pieces).strip()
+
+    def all(self, tag: str) -> list[Self]:
+        return [child for child in self.children if child.tag == tag]
+
+    def find(self, tag: str) -> Self | None:
+        return next(iter(self.all(tag)), None)
+
+    def need(self, tag: str) -> Self:
+        return self.find(tag) or self.refuse(f"<{tag}> is missing")
+
+    def attribute(self, name: str) -> str:
+        if name not in self.attributes:
+            self.refuse(f"attribute {name!r} is missing")
+        return self.attributes[name]
+
+    def below(self) -> Iterator[Self]:
+        """All elements inside, in the order of the file."""
+        waiting = list(reversed(self.children))
+        while waiting:
+            element = waiting.pop()
+            yield element
+            waiting.extend(reversed(element.children))
+
+    def words(self, text: str, multiple: int) -> list[str]:
+        """Numbers with commas or spaces between them, a multiple of `multiple` of them."""
+        words = text.replace(",", " ").split()
+        if len(words) % multiple:
+            self.refuse(f"{len(words)} numbers, not a multiple of {multiple}")
+        return words
+
+    def floats(self, words: list[str]) -> list[float]:
+        try:
+            values = [float(word) for word in words]
+        except ValueError as error:
+            self.refuse(str(error))
+        if not all(map(math.isfinite, values)):
+            self.refuse("a number that is not finite", "non-finite")
+        return values
+
+    def indices(self, text: str, count: int, multiple: int = 1) -> list[int]:
+        """Vertex numbers below `count`."""
+        words = self.words(text, multiple)
+        if not all(word.isdecimal() for word in words):
+            self.refuse("a vertex number that is not a whole number")
+        values = [int(word) for word in words]
+        if values and max(values) >= count:
+            self.refuse(f"vertex {max(values)} of {count}", "index-out-of-range")
+        return values
+
+    def floats_of_text(self) -> list[float]:
+        return self.floats(self.text.split())
+
+    def counted_floats(self) -> NDArray[np.float64]:
+        """The numbers in the element, as many as its `count` says."""
+        words, count = self.text.split(), self.integer("count")
+        if len(words) != count:
+            message = f"{self.tag} promises {count} numbers and has {len(words)}"
+            self.refuse(message, "count-mismatch")
+        return np.array(self.floats(words), np.float64)
+
+    def integers(self, least: int = 0) -> list[int]:
+        """The whole numbers in the element."""
+        try:
+            values = [int(word) for word in self.text.split()]
+        except ValueError as error:
+            self.refuse(str(error))
+        if values and min(values) < least:
+            self.refuse(f"negative number {min(values)}", "index-out-of-range")
+        return values
+
+    def integer(self, name: str) -> int:
+        """An attribute that has to be there: a whole number >= 0."""
+        word = self.attribute(name).strip()
+        return int(word) if word.isdecimal() else self.refuse(f"{name}={word!r} is no number")
+
+    def refuse(self, message: str, code: str = "bad-record") -> NoReturn:
+        raise MeshFileError(code, f"line {self.line}: <{self.tag}>: {message}")
+
+
+E = TypeVar("E", bound=Element)
+
+
+def read_elements(
+    data: bytes | memoryview | IO[bytes],
+    *,
+    encodings: frozenset[str] | None = None,
+) -> Element:
+    """The outermost element. encodings: as of `guarded_parser`. Raises MeshFileError."""
+    stream = io.BytesIO(data) if isinstance(data, bytes | memoryview) else data
+    return parse_elements(guarded_parser(encodings), stream, Element)
+
+
+def parse_elements(
+    parser: expat.XMLParserType,
+    stream: IO[bytes],
+    make: Callable[[str, str, dict[str, str], int], E],
+) -> E:
+    """The outermost element. make: an element of a tag, a namespace, attributes and a line."""
+    outermost: list[E] = []
+    around: list[E] = []
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        namespace, tag = split_name(name)
+        plain = {split_name(key)[1]: value for key, value in attributes.items()}
+        element = make(tag, namespace, plain, parser.CurrentLineNumber)
+        (around[-1].children if around else outermost).append(element)
+        around.append(element)
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda _: around.pop()
+    parser.CharacterDataHandler = lambda text: around[-1].pieces.append(text) if around else None
+    try:
+        parse_stream(parser, stream)
+    except MeshFileError as error:
+        if not around:
+            raise
+        still = f"<{around[-1].tag}> of line {around[-1].line} was still open"
+        raise MeshFileError(error.code, f"{error.message}; {still}") from None
+    return outermost[0]
