@@ -6,6 +6,7 @@ no gap, so it keeps none.
 
 from __future__ import annotations
 
+import hashlib
 from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.asked.plan import Plan
@@ -18,7 +19,6 @@ from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 from satcheck.audit.severity import disputed, judged
 from satcheck.audit.tolerances import EXACT_WIDTH
-from satcheck.core import sha256
 
 if TYPE_CHECKING:
     from satcheck.audit.curved.signed import Signed
@@ -33,7 +33,7 @@ OPEN_BAND = "undecided: whether that is within the tolerance"
 def finding_id(a: str, b: str) -> str:
     """Stable for the two bodies, whatever their order, pose or result."""
     key = f"{a}\0{b}" if a < b else f"{b}\0{a}"
-    return sha256(key.encode(errors="surrogatepass"))[:ID_DIGITS]
+    return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
 
 
 def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:

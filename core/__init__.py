@@ -64,7 +64,6 @@ from satcheck.core._native import (
     safe_time,
     sat_polygons,
     search_depth,
-    sha256,
     surface_intersection,
     with_cracks_closed,
 )
@@ -132,7 +131,6 @@ __all__ = [
     "safe_time",
     "sat_polygons",
     "search_depth",
-    "sha256",
     "surface_intersection",
     "with_cracks_closed",
 ]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
+
 from msgspec.structs import replace
 
-from satcheck.core import Mesh, sha256
+from satcheck.core import Mesh
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.health import examine
 
@@ -18,7 +20,7 @@ def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
     examined = examine(mesh, resolution=lambda _: file.resolution)
     return replace(
         file,
-        sha256=sha256(b"".join(mesh.to_bytes())),
+        sha256=hashlib.sha256(b"".join(mesh.to_bytes())).hexdigest(),
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,

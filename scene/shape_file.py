@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 
-from satcheck.core import sha256
 from satcheck.core.power_of_two import exponent_into_range, exponent_of
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
@@ -44,7 +44,7 @@ def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) ->
     canonical = json.dumps([values_of(shape), segments], sort_keys=True)
     return MeshFile(
         path=path,
-        sha256=sha256(canonical.encode()),
+        sha256=hashlib.sha256(canonical.encode()).hexdigest(),
         format=SHAPE_FORMAT,
         resolution=max(map(abs, (*low, *high))) * FLOAT64_ROUNDING,
         units=None,

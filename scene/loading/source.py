@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 
 from msgspec import Struct
 
-from satcheck.core import sha256
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import _readers
 from satcheck.scene.errors import MeshFileError
@@ -118,7 +118,7 @@ def read_source(
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise MeshFileError("unreadable-file", reason, file=path) from None
-    digest = sha256(data) if hashed else None
+    digest = hashlib.sha256(data).hexdigest() if hashed else None
     if file_format in _MARKED_FORMATS and not _is_binary_stl(size, data):
         unmarked = _without_mark(path, data)
         size, data = size + len(unmarked) - len(data), unmarked

@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "base/large_pages.hpp"
-#include "base/sha256.hpp"
 #include "convex/sat_polygon.hpp"
 #include "convex/shape.hpp"
 #include "mesh/hull_points.hpp"
@@ -160,14 +159,6 @@ NB_MODULE(_native, m) {
   bind_pairs(m);
   bind_polygons(m);
   bind_climb(m);
-  m.def(
-      "sha256",
-      [](const nb::bytes& data) {
-        const std::string_view bytes(data.c_str(), data.size());
-        const nb::gil_scoped_release release;
-        return sha256(bytes);
-      },
-      nb::arg("data"), "SHA-256 of the bytes, in hexadecimal digits. hashlib takes longer to import than a check to hash.");
   m.def("keep_freed_memory", &keep_freed_memory, R"(For a process that answers one question and ends: memory that is freed is kept for what comes next, where the
 allocator can do that.)");
 }
