@@ -27,6 +27,7 @@ from satcheck.audit.summary import (
     count,
     exempt_of,
     issues_of,
+    rule_reports,
     summarise,
     tool,
     truncated_of,
@@ -125,7 +126,7 @@ def _check(
         summary=summarise(counts, findings, settings.fail_on),
         bodies=body_reports(roster),
         exempt=exempt_of(scene),
-        rules=scene.rules,
+        rules=rule_reports(scene.rules),
         effects=effects_of(
             planner,
             map(_asked_and_found, examined),

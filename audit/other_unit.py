@@ -16,7 +16,7 @@ from satcheck.audit.asked.settings import Settings
 from satcheck.audit.report.contact_report import Contacts, Vector
 from satcheck.audit.report.motion_report import Interval, Place, Sweep, WorstPose
 from satcheck.audit.report.report import BodyReport, Finding, Issue, Report, Stage, Witness
-from satcheck.audit.summary import health_values
+from satcheck.audit.summary import health_values, rule_reports
 from satcheck.core.power_of_two import held_times_power, limit_times_power
 from satcheck.scene import Scene
 from satcheck.scene.mesh_units import placing_file, shape_of_file
@@ -52,7 +52,7 @@ class OtherUnit:
             settings={**given.to_dict(), "depth": found.settings["depth"]},
             bodies=tuple(self._bodies(found.bodies, scene)),
             findings=tuple(map(self._finding, found.findings)),
-            rules=scene.rules,
+            rules=rule_reports(scene.rules),
             motions=Movers(scene.motions).values() if scene.motions else (),
             issues=tuple(self._issue(issue, scene) for issue in found.issues),
         )

@@ -14,24 +14,23 @@ from satcheck.audit.asked.rule_book import RuleBook
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.roster import Known
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.report import report_values
 from satcheck.audit.report.report import (
     OVERLAPS,
-    TIME,
     BodyReport,
     Exempt,
     Finding,
     Issue,
     PairCounts,
     Report,
+    RuleReport,
     Tool,
     Verdict,
+    without_timings,
 )
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose, Posture
-    from satcheck.scene.rules import Rule
 
 SCHEMA = "satcheck.samples/1"
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
@@ -102,7 +101,7 @@ class Samples(Struct, frozen=True):
     settings: dict[str, object]
     bodies: tuple[BodyReport, ...]
     exempt: Exempt
-    rules: tuple[Rule, ...]
+    rules: tuple[RuleReport, ...]
     samples: tuple[Sample, ...]
     pairs: tuple[PairTally, ...]
     counts: PairCounts
@@ -141,7 +140,7 @@ class Samples(Struct, frozen=True):
                 for body in self.bodies
             ],
             "exempt": to_builtins(self.exempt),
-            "rules": [report_values.rule(rule) for rule in self.rules],
+            "rules": to_builtins(self.rules),
             "samples": [_sample_values(sample, timings) for sample in self.samples],
             "pairs": [to_builtins(pair) for pair in self.pairs if not pair.settled],
             "issues": [to_builtins(issue) for issue in self.issues],
@@ -222,11 +221,12 @@ def _is_plain(finding: Finding) -> bool:
 
 
 def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
+    findings = to_builtins(sample.findings)
     return {
         "number": sample.number,
         "pose": sample.posture.pose(),
         "verdict": sample.verdict,
-        "findings": report_values.plain(sample.findings, None if timings else TIME),
+        "findings": findings if timings else without_timings(findings),
         "issues": [to_builtins(issue) for issue in sample.issues],
     }
 

@@ -12,6 +12,7 @@ from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.bodies.roster import Lost, Roster
 from satcheck.audit.report.report import (
     NOTHING_TO_CHECK,
+    RELATIONS,
     SEVERITIES,
     BodyReport,
     Exempt,
@@ -20,6 +21,7 @@ from satcheck.audit.report.report import (
     PairCounts,
     PartError,
     Relation,
+    RuleReport,
     Summary,
     Tool,
     Truncated,
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
     from satcheck.scene.health import MeshHealth
     from satcheck.scene.primitives import Primitive
+    from satcheck.scene.rules import Rule
 
 Health = Mapping[str, bool | int | float | str | None]
 
@@ -69,7 +72,7 @@ def summarise(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) 
     return Summary(
         verdict=_verdict(counts, findings, fail_on),
         pairs=counts,
-        by_relation=by_relation,
+        by_relation={relation: by_relation[relation] for relation in RELATIONS},
         surfaces_only=undecided["inside"],
         limits_undecided=undecided["limit"],
         sweeps_undecided=undecided["motion"],
@@ -162,6 +165,24 @@ def _shape(shape: Primitive | None) -> Mapping[str, object] | None:
 def _finite(value: bool | int | float | str) -> bool | int | float | str | None:
     """A volume that overflowed is not known; None says so."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def rule_reports(rules: Iterable[Rule]) -> tuple[RuleReport, ...]:
+    return tuple(
+        RuleReport(
+            a=rule.a.text,
+            b=rule.b.text,
+            allowed=rule.allowed,
+            max_depth=rule.max_depth,
+            max_volume=rule.max_volume,
+            clearance=rule.clearance,
+            tolerance=rule.tolerance,
+            severity=rule.severity,
+            reason=rule.reason,
+            where=rule.where,
+        )
+        for rule in rules
+    )
 
 
 def exempt_of(scene: Scene) -> Exempt:

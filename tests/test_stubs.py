@@ -12,7 +12,6 @@ ROOT = Path(__file__).resolve().parent.parent
 STUBS = {
     "satcheck.core._native": ROOT / "core" / "_native.pyi",
     "satcheck.scene._readers": ROOT / "scene" / "_readers.pyi",
-    "satcheck.cli._json": ROOT / "cli" / "_json.pyi",
 }
 
 

@@ -12,8 +12,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
-from satcheck.audit.report.report import OVERLAPS, Finding
-from satcheck.audit.report.report_values import plain
+from satcheck.audit.report.report import OVERLAPS, Finding, plain
 from satcheck.core.conventions import axis_across
 from satcheck.verify import Rejected
 from satcheck.verify.distances import check_distance

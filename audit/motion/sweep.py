@@ -28,7 +28,9 @@ def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
     try:
         moving = MovingPair(pair, *tracks)
     except Unanswerable as why:
-        return Sweep("indeterminate", pair.tolerance, 0.0, reason=str(why))
+        return Sweep(
+            relation="indeterminate", tolerance=pair.tolerance, reached=0.0, reason=str(why)
+        )
     impact = first_impact(moving) if pair.may("hull") else _not_swept(pair)
     answer = _Answer(moving, impact, {pair.a.id: path_a, pair.b.id: path_b})
     if impact.reason is None:
@@ -44,9 +46,9 @@ def _not_swept(pair: Pair) -> Impact:
 
 def _undecided(pair: MovingPair, impact: Impact) -> Sweep:
     return Sweep(
-        "indeterminate",
-        pair.tolerance,
-        impact.reached,
+        relation="indeterminate",
+        tolerance=pair.tolerance,
+        reached=impact.reached,
         contact=impact.contact,
         reason=impact.reason,
         steps=pair.steps,
@@ -65,9 +67,9 @@ class _Answer:
     def possible_hit(self, upper: float) -> Sweep:
         """As at rest, an overlap of what stands for the bodies, which is no proof."""
         return Sweep(
-            "penetrating",
-            self._pair.tolerance,
-            self._impact.reached,
+            relation="penetrating",
+            tolerance=self._pair.tolerance,
+            reached=self._impact.reached,
             time_of_impact=(self._impact.lower, upper),
             at=self._places(upper),
             contact=self._impact.contact,
@@ -81,9 +83,9 @@ class _Answer:
         if pair.pair.asked.wants("depth"):
             worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
         return Sweep(
-            "penetrating",
-            pair.tolerance,
-            impact.reached,
+            relation="penetrating",
+            tolerance=pair.tolerance,
+            reached=impact.reached,
             time_of_impact=(impact.lower, upper),
             at=self._places(upper),
             contact=impact.contact,
@@ -95,9 +97,9 @@ class _Answer:
         pair, impact = self._pair, self._impact
         worst = self._with_fills(self._nearest())
         return Sweep(
-            self._relation(worst),
-            pair.tolerance,
-            1.0,
+            relation=self._relation(worst),
+            tolerance=pair.tolerance,
+            reached=1.0,
             contact=impact.contact,
             worst=self._pose(worst),
             reason=self._unfilled(),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from msgspec import Struct
 
 Vector = tuple[float, float, float]
@@ -59,42 +57,3 @@ class Contacts(Struct, frozen=True):
     triangle_pairs: tuple[tuple[int, int], ...] = ()
     totals: ContactTotals = ContactTotals()
     truncated: bool = False
-
-    def to_dict(self) -> dict[str, Any]:
-        """JSON values in the fixed key order of the schema."""
-        totals = self.totals
-        return {
-            "curves": [
-                {
-                    "points": [_plain(p) for p in curve.points],
-                    "closed": curve.closed,
-                    "length": curve.length,
-                }
-                for curve in self.curves
-            ],
-            "patches": [
-                {
-                    "outlines": [[_plain(p) for p in outline] for outline in patch.outlines],
-                    "normal": _plain(patch.normal),
-                    "opposed": patch.opposed,
-                    "area": patch.area,
-                }
-                for patch in self.patches
-            ],
-            "points": [_plain(p) for p in self.points],
-            "triangle_pairs": [list(pair) for pair in self.triangle_pairs],
-            "totals": {
-                "curves": totals.curves,
-                "length": totals.length,
-                "patches": totals.patches,
-                "area": totals.area,
-                "points": totals.points,
-                "triangle_pairs": totals.triangle_pairs,
-            },
-            "truncated": self.truncated,
-        }
-
-
-def _plain(vector: Vector) -> list[float]:
-    """Without negative zeros."""
-    return [c + 0.0 for c in vector]

@@ -1,11 +1,11 @@
-"""What is reported about two bodies while they move: plain data, and its one way into JSON values.
+"""What is reported about two bodies while they move: plain data.
 
 t runs from 0 to 1; lengths are in the units of the files.
 """
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Literal
 
 from msgspec import Struct
 
@@ -21,9 +21,6 @@ class Place(Struct, frozen=True):
     term: Literal["degrees", "length", "t"]
     value: float
 
-    def to_dict(self) -> dict[str, Any]:
-        return {"body": self.body, "term": self.term, "value": self.value + 0.0}
-
 
 class WorstPose(Struct, frozen=True):
     """The deepest pose of bodies that overlap, else the nearest. distance, depth: proven bounds of
@@ -35,16 +32,8 @@ class WorstPose(Struct, frozen=True):
     distance: Interval | None = None
     depth: Interval | None = None
 
-    def to_dict(self) -> dict[str, Any]:
-        return {
-            "time": self.time,
-            "at": [place.to_dict() for place in self.at],
-            "distance": self.distance and list(self.distance),
-            "depth": self.depth and list(self.depth),
-        }
 
-
-class Sweep(Struct, frozen=True):
+class Sweep(Struct, frozen=True, kw_only=True):
     """A pair over its whole motion.
 
     relation: the worst of it. `separated`: no common point at any t; `near`: closer than the
@@ -55,29 +44,16 @@ class Sweep(Struct, frozen=True):
     the pose there. contact: a t before which they have no common point. reached: up to there
     no overlap is proven. reason: of `indeterminate`, or what
     surfaces alone left open. steps: what it took. proven: False of a hit that boxes or hulls alone
-    show, at an accuracy below exact; in JSON the quality of the finding says so.
+    show, at an accuracy below exact.
     """
 
     relation: Relation
-    tolerance: float
-    reached: float
     time_of_impact: Interval | None = None
     at: tuple[Place, ...] = ()
     contact: float | None = None
+    reached: float
     worst: WorstPose | None = None
-    reason: str | None = None
+    tolerance: float
     steps: int = 0
     proven: bool = True
-
-    def to_dict(self) -> dict[str, Any]:
-        return {
-            "relation": self.relation,
-            "time_of_impact": self.time_of_impact and list(self.time_of_impact),
-            "at": [place.to_dict() for place in self.at],
-            "contact": self.contact,
-            "reached": self.reached,
-            "worst": self.worst and self.worst.to_dict(),
-            "tolerance": self.tolerance,
-            "steps": self.steps,
-            "reason": self.reason,
-        }
+    reason: str | None = None

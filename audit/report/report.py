@@ -1,4 +1,4 @@
-"""The report: plain frozen data, `satcheck.report/1`, and its one way into JSON values.
+"""The report: plain frozen data, `satcheck.report/1`.
 
 World frame, right-handed, lengths in the units of the files. `normal` is a unit vector from A to
 B; `distance` is a gap >= 0; `depth` is how far A has to move, without rotation, until A and B have
@@ -8,19 +8,18 @@ is None, never 0.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Literal, get_args
+import json
+import math
+from collections.abc import Mapping
+from typing import Any, Literal, get_args
 
-from msgspec import Struct
+from msgspec import Struct, to_builtins
 
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.contact_report import Vector as Vector
-from satcheck.scene.rules import Rule
+from satcheck.audit.report.motion_report import Sweep
 
-if TYPE_CHECKING:
-    from satcheck.audit.report.motion_report import Sweep
-
-SCHEMA = "satcheck.report/1"
+SCHEMA: Literal["satcheck.report/1"] = "satcheck.report/1"
 
 Relation = Literal[
     "separated",
@@ -53,8 +52,6 @@ NO_ANSWER = "no answer"
 # The result of an effect that is found on triangles, of a pair with a curved shape.
 NOT_AVAILABLE = "not available"
 ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
-# The field that a document without timings lacks.
-TIME = "microseconds"
 # The code of an issue about a pair that failed by a fault of satcheck itself.
 INTERNAL_ERROR = "internal-error"
 # No pair is asked about: within one link, allowed, or exempt.
@@ -138,8 +135,6 @@ class BodyReport(Struct, frozen=True, kw_only=True):
     states any. `unit_scale`: what `transform` converts lengths of the file by; None: nothing.
     """
 
-    SAID_IF_KNOWN = ("units", "unit_scale")
-
     id: str
     name: str
     file: str
@@ -160,12 +155,15 @@ class BodyReport(Struct, frozen=True, kw_only=True):
 
 
 class Stage(Struct, frozen=True):
-    """One step of a pair's plan: what ran, what it found, what it cost, why it settled nothing."""
+    """One step of a pair's plan: what ran, what it found, what it cost, why it settled nothing.
+
+    microseconds: left out of a document without timings.
+    """
 
     stage: str
     result: str
-    microseconds: float
-    detail: str
+    microseconds: float = 0.0
+    detail: str = ""
 
 
 class Witness(Struct, frozen=True):
@@ -199,8 +197,6 @@ class Finding(Struct, frozen=True, kw_only=True):
     or their boxes stay apart; relation, severity and undecided count it, figures are as placed.
     """
 
-    SAID_IF_KNOWN = ("distance_bounds", "motion", "placed_relation")
-
     id: str
     a: str
     b: str
@@ -230,6 +226,13 @@ class Finding(Struct, frozen=True, kw_only=True):
     plan: tuple[Stage, ...]
     baseline_state: None = None
 
+    def __post_init__(self) -> None:
+        lengths = (self.tolerance, self.distance, self.depth, self.volume, self.volume_error)
+        vectors = (self.normal, self.mtv, self.depth_bounds, self.distance_bounds)
+        numbers = (*lengths, *(c for vector in vectors if vector for c in vector))
+        if not all(number is None or math.isfinite(number) for number in numbers):
+            raise ValueError(f"the figures of a pair are finite numbers: {numbers}")
+
     @property
     def at_rest(self) -> Relation:
         """As the bodies are placed."""
@@ -247,7 +250,7 @@ class EffectReport(Struct, frozen=True):
     asked_by: tuple[str, ...]
     pairs: int
     not_run: Mapping[str, int]
-    microseconds: float
+    microseconds: float = 0.0
 
 
 class Issue(Struct, frozen=True):
@@ -268,53 +271,71 @@ class Exempt(Struct, frozen=True):
     static_pairs: bool = False
 
 
-class Report(Struct, frozen=True):
+class RuleReport(Struct, frozen=True):
+    """What the scene asks of the pairs with one body in each selector. None: the rule does not say.
+
+    a, b: a glob of ids, or "group:" and a glob of groups; an id or group that is exactly the text
+    comes first. allowed: True: nothing is computed. max_depth, max_volume: an overlap of no more is
+    within its limit. clearance, tolerance: in the place of the global ones. severity: of the errors
+    of these pairs. where: it is written.
+    """
+
+    a: str
+    b: str
+    allowed: bool | None
+    max_depth: float | None
+    max_volume: float | None
+    clearance: float | None
+    tolerance: float | None
+    severity: Literal["error", "warning", "note", "none"] | None
+    reason: str
+    where: str
+
+    @property
+    def name(self) -> str:
+        return self.where or f"{self.a} and {self.b}"
+
+
+class Report(Struct, frozen=True, kw_only=True):
     """pose: of the robots, joint -> value; None without robots. motions: those of
     the scene, as JSON values. truncated: what `findings` leaves out; None: nothing.
 
     `tracebacks` is for --debug and never leaves the program in a document.
     """
 
+    schema: Literal["satcheck.report/1"] = SCHEMA
     tool: Tool
     units: str | None
     settings: Mapping[str, object]
     summary: Summary
-    bodies: tuple[BodyReport, ...]
-    findings: tuple[Finding, ...]
-    issues: tuple[Issue, ...]
-    exempt: Exempt = Exempt()
-    rules: tuple[Rule, ...] = ()
-    effects: tuple[EffectReport, ...] = ()
     pose: Mapping[str, float | list[float]] | None = None
     motions: tuple[Mapping[str, Any], ...] = ()
+    bodies: tuple[BodyReport, ...]
+    exempt: Exempt = Exempt()
+    rules: tuple[RuleReport, ...] = ()
+    effects: tuple[EffectReport, ...] = ()
+    findings: tuple[Finding, ...]
+    issues: tuple[Issue, ...]
     truncated: Truncated | None = None
     tracebacks: tuple[str, ...] = ()
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
-        """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
-        from satcheck.audit.report.report_values import plain
+        """JSON values in the order of the schema; no `microseconds` without timings."""
+        values: dict[str, Any] = plain(self)
+        del values["tracebacks"]
+        return values if timings else without_timings(values)
 
-        without = None if timings else TIME
-        return {key: plain(value, without) for key, value in self.members()}
 
-    def members(self) -> Iterator[tuple[str, Any]]:
-        """What a document has, key by key: JSON values, or frozen ones that stand for them
-        (report_values.plain)."""
-        from satcheck.audit.report import report_values as values
+def plain(value: object) -> Any:
+    """JSON values of a report, or of a part of it."""
+    return json.loads(json.dumps(to_builtins(value)))
 
-        yield "schema", SCHEMA
-        yield "tool", self.tool
-        yield "units", self.units
-        yield "settings", dict(self.settings)
-        yield "summary", values.summary(self.summary)
-        if self.pose is not None:
-            yield "pose", dict(self.pose)
-        if self.motions:
-            yield "motions", [dict(motion) for motion in self.motions]
-        yield "bodies", self.bodies
-        yield "exempt", self.exempt
-        yield "rules", [values.rule(rule) for rule in self.rules]
-        yield "effects", self.effects
-        yield "findings", self.findings
-        yield "issues", self.issues
-        yield "truncated", self.truncated
+
+def without_timings(values: Any) -> Any:
+    """JSON values of a report, or of a part of it, without the times that stages took."""
+    if isinstance(values, list | tuple):
+        return [without_timings(value) for value in values]
+    if isinstance(values, dict):
+        kept = ((key, value) for key, value in values.items() if key != "microseconds")
+        return {key: without_timings(value) for key, value in kept}
+    return values

@@ -6,11 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Any, Literal, cast
 
-from msgspec import Struct
+from msgspec import Struct, to_builtins
 
 from satcheck.audit.asked.settings import FailOn
 from satcheck.audit.report.report import OVERLAPS, Finding, Relation, Report, Vector
-from satcheck.audit.report.report_values import plain
 from satcheck.audit.resolve.opinion import is_objected
 
 SCHEMA = "satcheck.resolution/1"
@@ -123,10 +122,10 @@ class Resolution(Struct, frozen=True):
             ],
             "check": {
                 "verdict": report.summary.verdict,
-                "pairs": plain(report.summary.pairs),
+                "pairs": to_builtins(report.summary.pairs),
                 "by_relation": _counts(report.summary.by_relation),
             },
-            "issues": plain(report.issues),
+            "issues": to_builtins(report.issues),
         }
 
 

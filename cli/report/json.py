@@ -1,13 +1,17 @@
-"""The report as one JSON document: fixed key order, one form for every number, full precision."""
+"""Documents as JSON text: two-space indentation, every number as it reads back, no sign of zero."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import json
+from collections.abc import Iterable
+from typing import Any
 
-from satcheck.cli._json import pieces, text
+from msgspec import json as msgspec_json
+from msgspec import to_builtins
 
-if TYPE_CHECKING:
-    from satcheck.audit.report.report import Report
+from satcheck.audit.report.report import Report, without_timings
+
+INDENT = 2
 
 
 def render(report: Report, *, timings: bool) -> list[str]:
@@ -15,17 +19,35 @@ def render(report: Report, *, timings: bool) -> list[str]:
 
     Not as one text: the report of a scene can be larger than the scene in memory.
     """
-    from satcheck.audit.report.report import TIME
-
-    without = None if timings else TIME
-    found = ["{"]
-    for number, (key, value) in enumerate(report.members()):
-        found.append(f"{',' if number else ''}\n  {text(key)}: ")
-        found += pieces(value, 1, without)
-    found.append("\n}\n")
-    return found
+    keys = [key for key in report.__struct_fields__ if key != "tracebacks"]
+    pieces = []
+    for number, key in enumerate(keys):
+        pieces.append(f'{"," if number else "{"}\n  "{key}": ')
+        pieces += _member(getattr(report, key), timings)
+    return [*pieces, "\n}\n"]
 
 
-def document(values: dict[str, Any]) -> str:
-    """Any JSON values in that form, and a final newline."""
-    return text(values) + "\n"
+def document(values: Any) -> str:
+    """Any JSON values or structs in that form, and a final newline."""
+    return _text(values) + "\n"
+
+
+def _member(value: Any, timings: bool) -> Iterable[str]:
+    """A value of the outermost object; a list of structs in a piece for each."""
+    if not isinstance(value, tuple) or not value:
+        yield _text(value, depth=1)
+        return
+    written = value if timings else (without_timings(to_builtins(element)) for element in value)
+    for number, element in enumerate(written):
+        yield f"{',' if number else '['}\n    {_text(element, depth=2)}"
+    yield "\n  ]"
+
+
+def _text(value: Any, depth: int = 0) -> str:
+    try:
+        text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT).decode()
+    except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
+        text = json.dumps(to_builtins(value), indent=INDENT)
+    # No string has a line end in it, so these are numbers.
+    text = f"{text}\n".replace("-0.0\n", "0.0\n").replace("-0.0,\n", "0.0,\n")[:-1]
+    return text.replace("\n", "\n" + " " * (INDENT * depth))

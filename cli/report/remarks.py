@@ -26,8 +26,7 @@ from satcheck.cli.report.words import (
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import BodyReport, Finding, Report
-    from satcheck.scene import Rule
+    from satcheck.audit.report.report import BodyReport, Finding, Report, RuleReport
 
 _ISSUE_COLOURS = {"warning": "yellow", "note": ""}
 
@@ -87,7 +86,7 @@ def _ruled(finding: Finding, report: Report) -> list[str]:
     return [f"{', '.join([f'{pair}: {finding.severity} by {rule.name}', *limits])}{why}"]
 
 
-def _limits(rule: Rule, unit: str | None, *, overlap: bool) -> list[str]:
+def _limits(rule: RuleReport, unit: str | None, *, overlap: bool) -> list[str]:
     """What the rule asks of such a pair: `clearance 5 mm`, or what an overlap is held against."""
     asked = (
         {"max_depth": (rule.max_depth, ""), "max_volume": (rule.max_volume, "^3")}

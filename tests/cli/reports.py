@@ -112,7 +112,7 @@ CONTACTS = Contacts(
     triangle_pairs=((3, 4), (3, 5)),
     totals=ContactTotals(1, 4.0, 1, 1.0, 1, 2),
 )
-SWEEP = Sweep("separated", 0.0, 1.0)
+SWEEP = Sweep(relation="separated", tolerance=0.0, reached=1.0)
 SWEPT = replace(
     SEPARATED,
     id="block|passer",
@@ -124,7 +124,7 @@ HIT = replace(
     SWEPT,
     severity="error",
     relation="penetrating",
-    motion=Sweep("penetrating", 0.0, 0.5, (0.25, 0.5)),
+    motion=Sweep(relation="penetrating", tolerance=0.0, reached=0.5, time_of_impact=(0.25, 0.5)),
 )
 CROSSING = replace(
     PENETRATING,

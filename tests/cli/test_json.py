@@ -7,15 +7,12 @@ import math
 import random
 import struct
 
-import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 from msgspec.structs import replace
 
-from satcheck.audit import Contacts, Report, Stage
-from satcheck.audit.report.report_values import plain
-from satcheck.cli._json import pieces, text
-from satcheck.cli.report import json as report_json
+from satcheck.audit import Contacts, Report
+from satcheck.cli.report.json import document, render
 from satcheck.cli.report.schema import text as schema_text
 from tests.cli import reports
 
@@ -34,80 +31,42 @@ FULL = reports.report(
 
 
 def text_of(report: Report, *, timings: bool) -> str:
-    return "".join(report_json.render(report, timings=timings))
+    return "".join(render(report, timings=timings))
 
 
 def test_the_pieces_are_the_document() -> None:
     for report in (FULL, reports.report(bodies=()), reports.report()):
-        assert text_of(report, timings=True) == report_json.document(report.to_dict(True))
+        assert text_of(report, timings=True) == document(report.to_dict())
 
 
-def test_a_long_document_comes_in_pieces() -> None:
-    values = [{"name": "\u00e4" * 1000, "rows": [[k], []]} for k in range(200)]
-    assert len(pieces(values)) > 2
-    assert "".join(pieces(values, 1)) == text(values, 1)
-    assert pieces(7) == ["7"]
-
-
-def test_numbers_are_written_as_python_shows_them() -> None:
+def test_numbers_read_back() -> None:
     rng = random.Random(7)
     anything = (struct.unpack("<d", rng.randbytes(8))[0] for _ in range(20_000))
     numbers = [number for number in anything if math.isfinite(number)]
     numbers += [rng.uniform(-1, 1) * 10.0 ** rng.randint(-8, 20) for _ in range(20_000)]
     numbers += [float(f"1e{exponent}") for exponent in range(-320, 309)]
-    assert text(numbers) == f"[{', '.join(map(repr, numbers))}]"
+    assert json.loads(document(numbers)) == numbers
 
 
 def test_there_is_no_negative_zero() -> None:
-    assert text([-0.0, {"a": -0.0}]) == '[\n  0.0,\n  {\n    "a": 0.0\n  }\n]'
-
-
-def test_a_frozen_value_is_an_object_of_its_fields() -> None:
-    stage = Stage("aabb", "meet", 1.5, "")
-    named = '{\n  "stage": "aabb",\n  "result": "meet",\n  "microseconds": 1.5,\n  "detail": ""\n}'
-    assert text(stage) == named == text(plain(stage))
-    assert text(stage, 0, "microseconds") == text(plain(stage, "microseconds"))
-    assert "microseconds" not in text([stage], 0, "microseconds")
-    assert ('"motion"' in text(reports.SWEPT), '"motion"' in text(reports.SEPARATED)) == (
-        True,
-        False,
-    )
-    assert text(reports.SWEPT) == text(plain(reports.SWEPT))
+    """In numbers: a name may hold the same characters, before any end of a line."""
+    names = ["-0.0", "-0.0,", "-0.0\n", "-0.0,\n"]
+    text = document([-0.0, {"a": -0.0, "b": [1.0, -0.0]}, *names])
+    assert text.replace('"-0.0', "").count("-0.0") == 0
+    assert json.loads(text) == [0.0, {"a": 0.0, "b": [1.0, 0.0]}, *names]
 
 
 def test_the_layout_of_values() -> None:
-    values = {"none": {}, "list": [], "rows": [[1, 2.5], [True, None]], "mixed": (1, {"a": "b"})}
-    assert text(values) == (
-        '{\n  "none": {},\n  "list": [],\n  "rows": [\n    [1, 2.5],\n    [true, null]\n  ],\n'
-        '  "mixed": [\n    1,\n    {\n      "a": "b"\n    }\n  ]\n}'
-    )
-    assert text({"a": 1}, 2) == '{\n      "a": 1\n    }'
-    assert text(10**30) == str(10**30)
+    values = {"none": {}, "list": [], "row": [1, 2.5, True, None], "mixed": (1, {"a": "b"})}
+    assert document(values) == json.dumps(values, indent=2) + "\n"
 
 
 @pytest.mark.parametrize("name", ['\x00\x1f\n\t"\\/\x7f', "\u00e4\U0001f600", "\ud800 lone", ""])
 def test_any_name_reads_back(name: str) -> None:
-    assert json.loads(text({name: name})) == {name: name}
-    assert text(name) == json.dumps(name, ensure_ascii=False)
-
-
-@pytest.mark.parametrize("number", [math.nan, math.inf, -math.inf])
-def test_a_number_that_json_has_not_is_refused(number: float) -> None:
-    with pytest.raises(ValueError, match="no JSON form for the number"):
-        text({"a": [1.0, number]})
-
-
-@pytest.mark.parametrize("value", [{1: 2}, {"a": {1, 2}}, [b""], np.float64(1.0)])
-def test_what_is_no_json_value_is_refused(value: object) -> None:
-    with pytest.raises(TypeError, match="no JSON form for a"):
-        text(value)
-
-
-def test_a_value_that_holds_itself_is_refused() -> None:
-    endless: list[object] = []
-    endless.append(endless)
-    with pytest.raises(RecursionError):
-        text(endless)
+    assert json.loads(document({name: name})) == {name: name}
+    odd = replace(reports.SEPARATED, a=name)
+    report = reports.report(odd, reports.SEPARATED)
+    assert json.loads(text_of(report, timings=True))["findings"][0]["a"] == name
 
 
 def test_the_schema_is_one() -> None:
@@ -130,10 +89,6 @@ def test_timings_can_be_left_out() -> None:
     assert "microseconds" not in text_of(FULL, timings=False)
 
 
-def test_vectors_take_one_line() -> None:
-    assert '"normal": [1.0, 0.0, 0.0],\n' in text_of(FULL, timings=True)
-
-
 @pytest.mark.parametrize(
     ("path", "value"),
     [
@@ -149,10 +104,10 @@ def test_vectors_take_one_line() -> None:
 )
 def test_the_schema_refuses(path: list[str | int], value: object) -> None:
     """A schema that accepts everything would pass every other test here."""
-    document = json.loads(text_of(FULL, timings=True))
+    values = json.loads(text_of(FULL, timings=True))
     *parents, last = path
-    place = document
+    place = values
     for parent in parents:
         place = place[parent]
     place[last] = value
-    assert not Draft202012Validator(SCHEMA).is_valid(document)
+    assert not Draft202012Validator(SCHEMA).is_valid(values)

@@ -251,9 +251,9 @@ def test_no_motion_no_sweep(tmp_path: Path) -> None:
         del sys.modules[name]
     report = checked(tmp_path, [], a=unit_box(), b=unit_box(0.5))
     assert not {name for name in sys.modules if name.startswith("satcheck.audit.motion")}
-    assert "motions" not in report.to_dict()
+    assert report.to_dict()["motions"] == []
     assert all(one.effect != "sweep" for one in report.effects)
-    assert "motion" not in report.to_dict()["findings"][0]
+    assert report.to_dict()["findings"][0]["motion"] is None
 
 
 def test_the_table_tells(tmp_path: Path) -> None:
