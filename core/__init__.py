@@ -36,13 +36,10 @@ from satcheck.core._native import (
     Topology,
     WayWithin,
     box_gap,
-    check_pair,
-    check_pairs,
     climb,
     climb_all,
     close_pairs,
     compare_gap,
-    compare_signed_distance,
     covers_once,
     crossing_depth,
     deviation,
@@ -62,12 +59,13 @@ from satcheck.core._native import (
     order_along_curve,
     placed_bounds,
     safe_time,
-    sat_polygons,
     search_depth,
     surface_intersection,
     with_cracks_closed,
 )
 from satcheck.core.conventions import OUTCOMES
+from satcheck.core.pairs import check_pair, check_pairs, compare_signed_distance, sat_polygons
+from satcheck.core.signature import Signature
 
 __all__ = [
     "OUTCOMES",
@@ -134,3 +132,6 @@ __all__ = [
     "surface_intersection",
     "with_cracks_closed",
 ]
+
+for _class in (Mesh, Hull, Box, Sphere, Capsule, Cylinder, Cone, Ellipsoid):
+    setattr(_class, "__signature__", Signature())  # noqa: B010 mypy: classes have none

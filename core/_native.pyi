@@ -125,13 +125,8 @@ class Surface:
     def closed(self) -> tuple[Surface, list[Surface]]: ...
     def nearest(self, point: Point) -> tuple[float, Point]: ...
 
-# Convex shapes, placed by a rigid pose: None (at the origin), (tx, ty, tz), or
-# (tx, ty, tz, qx, qy, qz, qw) with a quaternion of any length but zero. Axes of revolution are
-# local z.
+# Convex shapes. Axes of revolution are local z. Poses, queries and methods: core/pairs.py.
 
-Pose = Sequence[float] | None
-Query = Literal["overlap", "depth", "distance"]
-MethodChoice = Literal["auto", "sat", "gjk"]
 Outcome = Literal["separated", "touching", "penetrating", "undecided"]
 
 class Shape:
@@ -271,14 +266,17 @@ def least_motion(
 def check_pair(
     a: Shape,
     b: Shape,
-    pose_a: Pose = None,
-    pose_b: Pose = None,
-    *,
-    query: Query = "depth",
-    method: MethodChoice = "auto",
+    pose_a: Sequence[float] | None,
+    pose_b: Sequence[float] | None,
+    query: str,
+    method: str,
 ) -> PairResult: ...
 def compare_signed_distance(
-    a: Shape, b: Shape, length: float, pose_a: Pose = None, pose_b: Pose = None
+    a: Shape,
+    b: Shape,
+    length: float,
+    pose_a: Sequence[float] | None,
+    pose_b: Sequence[float] | None,
 ) -> Literal[-1, 0, 1] | None: ...
 def check_pairs(
     shapes: Sequence[Shape],
@@ -287,9 +285,9 @@ def check_pairs(
     poses_a: NDArray[float64],
     poses_b: NDArray[float64],
     *,
-    query: Query = "depth",
-    method: MethodChoice = "auto",
-    threads: int = 0,
+    query: str,
+    method: str,
+    threads: int,
 ) -> PairResults: ...
 def sat_polygons(a: NDArray[float64], b: NDArray[float64]) -> PolygonResult: ...
 

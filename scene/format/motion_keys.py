@@ -24,7 +24,7 @@ _WAYPOINT_KEYS = frozenset(("time", "position", "quaternion", "euler"))
 _ORIGIN = (0.0, 0.0, 0.0)
 _Z = (0.0, 0.0, 1.0)
 _HALF_TURN = 180.0
-_NO_TURN: Quaternion = (1.0, 0.0, 0.0, 0.0)
+_NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
 def read_motion(
@@ -102,11 +102,11 @@ def _waypoint(table: Table) -> Waypoint:
     table.only(_WAYPOINT_KEYS)
     if "quaternion" in table and "euler" in table:
         table.wrong("the quaternion says how the body is turned: leave this out", "euler")
-    w, x, y, z = table.read("quaternion", quaternion, None) or table.read("euler", _euler, _NO_TURN)
     return Waypoint(
         time=table.required("time", _time, 0.0),
         position=table.required("position", triple, _ORIGIN),
-        orientation=(x, y, z, w),
+        orientation=table.read("quaternion", quaternion, None)
+        or table.read("euler", _euler, _NO_TURN),
     )
 
 

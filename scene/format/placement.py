@@ -110,16 +110,15 @@ def singular(transform: Transform) -> str | None:
 
 
 def quaternion(value: Any) -> Quaternion:
-    """[w, x, y, z] of any length but zero."""
-    found = quadruple(value)
-    if not any(found):
+    """(x, y, z, w) from [w, x, y, z], the order of scene files; of any length but zero."""
+    w, x, y, z = quadruple(value)
+    if not any((w, x, y, z)):
         raise Wrong("a quaternion is not zero")
-    return found
+    return x, y, z, w
 
 
 def _quaternion(value: Any) -> Rotation:
-    w, x, y, z = quaternion(value)
-    return of_quaternion(x, y, z, w)
+    return of_quaternion(*quaternion(value))
 
 
 def _euler(value: Any) -> Rotation:

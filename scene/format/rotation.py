@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from satcheck.core.transform import Rotation, about_fixed_axes, cos_sin
 
-Quaternion = tuple[float, float, float, float]
+Quaternion = tuple[float, float, float, float]  # (x, y, z, w)
 
 
 def of_euler(degrees: Sequence[float]) -> Rotation:
@@ -16,11 +16,11 @@ def of_euler(degrees: Sequence[float]) -> Rotation:
 
 
 def quaternion_of_euler(degrees: Sequence[float]) -> Quaternion:
-    """The same turn as a unit quaternion (w, x, y, z)."""
+    """The same turn as a unit quaternion (x, y, z, w)."""
     (cx, sx), (cy, sy), (cz, sz) = (cos_sin(angle / 2.0) for angle in degrees)
     return (
-        cx * cy * cz + sx * sy * sz,
         sx * cy * cz - cx * sy * sz,
         cx * sy * cz + sx * cy * sz,
         cx * cy * sz - sx * sy * cz,
+        cx * cy * cz + sx * sy * sz,
     )

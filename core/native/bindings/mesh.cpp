@@ -15,6 +15,7 @@
 
 #include "base/large_pages.hpp"
 #include "base/parallel.hpp"
+#include "bindings/arguments.hpp"
 #include "bindings/tuples.hpp"
 #include "convex/polytope.hpp"
 #include "mesh/convexity.hpp"
@@ -44,10 +45,11 @@ std::vector<Vec3> copy_vertices(const double* data, std::size_t count) {
   return vertices;
 }
 
+// False where the argument is no such array.
 template <class Index>
-void construct_mesh(Mesh* self, VertexArray vertices, IndexArray<Index> triangles) {
-  Mesh mesh;
-  mesh.vertices = copy_vertices(vertices.data(), vertices.shape(0));
+bool read_triangles(nb::handle argument, Mesh& mesh) {
+  IndexArray<Index> triangles;
+  if (!nb::try_cast(argument, triangles, false)) return false;
   mesh.triangles.resize(triangles.shape(0));
   const Index* index = triangles.data();
   for (Triangle& t : mesh.triangles) {
@@ -58,6 +60,19 @@ void construct_mesh(Mesh* self, VertexArray vertices, IndexArray<Index> triangle
       }
       v = static_cast<std::uint32_t>(i);
     }
+  }
+  return true;
+}
+
+void construct_mesh(Mesh* self, nb::args args, nb::kwargs kwargs) {
+  const Arguments given("Mesh", {"vertices", "triangles"}, args, kwargs);
+  VertexArray vertices;
+  if (!nb::try_cast(given[0], vertices, false)) given.refuse(0, "a C-contiguous (n, 3) array of float64");
+  Mesh mesh;
+  mesh.vertices = copy_vertices(vertices.data(), vertices.shape(0));
+  if (!read_triangles<std::uint32_t>(given[1], mesh) && !read_triangles<std::int32_t>(given[1], mesh) &&
+      !read_triangles<std::int64_t>(given[1], mesh)) {
+    given.refuse(1, "a C-contiguous (m, 3) array of int32, int64 or uint32");
   }
   require_valid(mesh);
   new (self) Mesh(std::move(mesh));
@@ -108,12 +123,8 @@ void bind_mesh_class(nb::module_& m) {
   nb::class_<Mesh>(m, "Mesh", R"(Immutable triangle mesh: vertices (n, 3) float64, triangles (m, 3) int32, int64 or uint32, counter-clockwise
 seen from outside. ValueError when an index is out of range or a coordinate is not finite, OverflowError
 when a coordinate is beyond 1e45 or the mesh is less than 1e-45 across: nothing is proven there.)")
-      .def("__init__", &construct_mesh<std::uint32_t>, "vertices"_a.noconvert(),
-           "triangles"_a.noconvert())
-      .def("__init__", &construct_mesh<std::int32_t>, "vertices"_a.noconvert(),
-           "triangles"_a.noconvert())
-      .def("__init__", &construct_mesh<std::int64_t>, "vertices"_a.noconvert(),
-           "triangles"_a.noconvert())
+      .def("__init__", &construct_mesh,
+           nb::sig("def __init__(self, vertices: NDArray[float64], triangles: NDArray[integer]) -> None"))
       .def_static("from_bytes", &mesh_from_bytes, "vertices"_a, "triangles"_a, ReleaseGil(), "From little-endian float64 x y z ... and uint32 i j k ...; needs no numpy.")
       .def("to_bytes", &mesh_to_bytes, "The inverse of from_bytes.")
       .def_prop_ro("vertex_count", [](const Mesh& mesh) { return mesh.vertices.size(); })

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/large_pages.hpp"
+#include "bindings/arguments.hpp"
 #include "convex/sat_polygon.hpp"
 #include "convex/shape.hpp"
 #include "mesh/hull_points.hpp"
@@ -84,48 +85,61 @@ convex_hull give, without sorting anything. None where rounding may have brought
 surface. Raises what Mesh.transformed does.)");
 }
 
+template <class Kind, class Make>
+void def_init(nb::class_<Kind, Shape>& shape, const char* signature, Make make) {
+  shape.def(
+      "__init__", [make](Kind* self, nb::args args, nb::kwargs kwargs) { new (self) Kind{make(args, kwargs)}; },
+      nb::sig(signature));
+}
+
+Shape hull_of(const nb::args& args, const nb::kwargs& kwargs) {
+  const Arguments given("Hull", {"points"}, args, kwargs);
+  if (nb::isinstance<Polytope>(given[0])) return make_hull(nb::cast<const Polytope&>(given[0]));
+  Points array;
+  if (nb::try_cast(given[0], array, false)) return make_hull(to_points(array));
+  std::vector<Triple> rows;
+  if (!nb::try_cast(given[0], rows)) given.refuse(0, "an (n, 3) array of float64, rows of three numbers or a Polytope");
+  std::vector<Vec3> points;
+  for (const Triple& row : rows) points.push_back(to_vec(row));
+  return make_hull(points);
+}
+
+constexpr const char* kRound = "def __init__(self, radius: float, half_height: float) -> None";
+
+auto round_shape(const char* name, Shape (*make)(double, double)) {
+  return [=](const nb::args& args, const nb::kwargs& kwargs) {
+    const Arguments given(name, {"radius", "half_height"}, args, kwargs);
+    return make(given.number(0), given.number(1));
+  };
+}
+
 void bind_shapes(nb::module_& m) {
   nb::class_<Shape>(m, "Shape", "A convex shape in its own frame. Immutable.")
       .def_prop_ro("vertex_count", [](const Shape& s) { return s.polytope.vertices.size(); })
       .def_prop_ro("dimension", [](const Shape& s) { return s.is_polytope() ? s.polytope.dimension : 3; });
-  nb::class_<HullShape, Shape>(m, "Hull",
-                              R"(Convex hull of points, an (n, 3) float64 array or a sequence of (x, y, z), n >= 1, or of a
+  nb::class_<HullShape, Shape> hull(m, "Hull", R"(Convex hull of points, an (n, 3) float64 array or a sequence of (x, y, z), n >= 1, or of a
 Polytope. Computed exactly; may be flat, a segment or a point. ValueError when a coordinate is not finite, OverflowError when one is
-beyond 1e45 or the points are less than 1e-45 across: nothing is proven there.)")
-      .def(
-          "__init__", [](HullShape* self, const Points& points) { new (self) HullShape{make_hull(to_points(points))}; },
-          nb::arg("points").noconvert())
-      .def(
-          "__init__",
-          [](HullShape* self, const std::vector<Triple>& points) {
-            std::vector<Vec3> vectors;
-            for (const Triple& p : points) vectors.push_back(to_vec(p));
-            new (self) HullShape{make_hull(vectors)};
-          },
-          nb::arg("points"))
-      .def(
-          "__init__", [](HullShape* self, const Polytope& polytope) { new (self) HullShape{make_hull(polytope)}; },
-          nb::arg("polytope"));
+beyond 1e45 or the points are less than 1e-45 across: nothing is proven there.)");
+  def_init(hull, "def __init__(self, points: NDArray[float64] | Sequence[Sequence[float]] | Polytope) -> None", hull_of);
   bind_hull_points(m);
-  nb::class_<BoxShape, Shape>(m, "Box", "Box around the origin; half_extents (x, y, z) > 0.").def(
-      "__init__", [](BoxShape* self, const Triple& half) { new (self) BoxShape{make_box(to_vec(half))}; },
-      nb::arg("half_extents"));
-  nb::class_<SphereShape, Shape>(m, "Sphere", "Sphere around the origin.")
-      .def("__init__", [](SphereShape* self, double radius) { new (self) SphereShape{make_sphere(radius)}; },
-           nb::arg("radius"));
-  nb::class_<CapsuleShape, Shape>(m, "Capsule", "Segment from -half_height to half_height on z, grown by radius.")
-      .def("__init__", [](CapsuleShape* self, double r, double h) { new (self) CapsuleShape{make_capsule(r, h)}; },
-           nb::arg("radius"), nb::arg("half_height"));
-  nb::class_<CylinderShape, Shape>(m, "Cylinder", "Cylinder about z, from -half_height to half_height.")
-      .def("__init__", [](CylinderShape* self, double r, double h) { new (self) CylinderShape{make_cylinder(r, h)}; },
-           nb::arg("radius"), nb::arg("half_height"));
-  nb::class_<ConeShape, Shape>(m, "Cone", "Cone about z: base at -half_height, apex at +half_height.")
-      .def("__init__", [](ConeShape* self, double r, double h) { new (self) ConeShape{make_cone(r, h)}; },
-           nb::arg("radius"), nb::arg("half_height"));
-  nb::class_<EllipsoidShape, Shape>(m, "Ellipsoid", "Ellipsoid around the origin; radii along x, y, z.")
-      .def("__init__",
-           [](EllipsoidShape* self, const Triple& radii) { new (self) EllipsoidShape{make_ellipsoid(to_vec(radii))}; },
-           nb::arg("radii"));
+  nb::class_<BoxShape, Shape> box(m, "Box", "Box around the origin; half_extents (x, y, z) > 0.");
+  def_init(box, "def __init__(self, half_extents: Sequence[float]) -> None", [](const nb::args& args, const nb::kwargs& kwargs) {
+    return make_box(Arguments("Box", {"half_extents"}, args, kwargs).three_numbers(0));
+  });
+  nb::class_<SphereShape, Shape> sphere(m, "Sphere", "Sphere around the origin.");
+  def_init(sphere, "def __init__(self, radius: float) -> None", [](const nb::args& args, const nb::kwargs& kwargs) {
+    return make_sphere(Arguments("Sphere", {"radius"}, args, kwargs).number(0));
+  });
+  nb::class_<CapsuleShape, Shape> capsule(m, "Capsule", "Segment from -half_height to half_height on z, grown by radius.");
+  def_init(capsule, kRound, round_shape("Capsule", make_capsule));
+  nb::class_<CylinderShape, Shape> cylinder(m, "Cylinder", "Cylinder about z, from -half_height to half_height.");
+  def_init(cylinder, kRound, round_shape("Cylinder", make_cylinder));
+  nb::class_<ConeShape, Shape> cone(m, "Cone", "Cone about z: base at -half_height, apex at +half_height.");
+  def_init(cone, kRound, round_shape("Cone", make_cone));
+  nb::class_<EllipsoidShape, Shape> ellipsoid(m, "Ellipsoid", "Ellipsoid around the origin; radii along x, y, z.");
+  def_init(ellipsoid, "def __init__(self, radii: Sequence[float]) -> None", [](const nb::args& args, const nb::kwargs& kwargs) {
+    return make_ellipsoid(Arguments("Ellipsoid", {"radii"}, args, kwargs).three_numbers(0));
+  });
 }
 
 void bind_polygons(nb::module_& m) {
@@ -139,8 +153,7 @@ lower bound of the distance. normal: unit, A to B; edge_a or edge_b: the edge it
       .def_ro("edge_b", &PolygonResult::edge_b);
   m.def("sat_polygons",
         [](const Points2& a, const Points2& b) { return sat_polygons(to_points(a), to_points(b)); }, 
-        nb::arg("a").noconvert(), nb::arg("b").noconvert(),
-        R"(Planar SAT of two convex polygons, (n, 2) and (m, 2) float64, counter-clockwise. ValueError otherwise.)");
+        nb::arg("a").noconvert(), nb::arg("b").noconvert());
 }
 
 }  // namespace

@@ -177,6 +177,7 @@ PairResults check_many(const std::vector<const Shape*>& shapes, Indices index_a,
 
 namespace satcheck {
 
+// Documented where they are called: core/pairs.py.
 void bind_pairs(nb::module_& m) {
   bind_pair_result(m);
   bind_pair_results(m);
@@ -190,22 +191,8 @@ void bind_pairs(nb::module_& m) {
         nb::gil_scoped_release release;
         return check_pair(a, pa, b, pb, asked, choice);
       },
-      nb::arg("a"), nb::arg("b"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(), nb::kw_only(),
-      nb::arg("query") = "depth", nb::arg("method") = "auto",
-      R"(Check two placed convex shapes.
-
-pose_a, pose_b  None, (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw): rotate by the quaternion (any length
-                but 0), then translate.
-query           "overlap" gives the outcome only and stops at the first proof; "depth" and "distance" give
-                the signed distance, normal and witness points.
-method          "auto", "sat" to project on axes where that applies, or "gjk" to ask support functions
-                alone: portals for the outcome of an overlap, GJK and EPA for the rest.
-Raises ValueError for a pose that is not finite or an unknown query or method, OverflowError for a
-translation out of range.
-
-SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), portals (Snethen 2008), GJK (Gilbert, Johnson, Keerthi
-1988), EPA on signed face distances (after van den Bergen 2001), exact signs (Shewchuk 1997) where float64
-cannot tell.)");
+      nb::arg("a"), nb::arg("b"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(),
+      nb::arg("query") = "depth", nb::arg("method") = "auto");
   m.def(
       "compare_signed_distance",
       [](const Shape& a, const Shape& b, double length, const std::optional<std::vector<double>>& pose_a,
@@ -215,19 +202,11 @@ cannot tell.)");
         nb::gil_scoped_release release;
         return compare_signed_distance(a, pa, b, pb, length);
       },
-      nb::arg("a"), nb::arg("b"), nb::arg("length"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(),
-      R"(-1, 0 or 1: the signed distance of two placed convex shapes is smaller than, equal to, or larger than the length
-(negative: a depth). Decided exactly, for the vertices, centres and axes where the poses round them to; None where a
-cylinder, cone or ellipsoid takes part. Poses as for check_pair.)");
+      nb::arg("a"), nb::arg("b"), nb::arg("length"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none());
   m.def("check_pairs", &check_many, nb::arg("shapes"), nb::arg("index_a").noconvert(),
         nb::arg("index_b").noconvert(), nb::arg("poses_a").noconvert(),
         nb::arg("poses_b").noconvert(), nb::kw_only(), nb::arg("query") = "depth", nb::arg("method") = "auto",
-        nb::arg("threads") = 0,
-        R"(check_pair over many pairs at once, on `threads` threads (0: one a core), without the GIL.
-
-Pair i is shapes[index_a[i]] at poses_a[i] against shapes[index_b[i]] at poses_b[i]; indices uint32 (n,),
-poses float64 (n, 7). The results are the same bits at any thread count. ValueError when lengths differ, an
-index is out of range or a pose is not finite.)");
+        nb::arg("threads") = 0);
 }
 
 }  // namespace satcheck

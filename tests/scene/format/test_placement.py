@@ -70,7 +70,7 @@ def test_a_quaternion_of_any_length_is_w_x_y_z(length):
 @pytest.mark.parametrize("euler", [(10, 20, 30), (-170, 85, 3.5), (0, 90, 45), (720, -90, 1)])
 def test_euler_angles_and_their_quaternion_are_one_rotation(euler):
     matrix = of_euler(euler)
-    w, x, y, z = quaternion_of_euler(euler)
+    x, y, z, w = quaternion_of_euler(euler)
     assert of_quaternion(x, y, z, w) == pytest.approx(matrix, abs=ROUNDING)
     columns = [matrix[k::3] for k in range(3)]
     for i, a in enumerate(columns):
