@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -11,7 +10,8 @@ from satcheck.core import Mesh
 from satcheck.core.worker import WorkerError
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.drawing import DRAWINGS
-from satcheck.scene.drawing.reading import read_drawing
+from satcheck.scene.drawing.contour import RefusedShape
+from satcheck.scene.drawing.reading import DrawingMessage, SheetMessage, read_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.issue import Issue, issue
@@ -32,64 +32,57 @@ def load_drawing(
     The resolution is how far flattened curves may be off their polygons, and the rounding of the
     coordinates. Raises MeshFileError.
     """
-    source, found = _read(path, location, allowed, children, whole=True)
-    (sheet,) = found["sheets"]
-    issues = _ignored(source, found)
-    return _sheet_file(source, found["units"], {**sheet, "name": None}, issues)
+    source, drawing = _read(path, location, allowed, children, whole=True)
+    (sheet,) = drawing.sheets
+    return _sheet_file(source, drawing.units, sheet, None, _ignored(source, drawing))
 
 
 def load_shapes(path: str, location: Path, allowed: ReadLimits, children: ReadingChildren) -> Nodes:
     """Its shapes, each a node by its name; one that cannot be used does not stop the others."""
-    source, found = _read(path, location, allowed, children, whole=False)
+    source, drawing = _read(path, location, allowed, children, whole=False)
     names = UniqueNames()
     nodes = []
-    for sheet in found["sheets"]:
-        sheet["name"] = names.unique(sheet["name"])
+    for sheet in drawing.sheets:
+        name = names.unique(sheet.name)
         try:
-            nodes.append(Node(sheet["name"], _sheet_file(source, found["units"], sheet)))
+            nodes.append(Node(name, _sheet_file(source, drawing.units, sheet, name)))
         except MeshFileError as error:
-            nodes.append(Node(sheet["name"], error))
-    return Nodes(tuple(nodes), _ignored(source, found))
+            nodes.append(Node(name, error))
+    return Nodes(tuple(nodes), _ignored(source, drawing))
 
 
-def _ignored(source: Source, found: dict[str, Any]) -> tuple[Issue, ...]:
-    return tuple(issue("ignored-geometry", words, file=source.path) for words in found["ignored"])
+def _ignored(source: Source, drawing: DrawingMessage) -> tuple[Issue, ...]:
+    return tuple(issue("ignored-geometry", words, file=source.path) for words in drawing.ignored)
 
 
 def _read(
     path: str, location: Path, allowed: ReadLimits, children: ReadingChildren, *, whole: bool
-) -> tuple[Source, dict[str, Any]]:
+) -> tuple[Source, DrawingMessage]:
     source = read_source(
         path, location, max_bytes=allowed.file_bytes, formats=DRAWINGS, hashed=allowed.hashed
     )
     try:
-        found = read_drawing(
-            source.format,
-            source.data,
-            children,
-            whole=whole,
-            seconds=allowed.seconds,
+        return source, read_drawing(
+            source.format, source.data, children, whole=whole, seconds=allowed.seconds
         )
     except WorkerError as error:
         raise refused_by_worker(error, source, allowed.megabytes) from error
     except MeshFileError as error:
         raise MeshFileError(error.code, error.message, file=path) from None
-    return source, found
-
-
-def _refuse(sheet: dict[str, Any], source: Source) -> None:
-    if "refusal" in sheet:
-        code, message = sheet["refusal"]
-        raise MeshFileError(code, message, file=source.path)
 
 
 def _sheet_file(
-    source: Source, units: str | None, sheet: dict[str, Any], issues: tuple[Issue, ...] = ()
+    source: Source,
+    units: str | None,
+    sheet: SheetMessage | RefusedShape,
+    name: str | None,
+    issues: tuple[Issue, ...] = (),
 ) -> MeshFile:
-    _refuse(sheet, source)
-    points = np.array(sheet["points"], dtype=np.float64)
+    if isinstance(sheet, RefusedShape):
+        raise MeshFileError(sheet.code, sheet.message, file=source.path)
+    points = np.frombuffer(sheet.points, "<f8").reshape(-1, 2)
     vertices = np.column_stack((points, np.zeros(len(points))))
-    triangles = np.array(sheet["triangles"], dtype=np.uint32).reshape(-1, 3)
+    triangles = np.frombuffer(sheet.triangles, "<u4").reshape(-1, 3)
     try:
         examined = examine(Mesh(vertices, triangles), orient=False)
     except MeshFileError as error:
@@ -100,13 +93,13 @@ def _sheet_file(
         path=source.path,
         sha256=source.sha256,
         format=source.format,
-        resolution=sheet["deviation"] + float(np.abs(points).max()) * FLOAT64_ROUNDING,
+        resolution=sheet.deviation + float(np.abs(points).max()) * FLOAT64_ROUNDING,
         units=units,
         mesh=examined.mesh,
         topology=examined.topology,
         health=examined.health,
         issues=issues,
-        part=sheet["name"],
-        deviation=sheet["deviation"],
-        inscribed=sheet["inscribed"],
+        part=name,
+        deviation=sheet.deviation,
+        inscribed=sheet.inscribed,
     )

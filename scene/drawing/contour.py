@@ -50,7 +50,7 @@ class DrawnShape(Struct, frozen=True):
     filled: tuple[Contour, ...] = ()
 
 
-class RefusedShape(Struct, frozen=True):
+class RefusedShape(Struct, frozen=True, tag=True):
     """A shape that cannot be read; the others still can. code: of `codes.CODES`."""
 
     name: str

@@ -1,47 +1,66 @@
 """Drawings are untrusted input to large parsers: they are read in a child process.
 
-request: a line with the format and "whole" or "shapes", then the file's bytes. reply: JSON,
-{"refusal": [code, message]} or {"units", "ignored", "sheets": [{"name", "points", "triangles",
-"deviation", "inscribed"}]}, one for all shapes together or one each, where a shape that cannot be
-used has a "refusal" in the place of its points.
+A request and its answer are messages in MessagePack, of which msgspec checks the types.
 """
 
 from __future__ import annotations
 
-import json
-from typing import TYPE_CHECKING, Any
+import msgspec
 
 from satcheck.scene.drawing.contour import Drawing, DrawnShape, RefusedShape
+from satcheck.scene.drawing.sheet import Sheet, sheet_of, united
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.raw_mesh import Block, Refusal
+from satcheck.scene.loading.reading_children import ReadingChildren
 
-if TYPE_CHECKING:
-    from satcheck.scene.drawing.sheet import Sheet
-    from satcheck.scene.loading.reading_children import ReadingChildren
 
-_WORKER = "satcheck.scene.drawing.reading"
+class _Request(msgspec.Struct, frozen=True):
+    """whole: all shapes together."""
+
+    format: str
+    whole: bool
+    data: Block
+
+
+class SheetMessage(msgspec.Struct, frozen=True, tag=True):
+    """A `sheet.Sheet`. points: little-endian float64 x, y; triangles: uint32, three each."""
+
+    name: str
+    points: Block
+    triangles: Block
+    deviation: float
+    inscribed: bool
+
+
+class DrawingMessage(msgspec.Struct, frozen=True, tag=True):
+    """sheets: one for all shapes together, or one each. units, ignored: as of a Drawing."""
+
+    units: str | None
+    ignored: tuple[str, ...]
+    sheets: tuple[SheetMessage | RefusedShape, ...]
 
 
 def read_drawing(
     form: str, data: bytes, children: ReadingChildren, *, whole: bool, seconds: float
-) -> dict[str, Any]:
-    """The reply as above; raises MeshFileError for a refusal, WorkerError for a child that died."""
-    request = f"{form} {'whole' if whole else 'shapes'}\n".encode() + data
-    reply = children.ask(_WORKER, request, seconds=seconds)
-    found: dict[str, Any] = json.loads(reply)
-    if "refusal" in found:
-        code, message = found["refusal"]
-        raise MeshFileError(code, message)
-    return found
+) -> DrawingMessage:
+    """Raises MeshFileError for a refusal, WorkerError for a child that died."""
+    request = msgspec.msgpack.encode(_Request(form, whole, data))
+    reply = children.ask(__name__, request, seconds=seconds)
+    answer = msgspec.msgpack.decode(reply, type=DrawingMessage | Refusal)
+    if isinstance(answer, Refusal):
+        raise MeshFileError(answer.code, answer.message)
+    return answer
 
 
-def serve(request: bytes) -> bytes:
+def serve(message: bytes) -> bytes:
     """In the child."""
-    head, _, data = request.partition(b"\n")
-    form, what = head.decode().split()
+    request = msgspec.msgpack.decode(message, type=_Request)
+    answer: DrawingMessage | Refusal
     try:
-        return json.dumps(_answer(_drawing(form, data), what == "whole")).encode()
+        answer = _message(_drawing(request.format, bytes(request.data)), request.whole)
     except MeshFileError as error:
-        return json.dumps({"refusal": [error.code, error.message]}).encode()
+        answer = Refusal(error.code, error.message)
+    return msgspec.msgpack.encode(answer)
 
 
 def _drawing(form: str, data: bytes) -> Drawing:
@@ -54,38 +73,33 @@ def _drawing(form: str, data: bytes) -> Drawing:
     return read_dxf(data)
 
 
-def _answer(drawing: Drawing, whole: bool) -> dict[str, Any]:
+def _message(drawing: Drawing, whole: bool) -> DrawingMessage:
+    def triangulated(shape: DrawnShape | RefusedShape) -> Sheet:
+        if isinstance(shape, RefusedShape):
+            raise MeshFileError(shape.code, shape.message)
+        return sheet_of(shape)
+
+    def one(shape: DrawnShape | RefusedShape) -> SheetMessage | RefusedShape:
+        try:
+            return _sheet_message(triangulated(shape))
+        except MeshFileError as error:
+            return RefusedShape(shape.name, error.code, error.message)
+
     if not drawing.shapes:
         raise MeshFileError("empty-mesh", "the drawing has no closed outline")
-    from satcheck.scene.drawing.sheet import united
-
+    sheets: tuple[SheetMessage | RefusedShape, ...]
     if whole:
-        sheets = [_reply(united([_sheet(shape) for shape in drawing.shapes]))]
+        sheets = (_sheet_message(united([triangulated(shape) for shape in drawing.shapes])),)
     else:
-        sheets = [_reply_of(shape) for shape in drawing.shapes]
-    return {"units": drawing.units, "ignored": drawing.ignored, "sheets": sheets}
+        sheets = tuple(map(one, drawing.shapes))
+    return DrawingMessage(drawing.units, drawing.ignored, sheets)
 
 
-def _reply_of(shape: DrawnShape | RefusedShape) -> dict[str, Any]:
-    try:
-        return _reply(_sheet(shape))
-    except MeshFileError as error:
-        return {"name": shape.name, "refusal": [error.code, error.message]}
-
-
-def _sheet(shape: DrawnShape | RefusedShape) -> Sheet:
-    from satcheck.scene.drawing.sheet import sheet_of
-
-    if isinstance(shape, RefusedShape):
-        raise MeshFileError(shape.code, shape.message)
-    return sheet_of(shape)
-
-
-def _reply(sheet: Sheet) -> dict[str, Any]:
-    return {
-        "name": sheet.name,
-        "points": sheet.points.tolist(),
-        "triangles": sheet.triangles.tolist(),
-        "deviation": sheet.deviation,
-        "inscribed": sheet.inscribed,
-    }
+def _sheet_message(sheet: Sheet) -> SheetMessage:
+    return SheetMessage(
+        sheet.name,
+        sheet.points.astype("<f8").tobytes(),
+        sheet.triangles.astype("<u4").tobytes(),
+        sheet.deviation,
+        sheet.inscribed,
+    )

@@ -18,7 +18,7 @@ from satcheck.scene.health import Examined, examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
-from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, alone
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.resolution import file_resolution, placement_step
@@ -107,8 +107,8 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
 
 def _only_mesh(scene: RawScene) -> RawMesh:
     (part,) = scene.parts
-    if isinstance(part.mesh, MeshFileError):
-        raise part.mesh
+    if isinstance(part.mesh, Refusal):
+        raise MeshFileError(part.mesh.code, part.mesh.message)
     return part.mesh
 
 

@@ -25,7 +25,7 @@ def flattened(scene: RawScene) -> RawMesh:
         elif mesh.code == NO_SURFACE:
             warnings["ignored-geometry"] = mesh.message
         else:
-            raise mesh
+            raise MeshFileError(mesh.code, mesh.message)
     total = sum(len(mesh.triangles) // 12 for mesh, _ in placed)
     if total > limits.MAX_TRIANGLES:
         raise MeshFileError(

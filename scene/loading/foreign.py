@@ -1,25 +1,37 @@
-"""The formats that are read in a child process, from this process' side.
+"""The formats that are read in a child process: 3MF, DAE, 3DXML, XAML, ZAE, and some of glTF.
 
 A file of such a format is untrusted input to large parsers, so all of its reading (the checks
-before, the parser, the checks after) happens in `foreign_worker`, with a time and memory limit.
+before, the parser, the checks after) happens in `serve`, with a time and memory limit. A request
+and its answer are messages in MessagePack, of which msgspec checks the types.
 """
 
 from __future__ import annotations
 
+import msgspec
+
 from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
 from satcheck.scene.codes import CODES
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading import protocol
-from satcheck.scene.loading.raw_mesh import RawScene
+from satcheck.scene.loading.raw_mesh import Block, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 
-_WORKER = "satcheck.scene.loading.foreign_worker"
 _LONGEST_MESSAGE = 200  # characters of what a library says
 _CODE_OF_WORKER = {
     "worker-timeout": "reader-timeout",
     "worker-out-of-memory": "reader-out-of-memory",
 }
+
+
+class Request(msgspec.Struct, frozen=True):
+    """A file to read: its format, its bytes, the directory its references start from and whether
+    they may leave it, and whether all of it is wanted as one mesh."""
+
+    format: str
+    directory: str
+    flat: bool
+    allow_outside: bool
+    data: Block
 
 
 def read_foreign(
@@ -33,18 +45,19 @@ def read_foreign(
 ) -> RawScene:
     """The meshes of a file of such a format; flat: as one mesh. Raises MeshFileError."""
     directory = str(source.location.absolute().parent)
-    request = protocol.pack_request(
-        source.format, directory, source.data, flat=flat, allow_outside=allow_outside
-    )
+    request = Request(source.format, directory, flat, allow_outside, source.data)
     try:
-        reply = children.ask(_WORKER, request, seconds=seconds)
+        reply = children.ask(__name__, msgspec.msgpack.encode(request), seconds=seconds)
+        answer = msgspec.msgpack.decode(reply, type=RawScene | Refusal)
     except WorkerError as error:
         raise refused_by_worker(error, source, megabytes) from error
-    try:
-        return protocol.unpack_reply(reply)
-    except MeshFileError as error:
-        code = error.code if error.code in CODES else "reader-failed"
-        raise MeshFileError(code, error.message, file=source.path) from None
+    except msgspec.DecodeError:
+        message = "the reader's answer is damaged"
+        raise MeshFileError("reader-failed", message, file=source.path) from None
+    if isinstance(answer, Refusal):
+        code = answer.code if answer.code in CODES else "reader-failed"
+        raise MeshFileError(code, answer.message, file=source.path)
+    return answer
 
 
 def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> MeshFileError:
@@ -69,3 +82,52 @@ def _explain(error: WorkerError, source: Source, megabytes: int) -> str:
 def _one_line(text: str) -> str:
     line = " ".join(text.split())
     return line if len(line) <= _LONGEST_MESSAGE else line[:_LONGEST_MESSAGE] + " ..."
+
+
+def serve(message: bytes) -> bytes:
+    """In the child. A file that cannot be used is an answer, too."""
+    request = msgspec.msgpack.decode(message, type=Request)
+    answer: RawScene | Refusal
+    try:
+        answer = _read(request)
+        if request.flat:
+            from satcheck.scene.loading.flatten import flattened
+
+            answer = alone(flattened(answer))
+    except MeshFileError as error:
+        answer = Refusal(error.code, error.message)
+    return msgspec.msgpack.encode(answer)
+
+
+def _read(request: Request) -> RawScene:
+    data = memoryview(request.data)
+    match request.format:
+        case "3mf":
+            from satcheck.scene.loading.threemf import read_3mf
+
+            return read_3mf(data)
+        case "dae":
+            from satcheck.scene.loading.collada import read_collada
+
+            return alone(read_collada(data))
+        case "3dxml":
+            from satcheck.scene.loading.threedxml import read_3dxml
+
+            return read_3dxml(data)
+        case "xaml":
+            from satcheck.scene.loading.xaml import read_xaml
+
+            return alone(read_xaml(data))
+        case "zae":
+            from satcheck.scene.loading.zae import read_zae
+
+            return alone(read_zae(data))
+    from satcheck.scene.loading.gltf import read_gltf
+
+    return read_gltf(
+        data,
+        request.directory,
+        binary=request.format == "glb",
+        allow_outside=request.allow_outside,
+        isolated=True,
+    )

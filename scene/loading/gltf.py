@@ -35,6 +35,7 @@ from satcheck.scene.loading.raw_mesh import (
     RawNode,
     RawPart,
     RawScene,
+    Refusal,
 )
 from satcheck.scene.plain_ids import UniqueNames
 
@@ -141,7 +142,7 @@ class _Scene:
         placed = [(self._shape(node.key), node) for node in nodes]
         shapes = {shape: place for place, shape in enumerate(dict.fromkeys(s for s, _ in placed))}
         meshes = [self._mesh(shape) for shape in shapes]
-        if all(isinstance(mesh, MeshFileError) and mesh.code == NO_SURFACE for mesh in meshes):
+        if all(isinstance(mesh, Refusal) and mesh.code == NO_SURFACE for mesh in meshes):
             raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
         names, paths = UniqueNames(), UniqueNames()
         return RawScene(
@@ -161,13 +162,13 @@ class _Scene:
         skin = integer(node, "skin", -1) if "skin" in node else None
         return Shape(mesh, self._meshes.weights(mesh, node), skin)
 
-    def _mesh(self, shape: Shape) -> RawMesh | MeshFileError:
+    def _mesh(self, shape: Shape) -> RawMesh | Refusal:
         """A mesh that cannot be used is an error here, so that its nodes do not get lost."""
         try:
             skin = None if shape.skin is None else self._skin(shape.skin)
             return self._meshes.read(shape, skin)
         except MeshFileError as error:
-            return error
+            return Refusal(error.code, error.message)
 
     def _copies(self, node: Instance[int]) -> list[tuple[str, Matrix | None]]:
         """(path, matrix) of a node, or of each instance that it draws in its own place."""

@@ -22,7 +22,7 @@ from satcheck.scene.loading import (
     read_scene,
     resolution_of,
 )
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawPart
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawPart, Refusal
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
@@ -108,7 +108,7 @@ class _Splitter:
     def split(self, part: RawPart) -> list[tuple[str, MeshFile | MeshFileError]]:
         """What is appended to a node's path, and its mesh, one for each body."""
         raw = part.mesh
-        if isinstance(raw, MeshFileError):
+        if isinstance(raw, Refusal):
             return [("", self._named(part, raw))]
         try:
             raw, mesh = mesh_of(self._source, raw)
@@ -151,7 +151,7 @@ class _Splitter:
     def _warn(self, code: str, part: RawPart, message: str) -> None:
         self.issues.append(issue(code, self._where(part) + message, file=self._source.path))
 
-    def _named(self, part: RawPart, error: MeshFileError) -> MeshFileError:
+    def _named(self, part: RawPart, error: MeshFileError | Refusal) -> MeshFileError:
         return MeshFileError(error.code, self._where(part) + error.message, file=self._source.path)
 
     @staticmethod

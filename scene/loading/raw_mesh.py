@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
 
-from satcheck.scene.errors import MeshFileError
-
 Precision = Literal["written-digits", "float16", "float32", "float64"]
-Block = bytes | memoryview
+if TYPE_CHECKING:
+    Block = bytes | memoryview
+else:
+    Block = memoryview  # what msgspec decodes to
 NO_SURFACE = "no-surface"  # the code of a mesh of lines or points alone
 Matrix = tuple[float, ...]  # row-major 4x4 for column vectors
 
 
-class RawMesh(Struct, frozen=True):
+class RawMesh(Struct, frozen=True, tag=True):
     """What a reader found, in file units, not welded.
 
     vertices: little-endian float64 x, y, z of each vertex; triangles: little-endian uint32 vertex
@@ -34,11 +35,18 @@ class RawMesh(Struct, frozen=True):
     exponent: int = 0
 
 
+class Refusal(Struct, frozen=True, tag=True):
+    """Why a mesh or a file cannot be used: the code and the message of a MeshFileError."""
+
+    code: str
+    message: str
+
+
 class RawPart(Struct, frozen=True):
     """One mesh of a file in its own coordinates, or why it cannot be used. name: unique there."""
 
     name: str
-    mesh: RawMesh | MeshFileError
+    mesh: RawMesh | Refusal
 
 
 class RawNode(Struct, frozen=True):
@@ -49,7 +57,7 @@ class RawNode(Struct, frozen=True):
     matrix: Matrix | None = None
 
 
-class RawScene(Struct, frozen=True):
+class RawScene(Struct, frozen=True, tag=True):
     """The meshes of a file and where they are placed; every part is placed at least once.
 
     warnings: (code, message) about what belongs to no part.

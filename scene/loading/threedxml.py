@@ -11,7 +11,7 @@ import zipfile
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, tidy_name
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.loading.written_mesh import WrittenMesh, of_fan, of_strip
 from satcheck.scene.loading.xml_tree import Element, read_elements
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
@@ -94,7 +94,7 @@ class _Assembly:
             raise MeshFileError("index-out-of-range", f"the product refers to unknown {key!r}")
         return self._children[key]
 
-    def _part(self, key: str) -> RawMesh | MeshFileError:
+    def _part(self, key: str) -> RawMesh | Refusal:
         reference = self._parts[key]
         try:
             form = reference.attribute("format")
@@ -109,7 +109,7 @@ class _Assembly:
                 document.refuse("the part has no triangles", "empty-mesh")
             return mesh.raw(_UNITS)
         except MeshFileError as error:
-            return error
+            return Refusal(error.code, error.message)
 
 
 _ENDS = ("IsAggregatedBy", "IsInstanceOf")

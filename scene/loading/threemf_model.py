@@ -11,7 +11,7 @@ from typing import IO
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import tidy_name
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, Refusal
 from satcheck.scene.loading.written_mesh import digits_of
 from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
@@ -63,9 +63,9 @@ class Object:
     def has_mesh(self) -> bool:
         return self.refusal is not None or bool(self.triangles)
 
-    def mesh(self, unit: str) -> RawMesh | MeshFileError:
+    def mesh(self, unit: str) -> RawMesh | Refusal:
         if self.refusal is not None:
-            return self.refusal
+            return Refusal(self.refusal.code, self.refusal.message)
         return RawMesh(
             vertices=self.vertices.tobytes(),
             triangles=self.triangles.tobytes(),
