@@ -1,5 +1,4 @@
-// The smallest test harness that serves: CHECK counts and prints failures, the process exit status
-// is the verdict.
+// A small test harness: UNIT registers a test by its name, CHECK counts and prints failures.
 #pragma once
 
 #include <cstdio>
@@ -18,12 +17,27 @@ inline bool check(bool passed, const char* expression, const char* file, int lin
   return passed;
 }
 
-inline int exit_status() {
-  std::printf("%d checks, %d failures\n", checks, failures);
-  return failures == 0 && checks > 0 ? 0 : 1;
+struct Unit {
+  const char* name;
+  void (*run)();
+  Unit* next;
+};
+inline Unit* units = nullptr;
+
+// Puts a static unit into the list, which needs no order of initialization.
+inline bool register_unit(Unit& unit) {
+  unit.next = units;
+  units = &unit;
+  return true;
 }
 
 }  // namespace satcheck::testing
 
 #define CHECK(expression) \
   ::satcheck::testing::check(static_cast<bool>(expression), #expression, __FILE__, __LINE__)
+
+#define UNIT(name)                                                                                             \
+  static void run_##name();                                                                                    \
+  static ::satcheck::testing::Unit unit_##name{#name, run_##name, nullptr};                                    \
+  [[maybe_unused]] static const bool registered_##name = ::satcheck::testing::register_unit(unit_##name);      \
+  static void run_##name()

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <initializer_list>
 #include <random>
@@ -10,19 +9,11 @@
 #include <string>
 
 #include "readers.hpp"
+#include "tests/check.hpp"
 
 namespace {
 
 using namespace satcheck::scene;
-
-int failures = 0;
-
-void check(bool passed, const char* what, int line) {
-  if (passed) return;
-  ++failures;
-  std::fprintf(stderr, "line %d: failed: %s\n", line, what);
-}
-#define CHECK(expression) check(static_cast<bool>(expression), #expression, __LINE__)
 
 using Reader = ReadOutcome (*)(std::string_view);
 
@@ -220,7 +211,7 @@ void test_numbers() {
 
 }  // namespace
 
-int main() {
+UNIT(readers) {
   test_samples();
   test_every_prefix();
   test_random_damage();
@@ -228,6 +219,4 @@ int main() {
   test_corners_of_stl_are_vertices_once();
   test_pieces_of_stl_are_the_whole();
   test_numbers();
-  std::printf("%d failures\n", failures);
-  return failures == 0 ? 0 : 1;
 }

@@ -65,9 +65,8 @@ void triangles() {
 
 }  // namespace
 
-int main() {
+UNIT(key_sort) {
   keys();
   coordinates();
   triangles();
-  return satcheck::testing::exit_status();
 }

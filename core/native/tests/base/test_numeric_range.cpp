@@ -69,8 +69,7 @@ void sizes() {
 
 }  // namespace
 
-int main() {
+UNIT(numeric_range) {
   every_place();
   sizes();
-  return testing::exit_status();
 }

@@ -40,7 +40,7 @@ void test_a_system_that_grants_no_threads() {
 
 }  // namespace
 
-int main() {
+UNIT(parallel) {
   for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 1000u}) {
     for (const unsigned threads : {0u, 1u, 2u, 7u}) {
       check_each_once(count, threads, 1);
@@ -50,5 +50,4 @@ int main() {
 #if defined(__GLIBC__)
   test_a_system_that_grants_no_threads();
 #endif
-  return testing::exit_status();
 }

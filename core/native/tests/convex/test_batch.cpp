@@ -101,9 +101,8 @@ void test_the_first_failure_counts() {
 
 }  // namespace
 
-int main() {
+UNIT(batch) {
   test_every_pair_as_by_itself();
   test_an_array_a_field();
   test_the_first_failure_counts();
-  return testing::exit_status();
 }

@@ -137,7 +137,7 @@ void test_touching_is_left_open() {
 
 }  // namespace
 
-int main() {
+UNIT(box_pair) {
   test_overlap_matches_hulls();
   test_depth_matches_hulls();
   test_either_order_is_the_same_bits();
@@ -145,5 +145,4 @@ int main() {
   test_wide_contacts_are_left_open();
   test_hardly_turned();
   test_touching_is_left_open();
-  return testing::exit_status();
 }

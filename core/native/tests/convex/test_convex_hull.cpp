@@ -201,7 +201,7 @@ void triangles_without_faces() {
 
 }  // namespace
 
-int main() {
+UNIT(convex_hull) {
   lower_dimensions();
   cube_with_many_coplanar_points();
   rotated_grid_is_not_quite_flat();
@@ -210,5 +210,4 @@ int main() {
   random_lattice_clouds();
   large_inputs();
   triangles_without_faces();
-  return testing::exit_status();
 }

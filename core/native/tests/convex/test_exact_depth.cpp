@@ -91,10 +91,9 @@ void test_random_hulls_in_any_order() {
 
 }  // namespace
 
-int main() {
+UNIT(exact_depth) {
   test_closed_forms();
   test_what_float64_cannot_see();
   test_flats_that_nearly_coincide();
   test_random_hulls_in_any_order();
-  return exit_status();
 }

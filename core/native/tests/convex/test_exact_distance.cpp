@@ -62,9 +62,8 @@ void test_random_hulls_in_any_order() {
 
 }  // namespace
 
-int main() {
+UNIT(exact_distance) {
   test_features();
   test_what_float64_cannot_see();
   test_random_hulls_in_any_order();
-  return exit_status();
 }

@@ -97,8 +97,7 @@ void test_one_ulp() {
 
 }  // namespace
 
-int main() {
+UNIT(exact_pair) {
   test_integer_polytopes();
   test_one_ulp();
-  return testing::exit_status();
 }

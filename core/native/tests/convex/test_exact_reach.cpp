@@ -56,9 +56,8 @@ void far_and_small() {
 
 }  // namespace
 
-int main() {
+UNIT(exact_reach) {
   vertices_edges_and_faces();
   edges();
   far_and_small();
-  return satcheck::testing::exit_status();
 }

@@ -78,8 +78,7 @@ void test_refuses_a_flat_start() {
 
 }  // namespace
 
-int main() {
+UNIT(expanding_polytope) {
   test_grows_to_the_hull();
   test_refuses_a_flat_start();
-  return testing::exit_status();
 }

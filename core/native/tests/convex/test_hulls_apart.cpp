@@ -55,9 +55,8 @@ void a_gap_below_rounding_is_left_open() {
 
 }  // namespace
 
-int main() {
+UNIT(hulls_apart) {
   random_balls();
   flat_and_few_points();
   a_gap_below_rounding_is_left_open();
-  return testing::exit_status();
 }

@@ -163,7 +163,7 @@ void test_powers_of_two_scale_exactly() {
 
 }  // namespace
 
-int main() {
+UNIT(narrow_phase) {
   test_boxes_by_hand();
   test_box_contacts_touch();
   test_spheres_and_capsules();
@@ -173,5 +173,4 @@ int main() {
   test_methods_agree();
   test_swap_negates();
   test_powers_of_two_scale_exactly();
-  return testing::exit_status();
 }

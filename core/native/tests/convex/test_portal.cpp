@@ -105,11 +105,10 @@ void test_what_touches_or_is_flat_stays_open() {
 
 }  // namespace
 
-int main() {
+UNIT(portal) {
   test_grids_against_exact_signs();
   test_general_pairs_are_settled();
   test_curved_shapes();
   test_curved_shapes_of_any_size();
   test_what_touches_or_is_flat_stays_open();
-  return testing::exit_status();
 }

@@ -56,10 +56,9 @@ void test_refusals() {
 
 }  // namespace
 
-int main() {
+UNIT(sat_polygon) {
   test_projection();
   test_least_overlap();
   test_contacts_are_exact();
   test_refusals();
-  return testing::exit_status();
 }

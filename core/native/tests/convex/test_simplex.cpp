@@ -99,9 +99,8 @@ void test_the_enclosed_ball_is_enclosed() {
 
 }  // namespace
 
-int main() {
+UNIT(simplex) {
   test_the_last_vertex_is_enough_where_it_is_needed();
   test_the_enclosed_ball_is_enclosed();
   test_weights_hold_the_origin();
-  return testing::exit_status();
 }

@@ -103,12 +103,11 @@ void test_is_made_once_for_all_copies() {
 
 }  // namespace
 
-int main() {
+UNIT(support_map) {
   test_random_points();
   test_flat_points();
   test_near_duplicates();
   test_scale_and_proportions();
   test_no_direction();
   test_is_made_once_for_all_copies();
-  return testing::exit_status();
 }

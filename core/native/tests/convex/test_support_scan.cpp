@@ -38,8 +38,7 @@ void test_ties_take_the_first() {
 
 }  // namespace
 
-int main() {
+UNIT(support_scan) {
   test_random_points();
   test_ties_take_the_first();
-  return testing::exit_status();
 }

@@ -26,7 +26,7 @@ bool comes_back(const Surface& surface, Vec3 centre) {
 
 }  // namespace
 
-int main() {
+UNIT(exact_centre) {
   std::mt19937 random(3);
   for (const double far : {1e-3, 1.0, 1e9, 1e15}) {
     for (const double size : {1e-15, 1e-7, 1e-2, 0.125}) {
@@ -45,5 +45,4 @@ int main() {
   const Surface tiny = triangle_at({1e-60, 1e-60, 1e-60}, 1e-75, random);
   const Vec3 centre = exact_centre(tiny, tiny);
   CHECK(centre == Vec3{} || comes_back(tiny, centre));
-  return testing::exit_status();
 }

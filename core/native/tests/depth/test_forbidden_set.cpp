@@ -87,10 +87,9 @@ void parts_of_boxes() {
 
 }  // namespace
 
-int main() {
+UNIT(forbidden_set) {
   two_cubes();
   no_volume_no_set();
   random_hulls();
   parts_of_boxes();
-  return exit_status();
 }

@@ -65,9 +65,8 @@ void the_nearest_open_point() {
 
 }  // namespace
 
-int main() {
+UNIT(forbidden_union) {
   one_set();
   two_sets_cover_the_seam_between_them();
   the_nearest_open_point();
-  return exit_status();
 }

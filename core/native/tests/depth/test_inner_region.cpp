@@ -108,10 +108,9 @@ void seeds_that_are_not_inside_have_no_region() {
 
 }  // namespace
 
-int main() {
+UNIT(inner_region) {
   boxes_are_filled();
   an_arm_is_filled();
   round_and_hollow_solids();
   seeds_that_are_not_inside_have_no_region();
-  return exit_status();
 }

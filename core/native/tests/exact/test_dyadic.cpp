@@ -65,9 +65,8 @@ void copies_and_moves_keep_the_value() {
 
 }  // namespace
 
-int main() {
+UNIT(dyadic) {
   identities();
   signs_at_the_edge();
   copies_and_moves_keep_the_value();
-  return testing::exit_status();
 }

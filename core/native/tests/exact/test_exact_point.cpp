@@ -92,10 +92,9 @@ void lazy_points_have_the_signs_of_exact_ones() {
 
 }  // namespace
 
-int main() {
+UNIT(exact_point) {
   arithmetic_matches_integers();
   far_apart_exponents();
   thirds_lie_in_their_plane();
   lazy_points_have_the_signs_of_exact_ones();
-  return testing::exit_status();
 }

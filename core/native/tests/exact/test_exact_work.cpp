@@ -34,8 +34,7 @@ void test_numbers() {
 
 }  // namespace
 
-int main() {
+UNIT(exact_work) {
   test_signs();
   test_numbers();
-  return testing::exit_status();
 }

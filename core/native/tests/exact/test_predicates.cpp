@@ -118,12 +118,11 @@ void affine_sums_of_many_points() {
 
 }  // namespace
 
-int main() {
+UNIT(predicates) {
   small_grid_matches_integer_truth();
   large_lattice_matches_integer_truth();
   one_ulp_off_a_plane();
   determinant_of_unrelated_rows();
   planar_orientation();
   affine_sums_of_many_points();
-  return testing::exit_status();
 }

@@ -50,10 +50,9 @@ void test_beyond_the_end_of_a_sliver() {
 
 }  // namespace
 
-int main() {
+UNIT(triangle_distance) {
   test_nearly_parallel_edges();
   test_off_centre();
   test_a_needle();
   test_beyond_the_end_of_a_sliver();
-  return testing::exit_status();
 }

@@ -124,8 +124,7 @@ void named_cases() {
 
 }  // namespace
 
-int main() {
+UNIT(triangle_pair) {
   lattice_triangles();
   named_cases();
-  return testing::exit_status();
 }

@@ -73,11 +73,10 @@ void a_flat_part_is_a_sheet_and_no_hole() {
 
 }  // namespace
 
-int main() {
+UNIT(boundary) {
   closed_meshes_have_none();
   a_missing_triangle_is_a_loop_of_three();
   a_turned_triangle_is_two_loops_in_one_hole();
   loops_that_share_a_vertex_are_one_hole();
   a_flat_part_is_a_sheet_and_no_hole();
-  return exit_status();
 }

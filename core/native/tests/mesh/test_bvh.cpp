@@ -104,7 +104,7 @@ void check_forms() {
 
 }  // namespace
 
-int main() {
+UNIT(bvh) {
   CHECK(build_bvh(Mesh{}).nodes.empty() && build_bvh_by_form({}).nodes.empty());
   check_forms();
   check_refit(uv_sphere(30));
@@ -126,5 +126,4 @@ int main() {
   check_tree(same_place);
   check_tree(Mesh{{{-1e308, 0, 0}, {1e308, 0, 0}, {0, 1e308, 0}},
                   {{0, 1, 2}, {0, 1, 2}, {0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 1, 1}}});
-  return exit_status();
 }

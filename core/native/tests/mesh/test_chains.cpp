@@ -55,11 +55,10 @@ void loops_must_close() {
 
 }  // namespace
 
-int main() {
+UNIT(chains) {
   open_chain();
   closed_chain_and_spur();
   branches_divide();
   loops_that_share_a_node();
   loops_must_close();
-  return testing::exit_status();
 }

@@ -50,9 +50,8 @@ void a_width_as_large_as_the_mesh_closes_nothing() {
 
 }  // namespace
 
-int main() {
+UNIT(cracks) {
   a_t_junction_is_closed_within_the_width();
   what_is_wider_stays();
   a_width_as_large_as_the_mesh_closes_nothing();
-  return exit_status();
 }

@@ -77,12 +77,11 @@ void straightness_is_exact() {
 
 }  // namespace
 
-int main() {
+UNIT(incidence) {
   transversal();
   a_vertex_has_one_name();
   coplanar();
   sides_go_around();
   a_point_is_rounded_once();
   straightness_is_exact();
-  return testing::exit_status();
 }

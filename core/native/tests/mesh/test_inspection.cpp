@@ -66,7 +66,7 @@ void check_damaged(const Mesh& mesh, unsigned seed) {
 
 }  // namespace
 
-int main() {
+UNIT(inspection) {
   Mesh touching = uv_sphere(4);  // at a corner
   append(touching, translate(uv_sphere(4), {0, 0, 2}));
   const Mesh pillow{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
@@ -89,5 +89,4 @@ int main() {
   Mesh mixed = unit;
   std::swap(mixed.triangles[3][0], mixed.triangles[3][1]);
   check_steps(shuffled_soup(mixed, 4), true);
-  return exit_status();
 }

@@ -71,9 +71,8 @@ void a_lone_sliver_stays() {
 
 }  // namespace
 
-int main() {
+UNIT(slivers) {
   no_slivers_no_change();
   slivers_beside_slivers();
   a_lone_sliver_stays();
-  return testing::exit_status();
 }

@@ -177,7 +177,7 @@ void a_million_triangles() {
 
 }  // namespace
 
-int main() {
+UNIT(topology) {
   counts_of_a_box();
   broken_boxes();
   orientation_of_shells();
@@ -186,5 +186,4 @@ int main() {
   components_and_transforms();
   sorting_forgets_the_order();
   a_million_triangles();
-  return exit_status();
 }

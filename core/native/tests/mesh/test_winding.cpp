@@ -89,11 +89,10 @@ void open_surfaces_are_no_solids() {
 
 }  // namespace
 
-int main() {
+UNIT(winding) {
   lattice_points_of_a_box();
   overlapping_and_inverted_shells_add_up();
   points_near_a_sphere();
   both_sides_of_every_triangle();
   open_surfaces_are_no_solids();
-  return exit_status();
 }

@@ -192,12 +192,11 @@ void large_meshes() {
 
 }  // namespace
 
-int main() {
+UNIT(mesh_distance) {
   triangle_distances();
   mesh_distances();
   nearest_points();
   deviations();
   convexity();
   large_meshes();
-  return exit_status();
 }

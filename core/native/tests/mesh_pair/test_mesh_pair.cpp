@@ -160,7 +160,7 @@ void large_flush_contact() {
 
 }  // namespace
 
-int main() {
+UNIT(mesh_pair) {
   boxes();
   several_parts();
   double_wall();
@@ -169,5 +169,4 @@ int main() {
   sheets_that_meet_at_edges();
   pieces_of_a_cut_triangle();
   large_flush_contact();
-  return exit_status();
 }

@@ -72,12 +72,11 @@ void covered_once_or_twice() {
 
 }  // namespace
 
-int main() {
+UNIT(surface_intersection) {
   crossing();
   flush();
   edge_and_corner();
   spheres_cross_in_one_loop();
   any_scale();
   covered_once_or_twice();
-  return testing::exit_status();
 }

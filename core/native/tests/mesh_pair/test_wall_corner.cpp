@@ -52,8 +52,7 @@ void no_nearer_point_is_beyond() {
 
 }  // namespace
 
-int main() {
+UNIT(wall_corner) {
   faces_edges_and_corners();
   no_nearer_point_is_beyond();
-  return testing::exit_status();
 }

@@ -201,12 +201,11 @@ void a_shape_and_a_surface_keep_theirs() {
 
 }  // namespace
 
-int main() {
+UNIT(moving_surfaces) {
   promises_hold();
   cut_short_is_less();
   sliding_is_not_slowed_down();
   an_opening_door_is_not_held();
   shapes_keep_their_promises();
   a_shape_and_a_surface_keep_theirs();
-  return exit_status();
 }

@@ -182,12 +182,11 @@ void what_was_let_go_is_made_again() {
 
 }  // namespace
 
-int main() {
+UNIT(climb) {
   the_lowest_rung_that_settles_ends_it();
   what_triangles_find();
   many_answer_as_one_by_one();
   a_large_pair_alone_answers_as_any();
   a_surface_cut_down_to_what_matters_answers_as_all_of_it();
   what_was_let_go_is_made_again();
-  return testing::exit_status();
 }

@@ -67,7 +67,7 @@ void walls_that_exclude_each_other_end() {
 
 }  // namespace
 
-int main() {
+UNIT(least_motion) {
   two_free_bodies_share();
   a_body_that_stays_stays();
   a_corner_is_left_to_the_last_bit();
@@ -75,5 +75,4 @@ int main() {
   a_chain_is_solved();
   earlier_multipliers_do_not_change_the_answer();
   walls_that_exclude_each_other_end();
-  return testing::exit_status();
 }

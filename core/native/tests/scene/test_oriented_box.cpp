@@ -128,10 +128,9 @@ void separating_axes_separate() {
 
 }  // namespace
 
-int main() {
+UNIT(oriented_box) {
   corners_lie_in_the_box_and_fill_it();
   boxes_are_padded();
   some_boxes_say_nothing_new();
   separating_axes_separate();
-  return testing::exit_status();
 }

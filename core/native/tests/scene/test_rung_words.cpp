@@ -77,9 +77,8 @@ void surfaces() {
 
 }  // namespace
 
-int main() {
+UNIT(rung_words) {
   boxes();
   hulls_of_both();
   surfaces();
-  return satcheck::testing::exit_status();
 }

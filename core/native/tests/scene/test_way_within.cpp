@@ -64,9 +64,8 @@ void without_a_crossing_only_the_hulls_are_left() {
 
 }  // namespace
 
-int main() {
+UNIT(way_within) {
   up_to_three_walls_are_left();
   what_is_deeper_stays();
   without_a_crossing_only_the_hulls_are_left();
-  return testing::exit_status();
 }
