@@ -21,10 +21,10 @@ from satcheck.audit.severity import disputed, judged
 from satcheck.audit.tolerances import EXACT_WIDTH
 
 if TYPE_CHECKING:
-    from satcheck.audit.curved.signed import Signed
     from satcheck.audit.figures.depth import Depth
     from satcheck.audit.figures.touch_band import Side
     from satcheck.core import Climb, PairResult
+    from satcheck.core.curved.signed import Signed
 
 ID_DIGITS = 12
 OPEN_BAND = "undecided: whether that is within the tolerance"
@@ -77,7 +77,7 @@ def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
 def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan) -> str | None:
     """Adds what only some ask for; returns what another library says against the relation."""
     if pair.curved:
-        from satcheck.audit.curved.contact import without_meshes
+        from satcheck.audit.figures.curved import without_meshes
 
         known["reason"] = without_meshes(known["reason"], pair, plan)
         return None

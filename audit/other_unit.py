@@ -18,9 +18,9 @@ from satcheck.audit.report.motion_report import Interval, Place, Sweep, WorstPos
 from satcheck.audit.report.report import BodyReport, Finding, Issue, Report, Stage, Witness
 from satcheck.audit.summary import health_values, rule_reports
 from satcheck.core.power_of_two import held_times_power, limit_times_power
+from satcheck.core.shapes import values_of
 from satcheck.scene import Scene
 from satcheck.scene.mesh_units import placing_file, shape_of_file
-from satcheck.scene.primitives import values_of
 
 # The first stage of each plan.
 STAGE = "unit"

@@ -32,10 +32,10 @@ from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
     from satcheck.audit.asked.settings import FailOn
+    from satcheck.core.shapes import Primitive
     from satcheck.decompose import Decomposition
     from satcheck.scene import Scene
     from satcheck.scene.health import MeshHealth
-    from satcheck.scene.primitives import Primitive
     from satcheck.scene.rules import Rule
 
 Health = Mapping[str, bool | int | float | str | None]
@@ -157,7 +157,7 @@ def _part_error(parts: Decomposition, exponent: int) -> PartError:
 def _shape(shape: Primitive | None) -> Mapping[str, object] | None:
     if shape is None:
         return None
-    from satcheck.scene.primitives import values_of
+    from satcheck.core.shapes import values_of
 
     return values_of(shape)
 

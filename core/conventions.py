@@ -15,6 +15,7 @@ from __future__ import annotations
 from typing import Literal, get_args
 
 Vector = tuple[float, float, float]
+Bounds = tuple[Vector, Vector]  # the least and the greatest corner of a box along the axes
 
 # What the numbers in PairResults.outcome stand for.
 OUTCOMES = ("separated", "touching", "penetrating", "undecided")

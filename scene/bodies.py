@@ -16,8 +16,8 @@ from satcheck.scene.resolution import FLOAT64_ROUNDING
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
+    from satcheck.core.shapes import Primitive
     from satcheck.scene.motion import Motion
-    from satcheck.scene.primitives import Primitive
     from satcheck.scene.robot import Posture, SceneRobot
 
 UNITS_UNKNOWN = "units-unknown"

@@ -19,8 +19,8 @@ from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK
 
 if TYPE_CHECKING:
+    from satcheck.core.shapes import Primitive
     from satcheck.scene.loading.nodes import Node, Nodes
-    from satcheck.scene.primitives import Primitive
 
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048

@@ -9,7 +9,7 @@ from satcheck.scene.common_units import scaled_mesh
 from satcheck.scene.errors import MeshFileError
 
 if TYPE_CHECKING:
-    from satcheck.scene.primitives import Primitive
+    from satcheck.core.shapes import Primitive
 
 
 def placing_mesh(file: MeshFile | MeshFileError, transform: Transform | None) -> Transform | None:
@@ -40,6 +40,6 @@ def shape_of_file(file: MeshFile, shape: Primitive | None) -> Primitive | None:
 def _scaled(shape: Primitive | None, exponent: int) -> Primitive | None:
     if shape is None or exponent == 0:
         return shape
-    from satcheck.scene.primitives import times_power_of_two
+    from satcheck.core.shapes import times_power_of_two
 
     return times_power_of_two(shape, exponent)

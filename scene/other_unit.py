@@ -11,10 +11,10 @@ from satcheck.core.power_of_two import (
     limit_times_power,
     times_power,
 )
+from satcheck.core.shapes import sizes_of, times_power_of_two
 from satcheck.scene.bodies import IDENTITY, Body, Scene, Transform, Unreadable
 from satcheck.scene.issue import issue
 from satcheck.scene.motion import scaled_motion
-from satcheck.scene.primitives import sizes_of, times_power_of_two
 from satcheck.scene.rules import LENGTHS, Rule
 from satcheck.scene.shape_file import shape_file
 

@@ -20,9 +20,9 @@ from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
+    from satcheck.core.shapes import Primitive
     from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
     from satcheck.scene.format.joined import JoinedScenes
-    from satcheck.scene.primitives import Primitive
     from satcheck.scene.robot import SceneRobot, Srdf
     from satcheck.scene.rules import Rule
 

@@ -6,17 +6,11 @@ import hashlib
 import json
 
 from satcheck.core.power_of_two import exponent_into_range, exponent_of
+from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
+from satcheck.core.shapes import Primitive, sizes_of, times_power_of_two, values_of
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
-from satcheck.scene.primitives import (
-    DEFAULT_SEGMENTS,
-    Primitive,
-    mesh_of,
-    sizes_of,
-    times_power_of_two,
-    values_of,
-)
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 
 SHAPE_FORMAT = "shape"

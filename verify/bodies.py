@@ -11,13 +11,12 @@ from typing import Any, cast
 
 import numpy as np
 
+from satcheck.core.shapes import Primitive, image_of, is_curved, primitive_of
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.planar.laid_flat import laid_flat
-from satcheck.scene.primitives import Primitive, is_curved, primitive_of
 from satcheck.scene.shape_file import shape_file
-from satcheck.scene.shape_image import image_of
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.open_parts import bounds_nothing, with_backs

@@ -9,8 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from satcheck.scene.primitives import Capsule, Cone, Cylinder, Ellipsoid, Sphere
-from satcheck.scene.shape_image import ShapeImage
+from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, ShapeImage, Sphere
 from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, sign
 from satcheck.verify.roots import Reach, root
 

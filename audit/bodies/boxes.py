@@ -1,11 +1,11 @@
-"""Axis-aligned world boxes: the shortest way out, whether one holds the other."""
+"""Axis-aligned world boxes: their sizes, and the shortest way out."""
 
 from __future__ import annotations
 
 import math
 
 from satcheck.audit.report.report import Vector
-from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.core.tolerances import UNIT_ROUNDOFF
 
 Box = tuple[Vector, Vector]
 
@@ -16,13 +16,6 @@ def largest_coordinate(*boxes: Box) -> float:
 
 def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
     return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
-
-
-def holds(outer: Box, inner: Box) -> bool:
-    """Whether the closed outer box contains the inner one: what containment of bodies needs."""
-    return all(
-        outer[0][axis] <= inner[0][axis] and inner[1][axis] <= outer[1][axis] for axis in range(3)
-    )
 
 
 def box_escape(a: Box, b: Box) -> tuple[float, Vector]:

@@ -13,11 +13,12 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.boxes import Box, diagonal, largest_coordinate
-from satcheck.audit.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
+from satcheck.core.curved.placed import CurvedShape, curved_shape
+from satcheck.core.shapes import is_curved
+from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 from satcheck.scene.bodies import resolution_in_world
 
 if TYPE_CHECKING:
-    from satcheck.audit.curved.shape import CurvedShape
     from satcheck.decompose import Decomposition, DecompositionError
     from satcheck.scene import Body, MeshFile
     from satcheck.verify.bodies import Placed, Shape
@@ -130,19 +131,12 @@ class SharedMesh:
 
 def _curved(body: Body) -> CurvedShape | None:
     """ValueError when the transform makes no such shape of it."""
-    if body.shape is None:
+    if body.shape is None or not is_curved(body.shape):
         return None
-    from satcheck.scene.primitives import is_curved
-
-    if not is_curved(body.shape):
-        return None
-    from satcheck.audit.curved.shape import curved_shape
-
     return curved_shape(body.shape, body.transform)
 
 
 def _checked(body: Body, shared: SharedMesh) -> Placed:
-    from satcheck.scene.primitives import is_curved
     from satcheck.verify.bodies import curved_of, place_shape
 
     primitive = body.shape

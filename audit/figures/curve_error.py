@@ -32,13 +32,13 @@ from satcheck.audit.ladder.in_plane import wall_gap
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
 from satcheck.audit.severity import keeps
-from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import axes_of
+from satcheck.core.tolerances import rounding_pad
 
 if TYPE_CHECKING:
-    from satcheck.audit.curved.signed import Signed
     from satcheck.core import PairResult
+    from satcheck.core.curved.signed import Signed
 
 # A way out is tried longer by so many times the deviations: what it leads away from may be oblique.
 _LONGER = (1.0, 1.5, 2.0, 4.0, 8.0)

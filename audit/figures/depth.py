@@ -14,8 +14,8 @@ from satcheck.audit.figures.verify import Escape, verified_escape
 from satcheck.audit.report.report import Vector, Witness
 
 if TYPE_CHECKING:
-    from satcheck.audit.curved.signed import Signed
     from satcheck.audit.ladder.ladder import Contact
+    from satcheck.core.curved.signed import Signed
 
 
 class Depth(Struct, frozen=True):
@@ -41,7 +41,7 @@ def measure_depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan)
     if contact.convex is not None:
         return _convex_depth(pair, contact.convex, plan)
     if pair.curved:
-        from satcheck.audit.curved.depth import sandwiched_depth
+        from satcheck.audit.figures.curved import sandwiched_depth
 
         return sandwiched_depth(pair, move, plan)
     from satcheck.audit.figures.concave_depth import concave_depth, depth_by_move

@@ -13,12 +13,12 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector, Witness
 from satcheck.audit.severity import keeps
-from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.tolerances import rounding_pad
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.audit.curved.signed import Signed
+    from satcheck.core.curved.signed import Signed
 
     # The sign of (distance - length), exactly; None where it is not known.
     Compare = Callable[[float], int | None]
@@ -124,7 +124,7 @@ def compare_convex(pair: Pair, length: float) -> int | None:
     of a curved shape leaves it open."""
     if not pair.curved:
         return core.compare_signed_distance(pair.a.hull_shape(), pair.b.hull_shape(), length)
-    from satcheck.audit.curved.signed import compare
+    from satcheck.core.curved.signed import compare
 
     return compare(pair.a, pair.b, length)
 

@@ -24,8 +24,9 @@ from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
-from satcheck.audit.tolerances import EXACT_WIDTH, UNIT_ROUNDOFF
+from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.vectors import scaled
+from satcheck.core.tolerances import UNIT_ROUNDOFF, rounding_pad
 
 # A way out that exceeds the tolerance by no more than this factor is tried again as long as that.
 LITTLE_LONGER = 1 + EXACT_WIDTH
@@ -91,9 +92,9 @@ def touch_band(pair: Pair, contact: Contact, plan: Plan) -> Band:
 
 def _move_off_mesh(pair: Pair, plan: Plan) -> Vector | None:
     """For a curved shape and a mesh."""
-    from satcheck.audit.curved.in_mesh import move_off
+    from satcheck.core.curved.freeing import move_off
 
-    move = move_off(pair, pair.tolerance)
+    move = move_off(pair.a, pair.b, pair.tolerance, rounding_pad(pair.largest_coordinate))
     if move is None:
         plan.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
     else:

@@ -10,7 +10,8 @@ from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.report.report import Vector
-from satcheck.audit.tolerances import LENGTHENING_ULPS, UNIT_ROUNDOFF
+from satcheck.audit.tolerances import LENGTHENING_ULPS
+from satcheck.core.tolerances import UNIT_ROUNDOFF
 
 FREE = frozenset({"separated", "touching"})
 
@@ -54,9 +55,9 @@ def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Es
 def relation_after(pair: Pair, translation: Vector) -> str:
     """The relation once A's world mesh is moved: of the triangles, or of the hulls under a cap."""
     if pair.curved:
-        from satcheck.audit.curved.contact import frees
+        from satcheck.core.curved.freeing import frees
 
-        return "separated" if frees(pair, translation) else "penetrating"
+        return "separated" if frees(pair.a, pair.b, translation) else "penetrating"
     moved = pair.a.mesh.translated(translation)
     if pair.may("exact"):
         try:

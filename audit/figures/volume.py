@@ -10,8 +10,9 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.ladder.ladder import Contact
-from satcheck.audit.tolerances import UNIT_ROUNDOFF, VOLUME_ROUNDOFFS, is_within
+from satcheck.audit.tolerances import VOLUME_ROUNDOFFS, is_within
 from satcheck.core.errors import SatcheckError
+from satcheck.core.tolerances import UNIT_ROUNDOFF
 
 
 class CommonVolume(Struct, frozen=True):

@@ -17,10 +17,10 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.ladder.climb import climb
 from satcheck.audit.report.report import Relation, Vector
-from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.tolerances import rounding_pad
 
 if TYPE_CHECKING:
-    from satcheck.audit.curved.signed import Signed
+    from satcheck.core.curved.signed import Signed
 
 # The words of the core for a relation.
 RELATION_NAMED: dict[str, Relation] = {
@@ -79,7 +79,7 @@ def _settled(pair: Pair, plan: Plan, found: core.Climb) -> Contact:
     if gap > pair.asked_gap or not pair.may("obb"):
         return _apart_or_guess(gap)
     if pair.curved:
-        from satcheck.audit.curved.contact import settle_curved
+        from satcheck.audit.ladder.curved import settle_curved
 
         return settle_curved(pair, plan) if pair.may("hull") else _apart_or_guess(gap)
     if not pair.may("hull"):

@@ -16,7 +16,7 @@ from satcheck.audit.bodies.parts import Covering, covering, inner_parts, split_t
 from satcheck.audit.ladder.inner_bodies import deepest_pair
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Relation
-from satcheck.audit.tolerances import rounding_pad
+from satcheck.core.tolerances import rounding_pad
 
 
 def settle_by_parts(pair: Pair, plan: Plan) -> Contact:

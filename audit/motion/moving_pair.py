@@ -14,11 +14,12 @@ from satcheck.audit.asked.planner import ALWAYS, Asked
 from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.curved.shape import rows_of
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
-from satcheck.audit.tolerances import TOUCH_FRACTION, UNIT_ROUNDOFF
+from satcheck.audit.tolerances import TOUCH_FRACTION
+from satcheck.core.curved.placed import rows_of
+from satcheck.core.tolerances import UNIT_ROUNDOFF
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -194,7 +195,7 @@ def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
     """The hull of a body, or the curved shape that it is, with the frame that places it."""
     if body.curved is None:
         return body.hull_shape(), WORLD
-    x, y, z = rows_of(body.curved.pose[3:])
+    x, y, z = rows_of(body.curved.turn)
     return body.curved.shape, ((x, y, z), body.curved.centre)
 
 

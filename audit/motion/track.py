@@ -25,7 +25,7 @@ from satcheck.audit.motion.turn import (
     rotation,
     unit,
 )
-from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.core.tolerances import UNIT_ROUNDOFF
 from satcheck.scene.motion import Path, Rotation, Translation
 
 Vector = tuple[float, float, float]

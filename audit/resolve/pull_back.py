@@ -22,8 +22,8 @@ from satcheck.audit.resolve.least_motion import least_motion
 from satcheck.audit.resolve.opinion import may_overlap
 from satcheck.audit.resolve.separation import separation
 from satcheck.audit.resolve.wall import BodyPair, Wall
-from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, dot, scaled, unit
+from satcheck.core.tolerances import rounding_pad
 
 STEPS = 8
 HALVINGS = 2

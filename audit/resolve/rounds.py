@@ -29,8 +29,8 @@ from satcheck.audit.resolve.opinion import Opinion
 from satcheck.audit.resolve.pull_back import swept, walled
 from satcheck.audit.resolve.separation import longer, out_of_hull
 from satcheck.audit.resolve.wall import BodyPair, Wall
-from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import added, dot, scaled, unit
+from satcheck.core.tolerances import rounding_pad
 
 # After so many rounds in which a pair overlaps, one wall between its hulls takes the place of all,
 # if the way out of these is not much longer. After so many, one of its bodies is taken out.

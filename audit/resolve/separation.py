@@ -12,8 +12,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import examine
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.report.report import Vector
-from satcheck.audit.tolerances import rounding_pad
 from satcheck.audit.vectors import scaled, unit
+from satcheck.core.tolerances import rounding_pad
 
 
 def separation(pair: Pair) -> tuple[Vector, float] | None:

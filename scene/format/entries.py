@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 if TYPE_CHECKING:
+    from satcheck.core.shapes import Primitive
     from satcheck.scene.bodies import Transform
     from satcheck.scene.issue import Issue
     from satcheck.scene.motion import Motion
-    from satcheck.scene.primitives import Primitive
     from satcheck.scene.rules import Rule
 
 # What a scene file of each form names as its schema.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from satcheck.core.shapes import PRIMITIVES, Primitive, primitive_of
 from satcheck.scene.format.entries import NO_MESH, BodyEntry, SceneFile
 from satcheck.scene.format.mesh_places import MeshPlaces
 from satcheck.scene.format.motion_keys import read_motion
@@ -20,7 +21,6 @@ from satcheck.scene.format.table import Table
 from satcheck.scene.format.text import Parsed
 from satcheck.scene.format.values import boolean, known_unit, list_of, shown, text
 from satcheck.scene.motion import Motion
-from satcheck.scene.primitives import PRIMITIVES, Primitive, primitive_of
 from satcheck.scene.rules import Rule
 
 _KEYS = frozenset(

@@ -12,6 +12,8 @@ from msgspec.structs import replace
 from satcheck.core import Mesh, Surface, largest_stretch
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.core.errors import SatcheckError
+from satcheck.core.shape_mesh import mesh_of, sag_of
+from satcheck.core.shapes import Primitive, is_curved
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.errors import MeshFileError
@@ -27,7 +29,6 @@ from satcheck.scene.planar.region import (
     fan_of,
     region_of,
 )
-from satcheck.scene.primitives import Primitive, is_curved, mesh_of, sag_of
 
 # How many times the width of the widest body the prisms reach up and down at least: nothing that
 # separates two bodies in the plane is longer than both are wide together.

@@ -11,11 +11,11 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.shapes import Primitive
 from satcheck.core.transform import compose
 from satcheck.scene.bodies import Scene, Transform
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.primitives import Primitive
 from satcheck.scene.robot.kinematics import link_poses, scaled
 from satcheck.scene.robot.model import Collision, Link, MeshReference, RefusedShape, Robot
 from satcheck.scene.robot.packages import MeshPlaces

@@ -10,8 +10,8 @@ from typing import Literal
 
 from msgspec import Struct
 
+from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import Transform
-from satcheck.scene.primitives import Primitive
 
 Vector = tuple[float, float, float]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]

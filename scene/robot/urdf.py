@@ -14,9 +14,9 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import NoReturn, get_args
 
+from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue
-from satcheck.scene.primitives import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
 from satcheck.scene.robot.model import (

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from satcheck.audit.tolerances import UNIT_ROUNDOFF
+from satcheck.core.tolerances import UNIT_ROUNDOFF
 from satcheck.studies.stability.variant import Rows
 
 # A figure of the convex tier lies in its proven bounds. They close to two support errors of 40 u

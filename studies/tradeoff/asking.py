@@ -16,8 +16,8 @@ from satcheck.audit.bodies.roster import Known
 from satcheck.audit.finding import examine
 from satcheck.audit.ladder.ladder import Contact, settle
 from satcheck.audit.report.report import Finding
-from satcheck.audit.tolerances import rounding_pad
 from satcheck.core.errors import SatcheckError
+from satcheck.core.tolerances import rounding_pad
 from satcheck.scene import Body
 from satcheck.studies.tradeoff.climbed import picked
 from satcheck.studies.tradeoff.cpu import CpuClock

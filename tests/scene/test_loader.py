@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.shapes import Box
 from satcheck.scene import CODES, load_scene
-from satcheck.scene.primitives import Box
 from tests.scene import files, graphs
 from tests.scene.format.scenes import scene_of, write
 

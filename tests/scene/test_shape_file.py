@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from satcheck.core.shapes import Box, Sphere
 from satcheck.scene import MeshFileError
-from satcheck.scene.primitives import Box, Sphere
 from satcheck.scene.shape_file import shape_file
 
 

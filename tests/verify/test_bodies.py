@@ -9,8 +9,8 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
+from satcheck.core.shapes import Box, Sphere
 from satcheck.scene import Body, Scene
-from satcheck.scene.primitives import Box, Sphere
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
 from tests.cli.process import VALIDATOR

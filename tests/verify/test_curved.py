@@ -7,11 +7,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from satcheck.audit.curved.exact.curved_body import CurvedBody
-from satcheck.audit.curved.exact.lattice import of_rational
-from satcheck.audit.curved.exact.pair import Lattice
-from satcheck.scene.primitives import Capsule, Cone, Cylinder, Ellipsoid, Primitive, Sphere
-from satcheck.scene.shape_image import ShapeImage
+from satcheck.core.curved.exact.curved_body import CurvedBody
+from satcheck.core.curved.exact.lattice import of_rational
+from satcheck.core.curved.exact.pair import Lattice
+from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, Primitive, ShapeImage, Sphere
 from satcheck.verify import Rejected
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Point

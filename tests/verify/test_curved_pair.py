@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from satcheck.audit import Settings, check
+from satcheck.core.shapes import Box, Cone, Cylinder, Ellipsoid, Sphere
 from satcheck.scene import Body, Scene
-from satcheck.scene.primitives import Box, Cone, Cylinder, Ellipsoid, Sphere
 from satcheck.verify import Verification
-from tests.audit.curved.bodies import moved, shape, tilted
-from tests.audit.curved.exact.contacts import all_contacts, bodies, turn
+from tests.core.curved.bodies import moved, shape, tilted
+from tests.core.curved.exact.contacts import all_contacts, bodies, turn
 from tests.verify.reports import Json, verified
 
 CONTACTS = {contact.name: contact for contact in all_contacts()}

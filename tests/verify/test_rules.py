@@ -12,8 +12,8 @@ from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
 from satcheck.audit.asked.rule_book import RuleBook, Subject
+from satcheck.core.shapes import Box
 from satcheck.scene import Body, Rule, Scene, Selector
-from satcheck.scene.primitives import Box
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import strategies as st
 
-from satcheck.audit.bodies.boxes import box_escape, holds
+from satcheck.audit.bodies.boxes import box_escape
 
 UNIT = ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))
 COORDINATE = st.floats(-1e6, 1e6, allow_subnormal=False)
@@ -33,9 +33,3 @@ def test_escape(shift, length, normal):
 
 def test_escape_of_apart_boxes_is_zero():
     assert box_escape(UNIT, shifted(UNIT, 5, 0, 0))[0] == 0
-
-
-def test_holds_is_closed():
-    assert holds(UNIT, UNIT)
-    assert holds(UNIT, ((0.5, 0.5, 0.5), (1.0, 0.6, 0.6)))
-    assert not holds(UNIT, ((0.5, 0.5, 0.5), (1.1, 0.6, 0.6)))

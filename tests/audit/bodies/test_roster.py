@@ -9,9 +9,9 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.roster import Known, place
+from satcheck.core.shapes import Box
 from satcheck.scene import Body, Scene, Unreadable
 from satcheck.scene.issue import issue
-from satcheck.scene.primitives import Box
 from satcheck.scene.shape_file import shape_file
 
 FILE = shape_file(Box((1.0, 1.0, 1.0)), "test.toml")

@@ -10,8 +10,8 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Finding, Settings, check
+from satcheck.core.shapes import Sphere
 from satcheck.scene import Body, Scene, load_scene
-from satcheck.scene.primitives import Sphere
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.shape_file import shape_file
 from tests.scene.planar.flat import scene, sheet

@@ -11,9 +11,9 @@ from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.roster import place
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.core import box_gap
+from satcheck.core.shapes import Box
 from satcheck.scene import Body, Rule, Scene, Selector, Unreadable
 from satcheck.scene.issue import issue
-from satcheck.scene.primitives import Box
 from satcheck.scene.shape_file import shape_file
 
 FILE = shape_file(Box((1.0, 1.0, 1.0)), "test.toml")

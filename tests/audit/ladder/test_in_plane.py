@@ -15,9 +15,10 @@ from satcheck.audit import Finding, Settings, check
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core import Mesh, Surface, sat_polygons
 from satcheck.core.errors import SatcheckError
+from satcheck.core.shape_mesh import mesh_of
+from satcheck.core.shapes import Box, Sphere
 from satcheck.scene import Body, Scene, load_scene
 from satcheck.scene.planar.laid_flat import laid_flat
-from satcheck.scene.primitives import Box, Sphere, mesh_of
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.shape_file import shape_file
 from tests.oracles.free_directions import along, is_free

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from satcheck.core.shapes import Box, Capsule
 from satcheck.scene import SceneFileError
 from satcheck.scene.format.entries import MeshPath
 from satcheck.scene.motion import PosePath, Rotation, Translation
-from satcheck.scene.primitives import Box, Capsule
 from satcheck.scene.rules import Rule, Selector
 from tests.scene import files
 from tests.scene.format.scenes import BOX, errors, full, read, scene_of, write

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from satcheck.core import Mesh
+from satcheck.core.shape_mesh import mesh_of
+from satcheck.core.shapes import Box
 from satcheck.scene.planar.region import convex_corners, drawn_region, region_of
-from satcheck.scene.primitives import Box, mesh_of
 from tests.scene.planar.flat import sheet
 
 L_SHAPE = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.scene.primitives import Box, Capsule, Cylinder, Sphere
+from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.robot.model import Limits, MeshReference, Mimic, RefusedShape
 from satcheck.scene.robot.urdf import read_urdf
 from tests.scene.robot.robots import (

@@ -1,0 +1,170 @@
+"""A convex polytope, or a triangle, by its vertices and faces."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from satcheck.core.curved.exact.faces import Polygon
+from satcheck.core.curved.exact.lattice import (
+    Point,
+    Reach,
+    Vector,
+    cross,
+    dot,
+    integer,
+    negated,
+    shortened,
+    sub,
+)
+from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
+
+Floats = npt.NDArray[np.float64]
+Triangles = npt.NDArray[np.uint32]
+
+# So many features of a kind are looked at; where a body stands on more of them, a few of them say
+# the same as all.
+MOST = 4
+# What lies this close to the support along an estimated axis, relative to the size, may be what it
+# stands on: far more than the axis is off, since what else is found costs time alone.
+NEAR = 1e-5
+# So many vertices are asked one by one.
+_FEW = 16
+_ROUNDED = CHAIN_ROUNDOFFS * UNIT_ROUNDOFF
+
+
+class PolytopeBody:
+    """vertices: (n, 3), world, times 2**bits integers; triangles: (m, 3), outward, all of the
+    border, or the one that the body is."""
+
+    def __init__(self, vertices: Floats, triangles: Triangles, bits: int) -> None:
+        self.vertices, self.triangles, self.bits = vertices, triangles, bits
+        self.flat = len(triangles) == 1
+        self._known: dict[int, Vector] = {}
+
+    def _vertex(self, k: int) -> Vector:
+        found = self._known.get(k)
+        if found is None:
+            x, y, z = (integer(c, self.bits) for c in self.vertices[k].tolist())
+            found = self._known[k] = (x, y, z)
+        return found
+
+    def _plane(self, triangle: int) -> tuple[Vector, int]:
+        """An outward normal, and its product with the points of the plane."""
+        a, b, c = (self._vertex(k) for k in self.triangles[triangle].tolist())
+        n = cross(sub(b, a), sub(c, a))
+        return n, dot(n, a)
+
+    def _farthest(self, n: Vector) -> tuple[int, list[int]]:
+        """The largest product of n with a vertex, and all vertices that have it."""
+        candidates = list(range(len(self.vertices)))
+        if len(candidates) > _FEW:
+            products = self.vertices @ _floats(n)
+            pad = 3 * _ROUNDED * float(np.abs(self.vertices).max())
+            candidates = np.flatnonzero(products >= products.max() - pad).tolist()
+        exact = [dot(n, self._vertex(k)) for k in candidates]
+        most = max(exact)
+        return most, [k for k, e in zip(candidates, exact, strict=True) if e == most]
+
+    @property
+    def middle(self) -> Point:
+        return Polygon(tuple(self.corners())).middle
+
+    def reach(self, n: Vector) -> Reach:
+        return Reach(self._farthest(n)[0])
+
+    def face(self, n: Vector) -> Polygon:
+        _, farthest = self._farthest(n)
+        return Polygon(tuple((*self._vertex(k), 1) for k in farthest))
+
+    def side(self, p: Point) -> int:
+        if self.flat:
+            return 0 if self._is_on_triangle(p) else -1
+        found = 1
+        for triangle in self._faces_near(p):
+            n, height = self._plane(triangle)
+            beyond = dot(n, p) - height * p[3]
+            if beyond > 0:
+                return -1
+            if beyond == 0 and any(n):
+                found = 0
+        return found
+
+    def _faces_near(self, p: Point) -> list[int]:
+        """All but those that float64 proves the point to lie behind."""
+        scale = p[3] << self.bits
+        point = np.array([c / scale for c in p[:3]])
+        a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
+        normals = np.cross(b - a, c - a)
+        heights = np.einsum("ij,ij->i", normals, point - a)
+        size = float(np.abs(self.vertices).max() + np.abs(point).max())
+        lengths = np.linalg.norm(b - a, axis=1) * np.linalg.norm(c - a, axis=1)
+        found: list[int] = np.flatnonzero(heights >= -_ROUNDED * size * lengths).tolist()
+        return found
+
+    def _is_on_triangle(self, p: Point) -> bool:
+        n, height = self._plane(0)
+        if not any(n) or dot(n, p) != height * p[3]:
+            return False
+        corners = [self._vertex(k) for k in self.triangles[0].tolist()]
+        for tail, head in zip(corners, corners[1:] + corners[:1], strict=True):
+            inward = cross(n, sub(head, tail))
+            if dot(inward, p) < dot(inward, tail) * p[3]:
+                return False
+        return True
+
+    def face_normals(self) -> set[Vector]:
+        """Outward, exact, each once."""
+        found = {shortened(self._plane(k)[0]) for k in range(len(self.triangles))}
+        return {n for n in found if any(n)}
+
+    def corners(self) -> list[Point]:
+        return [(*self._vertex(k), 1) for k in range(len(self.vertices))]
+
+    def _near(self, toward: Vector) -> npt.NDArray[np.bool_]:
+        """Of each vertex, whether it reaches about as far along the axis as any."""
+        products = self.vertices @ _floats(toward)
+        spread = np.linalg.norm(np.ptp(self.vertices, axis=0))
+        found: npt.NDArray[np.bool_] = products >= products.max() - NEAR * spread
+        return found
+
+    def _edges(self) -> npt.NDArray[np.uint32]:
+        ends = np.concatenate([self.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+        return np.unique(np.sort(ends, axis=1), axis=0)
+
+    def normals(self, toward: Vector) -> list[Vector]:
+        near = np.flatnonzero(self._near(toward)[self.triangles].any(axis=1))
+        a, b, c = (self.vertices[self.triangles[near, k]] for k in range(3))
+        crossed = np.cross(b - a, c - a)
+        lengths = np.linalg.norm(crossed, axis=1)
+        lengths[lengths == 0] = math.inf
+        along = (crossed @ _floats(toward)) / lengths
+        if self.flat:
+            along = np.abs(along)
+        order = near[np.argsort(-along, kind="stable")][: 4 * MOST].tolist()
+        found = [shortened(self._plane(k)[0]) for k in order]
+        if self.flat:
+            found = [n if dot(n, toward) > 0 else negated(n) for n in found]
+        return list(dict.fromkeys(n for n in found if any(n)))[:MOST]
+
+    def lines(self, toward: Vector) -> list[tuple[Vector, Vector]]:
+        """Edges, those across the axis first."""
+        edges, near = self._edges(), self._near(toward)
+        edges = edges[near[edges].any(axis=1)]
+        edges = edges[(self.vertices[edges[:, 1]] != self.vertices[edges[:, 0]]).any(axis=1)]
+        along = self.vertices[edges[:, 1]] - self.vertices[edges[:, 0]]
+        slope = np.abs(along @ _floats(toward)) / np.linalg.norm(along, axis=1)
+        order = edges[np.argsort(slope, kind="stable")][:MOST].tolist()
+        ends = [(self._vertex(i), self._vertex(j)) for i, j in order]
+        return [(p, shortened(sub(q, p))) for p, q in ends]
+
+    def points(self, toward: Vector) -> list[Vector]:
+        return [self._vertex(k) for k in np.flatnonzero(self._near(toward))[:MOST].tolist()]
+
+
+def _floats(n: Vector) -> Floats:
+    """Along n, about 1 long."""
+    largest = max(abs(c) for c in n)
+    return np.array([c / largest for c in n])

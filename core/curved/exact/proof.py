@@ -1,0 +1,206 @@
+"""Separated, touching or penetrating, proven along an exact axis.
+
+Candidates for the axis are near an estimated one. Flat faces give their normals. Otherwise contacts
+hang on points and straight lines: the axis runs between two points, across two lines, from a line
+to a point across the line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from itertools import product
+from typing import Literal, Protocol
+
+from msgspec import Struct
+
+from satcheck.core.curved.exact.faces import Disc, Face, Polygon, common_points
+from satcheck.core.curved.exact.lattice import (
+    Point,
+    Reach,
+    Vector,
+    between,
+    cross,
+    dot,
+    gap_bounds,
+    negated,
+    shifted,
+    shortened,
+    sign_of_gap,
+    sub,
+)
+
+# "free": the axis separates them with no gap, and no common point was found.
+Outcome = Literal["separated", "touching", "penetrating", "free"]
+Bounds = tuple[Fraction, Fraction]
+
+# Of the axes along which they overlap, those with the least overlap are looked at for a common
+# point inside.
+MOST_OVERLAPS = 4
+# Some roundoffs of a coordinate, relative to the size of the body.
+PULLS = tuple(Fraction(1, 1 << k) for k in (48, 52, 56, 60, 64))
+# Far beyond the bits of irrational roots that are left out.
+_NEXT_TO = Fraction(1, 1 << 100)
+NO_GAP: Bounds = (Fraction(0), Fraction(0))
+
+
+class ExactBody(Protocol):
+    """Closed and convex, on the lattice of a pair. flat: it has no inside."""
+
+    @property
+    def flat(self) -> bool: ...
+
+    @property
+    def middle(self) -> Point:
+        """A point inside; of a flat body on it."""
+
+    def reach(self, n: Vector) -> Reach:
+        """The largest product of n with one of its points."""
+
+    def face(self, n: Vector) -> Face:
+        """The points that reach so far; where they are irrational, points very close to them."""
+
+    def side(self, p: Point) -> int:
+        """1 inside, 0 on the border, -1 outside. A flat body has no inside: 0 on it."""
+
+    def normals(self, toward: Vector, /) -> list[Vector]:
+        """Of flat parts of its border, outward, those that look along `toward` most."""
+
+    def lines(self, toward: Vector, /) -> list[tuple[Vector, Vector]]:
+        """Straight lines in or along it that a contact may depend on: a point, a direction."""
+
+    def points(self, toward: Vector, /) -> list[Vector]:
+        """Points in it that a contact may depend on."""
+
+
+class Proof(Struct, frozen=True):
+    """axis: from A to B; gap: bounds along it, in lattice units times its length, < 0 where they
+    overlap, 0 also where they are beside each other. point: of both, on the lattice: inside A where
+    they penetrate, and inside B if it has an inside. ends: a point of each, across the gap."""
+
+    outcome: Outcome
+    axis: Vector
+    gap: Bounds
+    point: Point | None = None
+    ends: tuple[Point, Point] | None = None
+
+
+def prove(
+    a: ExactBody, b: ExactBody, axes: Iterable[Vector], *, contact: bool = True
+) -> Proof | None:
+    """What the first of the axes proves that says anything about them. B alone may be flat.
+
+    contact: a common point is looked for where there is no gap.
+    """
+    overlaps = []
+    free: Proof | None = None
+    for n in axes:
+        forth, back = a.reach(n), b.reach(negated(n))
+        sign = sign_of_gap(forth, back)
+        if sign > 0:
+            gap = gap_bounds(forth, back)
+            return Proof("separated", n, gap, ends=_ends(a, b, n, gap))
+        if sign == 0 and free is None:
+            free = _contact(a, b, n) if contact else Proof("free", n, NO_GAP)
+            if free.outcome != "free" or not contact:
+                return free
+        elif sign < 0:
+            gap = gap_bounds(forth, back)
+            overlaps.append((gap[0] * abs(gap[0]) / dot(n, n), n, gap))
+    if free is not None:
+        return free
+    overlaps.sort(reverse=True)
+    for _, n, gap in overlaps[:MOST_OVERLAPS]:
+        point = _point_inside(a, b, n, gap)
+        if point is not None:
+            return Proof("penetrating", n, gap, point)
+    return None
+
+
+def _contact(a: ExactBody, b: ExactBody, n: Vector) -> Proof:
+    """Where they touch. Without a gap every root is rational, so the faces are exact, and of those
+    all but two discs are searched completely."""
+    f, g = a.face(n), b.face(negated(n))
+    for p in common_points(f, g, n):
+        if a.side(p) >= 0 and b.side(p) >= 0:
+            return Proof("touching", n, NO_GAP, p)
+    both_discs = isinstance(f, Disc) and isinstance(g, Disc)
+    return Proof("free" if both_discs else "separated", n, NO_GAP)
+
+
+def _ends(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> tuple[Point, Point] | None:
+    """Points of both that the axis joins, where there are some; if their coordinates are
+    irrational, points next to them."""
+    step = gap[0] / dot(n, n)
+    middles = a.middle, b.middle
+    for p in common_points(a.face(n), b.face(negated(n)).moved(n, -step), n):
+        q = shifted(p, n, step)
+        for share in (Fraction(0), _NEXT_TO):
+            ends = between(p, middles[0], share), between(q, middles[1], share)
+            if a.side(ends[0]) >= 0 and b.side(ends[1]) >= 0:
+                return ends
+    return None
+
+
+def _point_inside(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> Point | None:
+    """Half way between their faces; of a flat B on it."""
+    # B's face is moved into the plane of A's; from there the way back is along -n.
+    step = -gap[0] / dot(n, n)
+    back = step if b.flat else step / 2
+    for p in common_points(a.face(n), b.face(negated(n)).moved(n, step), n):
+        inside = shifted(p, n, -back)
+        if _is_inside(a, b, inside):
+            return inside
+    return next((p for p in _pulled_in(a, b, n) if _is_inside(a, b, p)), None)
+
+
+def _is_inside(a: ExactBody, b: ExactBody, p: Point) -> bool:
+    return a.side(p) > 0 and b.side(p) >= (not b.flat)
+
+
+def _pulled_in(a: ExactBody, b: ExactBody, n: Vector) -> Iterator[Point]:
+    """Where one body reaches farthest into the other, and a little towards its own middle: of faces
+    that are nearly, and not quite, across the axis."""
+    for body, face in ((a, a.face(n)), (b, b.face(negated(n)))):
+        if isinstance(face, Polygon):
+            middle = body.middle
+            yield from (
+                between(p, middle, share)
+                for p, share in product(face.points[:MOST_OVERLAPS], PULLS)
+            )
+
+
+def candidates(a: ExactBody, b: ExactBody, toward: Vector) -> Iterator[Vector]:
+    """Axes along which the bodies may touch, from A to B, each once."""
+    seen: set[Vector] = set()
+    for raw in _raw(a, b, toward):
+        n = shortened(raw)
+        if dot(n, toward) < 0:
+            n = negated(n)
+        if any(n) and n not in seen:
+            seen.add(n)
+            yield n
+
+
+def _raw(a: ExactBody, b: ExactBody, toward: Vector) -> Iterator[Vector]:
+    yield from a.normals(toward)
+    yield from map(negated, b.normals(negated(toward)))
+    largest = max(range(3), key=lambda k: abs(toward[k]))
+    yield (int(largest == 0), int(largest == 1), int(largest == 2))
+    lines_a, lines_b = a.lines(toward), b.lines(negated(toward))
+    points_a, points_b = a.points(toward), b.points(negated(toward))
+    for (_, along), (_, across) in product(lines_a, lines_b):
+        yield cross(along, across)
+    for lines, points in ((lines_a, points_b), (lines_b, points_a)):
+        for (p, along), q in product(lines, points):
+            yield _across(along, sub(q, p))
+    for p, q in product(points_a, points_b):
+        yield sub(q, p)
+    yield toward
+
+
+def _across(along: Vector, step: Vector) -> Vector:
+    """The part of a step that is perpendicular to a line, times its squared length."""
+    square, share = dot(along, along), dot(along, step)
+    x, y, z = (square * s - share * d for s, d in zip(step, along, strict=True))
+    return x, y, z

@@ -1,0 +1,184 @@
+"""Whether one body holds another: it lies within, and does not reach the surface."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+from msgspec import Struct
+
+from satcheck.core import Polytope
+from satcheck.core.conventions import Bounds
+from satcheck.core.curved.exact.curved_body import CurvedBody
+from satcheck.core.curved.exact.lattice import Vector, negated, sign_of_difference
+from satcheck.core.curved.exact.pair import on_lattice
+from satcheck.core.curved.exact.polytope_body import PolytopeBody
+from satcheck.core.curved.placed import Body, CurvedShape, Quaternion, rows_of
+from satcheck.core.shape_mesh import mesh_around
+from satcheck.core.shapes import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Primitive,
+    Sphere,
+    support,
+)
+from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
+
+Floats = npt.NDArray[np.float64]
+
+
+class Nesting(Struct, frozen=True):
+    """Whether A holds B, and B holds A; None: not known. exact: exact arithmetic was asked."""
+
+    a_holds_b: bool | None
+    b_holds_a: bool | None
+    exact: bool = False
+
+    @property
+    def known(self) -> bool:
+        return True in (self.a_holds_b, self.b_holds_a) or self.neither
+
+    @property
+    def neither(self) -> bool:
+        return self.a_holds_b is False and self.b_holds_a is False
+
+
+def nesting(a: Body, b: Body) -> Nesting:
+    """Of two convex bodies of which one at least is curved."""
+    forth, back = _holds(a, b), _holds(b, a)
+    if forth is not None and back is not None:
+        return Nesting(forth, back)
+    exact = exact_nesting(a, b)
+    return Nesting(
+        exact[0] if forth is None else forth, exact[1] if back is None else back, exact=True
+    )
+
+
+def _holds(outer: Body, inner: Body) -> bool | None:
+    """By float64 numbers and what they may be off by."""
+    if not box_holds(outer.bounds, inner.mesh.bounds):
+        return False
+    if outer.curved is not None:
+        return shape_holds(outer.curved, inner)
+    assert inner.curved is not None
+    return is_within_hull(inner.curved, outer.hull())
+
+
+def box_holds(outer: Bounds, inner: Bounds) -> bool:
+    """Whether the closed outer box contains the inner one: what containment of bodies needs."""
+    return all(
+        outer[0][axis] <= inner[0][axis] and inner[1][axis] <= outer[1][axis] for axis in range(3)
+    )
+
+
+def shape_holds(curved: CurvedShape, other: Body) -> bool | None:
+    """Whether the body lies within the shape and does not reach its surface; None: too close."""
+    inner = other.curved
+    if inner is None:
+        return _all_within(curved, np.asarray(other.mesh.vertices))
+    outside = _turned(np.asarray(mesh_around(inner.primitive).vertices), inner.turn)
+    if _all_within(curved, outside + np.array(inner.centre), inner.slack):
+        return True
+    return False if _all_within(curved, np.asarray(other.mesh.vertices)) is False else None
+
+
+def _turned(points: Floats, quaternion: Quaternion) -> Floats:
+    turned: Floats = points @ np.array(rows_of(quaternion)).T
+    return turned
+
+
+def _inverse(quaternion: Quaternion) -> Quaternion:
+    x, y, z, w = quaternion
+    return -x, -y, -z, w
+
+
+def _all_within(curved: CurvedShape, points: Floats, slack: float = 0.0) -> bool | None:
+    """slack: how far the body that the points stand for may stick out of them, world units."""
+    turned = _turned(points - np.array(curved.centre), _inverse(curved.turn))
+    beyond = _beyond(curved.primitive, turned)
+    size = float(np.abs(points).max()) + float(np.abs(curved.centre).max())
+    pad = curved.slack + slack + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * size
+    if (beyond > pad).any():
+        return False
+    return True if (beyond < -pad).all() else None
+
+
+def _beyond(primitive: Primitive, points: Floats) -> Floats:
+    """Of points in the frame of the shape: > 0 outside, < 0 inside, and nowhere farther from 0 than
+    the point is from the surface."""
+    x, y, z = points.T
+    across = np.hypot(x, y)
+    beyond: Floats
+    match primitive:
+        case Sphere(radius):
+            beyond = np.hypot(across, z) - radius
+        case Capsule(radius, length):
+            beyond = np.hypot(across, np.maximum(np.abs(z) - length / 2, 0.0)) - radius
+        case Cylinder(radius, height):
+            beyond = np.maximum(across - radius, np.abs(z) - height / 2)
+        case Cone(radius, height):
+            slant = (height * across + radius * (z - height / 2)) / math.hypot(radius, height)
+            beyond = np.maximum(slant, -z - height / 2)
+        case Ellipsoid((a, b, c)):
+            beyond = (np.hypot(np.hypot(x / a, y / b), z / c) - 1.0) * min(a, b, c)
+        case Box():
+            raise ValueError("a box is its mesh")
+    return beyond
+
+
+def is_within_hull(curved: CurvedShape, hull: Polytope) -> bool | None:
+    """Whether the shape lies within a polytope and reaches no face; None: too close to tell.
+
+    The normal of a face, a cross product, is off by some roundoffs of the product of the lengths of
+    its edges: of a sliver that is more than of its own length, and the pad of its plane with it."""
+    vertices = np.asarray(hull.vertices)
+    a, b, c = (vertices[np.asarray(hull.triangles)[:, k]] for k in range(3))
+    normals, edges = np.cross(b - a, c - a), (np.linalg.norm(p - a, axis=1) for p in (b, c))
+    lengths = np.linalg.norm(normals, axis=1)
+    if not lengths.all():
+        return None
+    slant = math.prod(edges) / lengths  # >= 1
+    normals /= lengths[:, None]
+    turned = _turned(normals, _inverse(curved.turn))
+    reaches = np.array([support(curved.primitive, tuple(n)) for n in turned.tolist()])
+    beyond = reaches - np.einsum("ij,ij->i", normals, a - np.array(curved.centre))
+    size = float(np.abs(vertices - np.array(curved.centre)).max()) + float(reaches.max())
+    pad = curved.slack + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * size * slant
+    if (beyond < -pad).all():
+        return True
+    return False if (beyond > pad).any() else None
+
+
+def exact_nesting(a: Body, b: Body) -> tuple[bool | None, bool | None]:
+    """Whether A holds B, whether B holds A; None: not known, of two shapes that may be the same."""
+    first, second, _ = on_lattice(a, b)
+    if isinstance(first, CurvedBody) and isinstance(second, CurvedBody):
+        return _of_shapes(first, second)
+    return _holds_exactly(first, second), _holds_exactly(second, first)
+
+
+def _holds_exactly(outer: CurvedBody | PolytopeBody, inner: CurvedBody | PolytopeBody) -> bool:
+    if isinstance(outer, PolytopeBody):
+        return all(
+            sign_of_difference(inner.reach(n), outer.reach(n)) < 0 for n in outer.face_normals()
+        )
+    assert isinstance(inner, PolytopeBody)
+    return all(outer.side(p) > 0 for p in inner.corners())
+
+
+def _of_shapes(a: CurvedBody, b: CurvedBody) -> tuple[bool | None, bool | None]:
+    """One that reaches as far as the other somewhere does not lie within it. If that is all that is
+    known both ways, they may be the same."""
+    signs = {sign_of_difference(a.reach(n), b.reach(n)) for n in _axes(a, b)}
+    if signs <= {0}:
+        return None, None
+    return (False if signs - {1} else None), (False if signs - {-1} else None)
+
+
+def _axes(a: CurvedBody, b: CurvedBody) -> list[Vector]:
+    rows = [n for body in (a, b) for n in body.inverse]
+    return rows + [negated(n) for n in rows]

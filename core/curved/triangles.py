@@ -1,0 +1,102 @@
+"""A curved shape against the triangles of a mesh, one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck.core import Hull, Mesh, PairResults, check_pairs
+from satcheck.core.curved.exact.pair import refined
+from satcheck.core.curved.placed import CurvedShape
+from satcheck.core.curved.signed import AT_ORIGIN, Outcome, Signed, signed
+
+Floats = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int64]
+# The graver first.
+_OUTCOMES: tuple[Outcome, ...] = ("penetrating", "touching", "separated")
+
+
+class Nearest(Struct, frozen=True):
+    """The triangles of a mesh against a curved shape.
+
+    nearest: the signed distance from the shape to the triangles of which that is known, with the
+    witness points of the nearest as far as distances tell: its bounds and its outcome hold for all
+    of them; None where all triangles are out of reach. triangle: the nearest. crossed: triangles
+    that the inside of the shape meets; undecided: of some that is not known. refined: how many
+    were put to exact arithmetic.
+    """
+
+    nearest: Signed | None
+    triangle: int
+    crossed: Indices
+    touched: tuple[int, ...]
+    undecided: bool
+    refined: int = 0
+
+
+def against_triangles(curved: CurvedShape, mesh: Mesh, reach: float) -> Nearest:
+    """The shape and every triangle whose box is within reach of the shape's."""
+    corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
+    low, high = (np.array(end) for end in curved.bounds())
+    gaps = np.maximum(low - corners.max(axis=1), corners.min(axis=1) - high)
+    close = np.flatnonzero(gaps.max(axis=1) <= reach)
+    if not len(close):
+        return Nearest(None, -1, close, (), False)
+    results = _solve(curved, corners[close])
+    distances = [signed(results[k], curved.slack) for k in range(len(close))]
+    count = _refine(curved, corners[close], distances)
+    known = [(d, int(k)) for d, k in zip(distances, close, strict=True) if d is not None]
+    crossed = close[[d is not None and d.outcome == "penetrating" for d in distances]]
+    touched = tuple(k for d, k in known if d.outcome == "touching" and d.exact)
+    if not known:
+        return Nearest(None, -1, crossed, touched, True, count)
+    nearest, triangle = min(known, key=lambda pair: pair[0].distance)
+    of_all = _of_all(nearest, [d for d, _ in known])
+    return Nearest(of_all, triangle, crossed, touched, len(known) < len(distances), count)
+
+
+def _solve(curved: CurvedShape, corners: Floats) -> PairResults:
+    count = len(corners)
+    return check_pairs(
+        [curved.shape, *map(Hull, corners)],
+        np.zeros(count, dtype=np.uint32),
+        np.arange(1, count + 1, dtype=np.uint32),
+        np.tile(np.array(curved.pose), (count, 1)),
+        np.tile(np.array(AT_ORIGIN), (count, 1)),
+        query="depth",
+    )
+
+
+def _refine(curved: CurvedShape, corners: Floats, distances: list[Signed | None]) -> int:
+    """Puts in place what exact arithmetic proves where bounds do not; of how many it was asked."""
+    left = {k: d for k, d in enumerate(distances) if d is not None and not d.exact}
+    if left:
+        exact = refined(curved.image, corners[list(left)], list(left.values()))
+        for k, distance in zip(left, exact, strict=True):
+            distances[k] = distance
+    return len(left)
+
+
+def _of_all(nearest: Signed, known: Sequence[Signed]) -> Signed:
+    """The distance is an estimate: the bounds of another triangle may reach lower than those of the
+    one that looks nearest."""
+    outcome = min((d.outcome for d in known), key=_OUTCOMES.index)
+    return replace(
+        nearest,
+        lower=min(d.lower for d in known),
+        upper=min(d.upper for d in known),
+        outcome=outcome,
+        exact=_is_exact(outcome, known),
+    )
+
+
+def _is_exact(outcome: Outcome, known: Sequence[Signed]) -> bool:
+    """A shape touches triangles when it does one of them, and its inside meets none."""
+    same = [d for d in known if d.outcome == outcome]
+    if outcome != "touching":
+        return all(d.exact for d in same)
+    return any(d.exact for d in same) and all(d.lower >= 0 for d in same)

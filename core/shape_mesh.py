@@ -1,0 +1,110 @@
+"""Meshes of shapes: one inside, with its vertices on the surface, and one around."""
+
+from __future__ import annotations
+
+import math
+from array import array
+from collections.abc import Iterator
+
+from satcheck.core._native import Mesh
+from satcheck.core.conventions import Vector
+from satcheck.core.shapes import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Primitive,
+    Sphere,
+    support,
+)
+
+DEFAULT_SEGMENTS = 64
+# Covers the rounding of face normals, supports and scaled corners.
+_ROUNDED_UP = 1 + 2.0**-40
+
+
+def mesh_of(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
+    """The hull of points on the surface: closed, wound outward, and exactly convex.
+
+    A box is exact, with 8 vertices and 12 triangles. A curved shape has `segments` points on each
+    of its circles, a multiple of 4 from 8 on, those on its axes among them; half as many bands
+    from pole to pole. Each coordinate is rounded to float64, so that a vertex lies on the surface
+    up to that rounding. Raises OverflowError for sizes beyond what is decided exactly.
+    """
+    if segments < 8 or segments % 4:
+        raise ValueError(f"segments should be a multiple of 4 from 8 on, not {segments}")
+    points = array("d", (c for point in _surface_points(shape, segments) for c in point))
+    return (
+        Mesh.from_bytes(points.tobytes(), array("I", (0, 1, 2)).tobytes()).convex_hull().to_mesh()
+    )
+
+
+def sag_of(shape: Primitive, segments: int) -> float:
+    """No point of the shape is farther than this from `mesh_of` it with so many segments.
+
+    A facet between two rings and two meridians of the unit ball is no nearer to its centre than
+    cos(pi / segments) squared; the other shapes are stretched or drawn out from balls and discs.
+    """
+    match shape:
+        case Box():
+            return 0.0
+        case Ellipsoid(radii):
+            radius = max(radii)
+        case _:
+            radius = shape.radius
+    return radius * (math.cos(math.pi / segments) ** -2 - 1.0)
+
+
+def mesh_around(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
+    """Contains the shape. Each face plane of the inner mesh, grown by s, is s times as far from the
+    origin, which lies inside; the shape reaches as far as its support along the face's normal."""
+    import numpy as np
+
+    inner = mesh_of(shape, segments)
+    vertices = np.asarray(inner.vertices)
+    a, b, c = (vertices[np.asarray(inner.triangles)[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    offsets = np.einsum("ij,ij->i", normals, a)
+    reaches = np.array([support(shape, tuple(normal)) for normal in normals.tolist()])
+    growth = float((reaches / offsets).max()) * _ROUNDED_UP
+    return Mesh(vertices * growth, inner.triangles)
+
+
+def _surface_points(shape: Primitive, segments: int) -> Iterator[Vector]:
+    match shape:
+        case Box(size):
+            x, y, z = (c / 2 for c in size)
+            return ((i * x, j * y, k * z) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1))
+        case Sphere(radius):
+            return _ball((radius, radius, radius), segments)
+        case Ellipsoid(radii):
+            return _ball(radii, segments)
+        case Capsule(radius, length):
+            return _ball((radius, radius, radius), segments, length / 2)
+        case Cylinder(radius, height):
+            ring = [(radius * x, radius * y) for x, y in _circle(segments)]
+            return ((x, y, z) for z in (-height / 2, height / 2) for x, y in ring)
+        case Cone(radius, height):
+            ring = [(radius * x, radius * y) for x, y in _circle(segments)]
+            return iter([(0.0, 0.0, height / 2), *((x, y, -height / 2) for x, y in ring)])
+
+
+def _ball(radii: Vector, segments: int, half_length: float = 0.0) -> Iterator[Vector]:
+    """Rings around z from either pole to the equator, each half moved out by `half_length`."""
+    rx, ry, rz = radii
+    circle = _circle(segments)
+    for cosine, sine in circle[: segments // 4 + 1]:  # of the angle to the axis
+        z = rz * cosine + half_length
+        for x, y in circle if sine else circle[:1]:
+            yield rx * sine * x, ry * sine * y, z
+            yield rx * sine * x, ry * sine * y, -z
+
+
+def _circle(segments: int) -> list[tuple[float, float]]:
+    """Vectors of the unit circle from (1, 0) on; a quarter turn maps them exactly to themselves."""
+    steps = [math.tau * k / segments for k in range(1, segments // 4)]
+    first = [(1.0, 0.0), *((math.cos(angle), math.sin(angle)) for angle in steps)]
+    second = [(-y, x) for x, y in first]
+    return [*first, *second, *((-x, -y) for x, y in first), *((-x, -y) for x, y in second)]

@@ -1,0 +1,202 @@
+"""Shapes stated by their sizes: a box, and five that are curved.
+
+Each is centred at its own origin, with its axis along z; the apex of a cone is at +z. All of them
+are convex.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from msgspec import Struct
+
+from satcheck.core.conventions import Vector
+from satcheck.core.power_of_two import times_power
+
+Values = dict[str, str | float | list[float]]
+Columns = tuple[Vector, Vector, Vector]
+
+_TRIPLES = frozenset(("size", "radii"))
+_NUMBERS = frozenset((int, float))
+UNTURNED: Columns = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+# Of the entries of M^T M of a rotation: what a chain of float64 products makes of 0 and 1.
+_TURN_ROUNDING = 2.0**-47
+
+
+class Sized(Struct, frozen=True):
+    """Its fields are sizes: numbers, or tuples of three, positive and finite. Else ValueError."""
+
+    def __post_init__(self) -> None:
+        for name in self.__struct_fields__:
+            _check_size(name, getattr(self, name))
+
+
+class Box(Sized, frozen=True):
+    """size: its whole extent along x, y and z."""
+
+    size: Vector
+
+
+class Sphere(Sized, frozen=True):
+    """All points at most `radius` from the origin."""
+
+    radius: float
+
+
+class Capsule(Sized, frozen=True):
+    """All points at most `radius` from a segment of `length`, the caps not counted, along z."""
+
+    radius: float
+    length: float
+
+
+class Cylinder(Sized, frozen=True):
+    """height: from one flat end to the other."""
+
+    radius: float
+    height: float
+
+
+class Cone(Sized, frozen=True):
+    """radius: of its base, at z = -height / 2; the apex is at z = height / 2."""
+
+    radius: float
+    height: float
+
+
+class Ellipsoid(Sized, frozen=True):
+    """radii: along x, y and z."""
+
+    radii: Vector
+
+
+Primitive = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid
+PRIMITIVES: dict[str, type[Primitive]] = {
+    "box": Box,
+    "sphere": Sphere,
+    "capsule": Capsule,
+    "cylinder": Cylinder,
+    "cone": Cone,
+    "ellipsoid": Ellipsoid,
+}
+
+
+def is_curved(shape: Primitive) -> bool:
+    """Whether a mesh only approximates it."""
+    return not isinstance(shape, Box)
+
+
+def values_of(shape: Primitive) -> Values:
+    """{"type": "box", "size": [x, y, z]} and the like: as a scene file states the shape."""
+    values: Values = {"type": type(shape).__name__.lower()}
+    for name in shape.__struct_fields__:
+        size = getattr(shape, name)
+        values[name] = list(map(float, size)) if name in _TRIPLES else float(size)
+    return values
+
+
+def sizes_of(shape: Primitive) -> tuple[float, ...]:
+    sizes = (getattr(shape, name) for name in shape.__struct_fields__)
+    return tuple(s for size in sizes for s in (size if isinstance(size, tuple) else (size,)))
+
+
+def times_power_of_two(shape: Primitive, exponent: int) -> Primitive | None:
+    """The shape with its sizes times 2**exponent; None where one of them is not that exactly."""
+    sizes = times_power(sizes_of(shape), exponent)
+    if sizes is None:
+        return None
+    values: tuple[object, ...] = (sizes,) if shape.__struct_fields__[0] in _TRIPLES else sizes
+    form: Callable[..., Primitive] = type(shape)
+    return form(*values)
+
+
+def primitive_of(values: object) -> Primitive:
+    """The inverse of `values_of`; ValueError for what states no shape."""
+    if not isinstance(values, dict):
+        raise ValueError("not a shape: an object with a type and its sizes expected")
+    kind = values.get("type")
+    form = PRIMITIVES.get(kind) if isinstance(kind, str) else None
+    if form is None:
+        raise ValueError(f"type should be one of {', '.join(PRIMITIVES)}, not {kind!r}")
+    sizes = {key: value for key, value in values.items() if key != "type"}
+    wanted = form.__struct_fields__
+    if sorted(sizes) != sorted(wanted):
+        raise ValueError(
+            f"a {kind} has {' and '.join(wanted)}, not {', '.join(sizes) or 'nothing'}"
+        )
+    numbers = {
+        key: tuple(value) if isinstance(value, list | tuple) else value
+        for key, value in sizes.items()
+    }
+    return form(**numbers)  # type: ignore[arg-type]  # each shape validates its sizes
+
+
+def support(shape: Primitive, direction: Vector) -> float:
+    """The largest product of the direction with a point of the shape, in its own frame."""
+    x, y, z = direction
+    across = math.hypot(x, y)
+    match shape:
+        case Box((a, b, c)):
+            return (a * abs(x) + b * abs(y) + c * abs(z)) / 2
+        case Sphere(radius):
+            return radius * math.hypot(x, y, z)
+        case Capsule(radius, length):
+            return radius * math.hypot(x, y, z) + length / 2 * abs(z)
+        case Cylinder(radius, height):
+            return radius * across + height / 2 * abs(z)
+        case Cone(radius, height):
+            return max(height / 2 * z, radius * across - height / 2 * z)
+        case Ellipsoid((a, b, c)):
+            return math.hypot(a * x, b * y, c * z)
+
+
+class ShapeImage(Struct, frozen=True):
+    """What a matrix makes of a shape, exactly: the points origin + y[0] columns[0] +
+    y[1] columns[1] + y[2] columns[2], in rationals, for y in the primitive."""
+
+    primitive: Primitive
+    columns: Columns
+    origin: Vector
+
+
+def image_of(primitive: Primitive, transform: tuple[float, ...] | None) -> ShapeImage:
+    """Under a row-major affine 4x4; None: as it is. A sphere that is turned stays what it was,
+    whatever was rounded in the rotation."""
+    if transform is None:
+        return ShapeImage(primitive, UNTURNED, (0.0, 0.0, 0.0))
+    x, y, z = (tuple(transform[k:12:4]) for k in range(3))
+    columns: Columns = x, y, z  # type: ignore[assignment]
+    if isinstance(primitive, Sphere) and _is_turn(columns):
+        columns = UNTURNED
+    return ShapeImage(primitive, columns, (transform[3], transform[7], transform[11]))
+
+
+def _is_turn(columns: Columns) -> bool:
+    """Mirrored or not."""
+    for i in range(3):
+        for j in range(i + 1):
+            (a, b, c), (x, y, z) = columns[i], columns[j]
+            if abs(a * x + b * y + c * z - (i == j)) > _TURN_ROUNDING:
+                return False
+    return True
+
+
+def _check_size(name: str, value: float | tuple[float, ...]) -> None:
+    wanted = 3 if name in _TRIPLES else 1
+    numbers = value if isinstance(value, tuple) else (value,)
+    if isinstance(value, tuple) != (wanted == 3) or len(numbers) != wanted:
+        what = "three numbers" if wanted == 3 else "a number"
+        raise ValueError(f"{name} should be {what}")
+    if not _NUMBERS.issuperset(map(type, numbers)):
+        raise ValueError(f"{name} holds something else than numbers")
+    if not _are_positive(numbers):
+        raise ValueError(f"{name} should be positive and finite")
+
+
+def _are_positive(numbers: Sequence[float]) -> bool:
+    """And finite."""
+    try:
+        return min(numbers) > 0 and all(map(math.isfinite, numbers))
+    except OverflowError:  # an integer beyond float64
+        return False
