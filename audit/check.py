@@ -15,12 +15,12 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Asked, Planner
 from satcheck.audit.asked.settings import LISTED_PAIRS, Settings
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.roster import Known, Roster, place
+from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.doubtful_sizes import doubtful_sizes
 from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.ladder.climb import leaves_work, start_climbs
-from satcheck.audit.pair_queue import InTurn, Steps
+from satcheck.audit.pair_queue import PairQueue, Steps
 from satcheck.audit.report.report import INTERNAL_ERROR, Finding, Issue, Report
 from satcheck.audit.summary import (
     body_reports,
@@ -56,15 +56,15 @@ def check(
     scene: Scene | Sequence[str | Path],
     settings: Settings = DEFAULT_SETTINGS,
     progress: Progress | None = None,
-    known: Known | None = None,
+    cache: BodyCache | None = None,
 ) -> Report:
     """Check every pair of bodies that the scene does not exempt.
 
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
     this thread as pairs are settled. Findings come in the order of the bodies, whatever the threads
     do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
-    pairs (Settings.list_pruned); Report.truncated says how many are left out. known: what earlier
-    checks with the same settings, of the same bodies elsewhere, have found out; this one adds to
+    pairs (Settings.list_pruned); Report.truncated says how many are left out. cache: what
+    earlier checks of the same bodies elsewhere, with the same settings, computed; this one adds to
     it.
 
     Raises SatcheckError (`too-few-bodies`, `cross-check-missing`; from loading: what the scene
@@ -73,12 +73,12 @@ def check(
     scene = _loaded(scene, settings)
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
-    roster = place(scene, settings, known)
-    if len(roster.placed) < len(scene.bodies) and settings.planar is None:
-        report = _in_other_unit(scene, settings, progress, len(roster.placed))
+    bodies = place(scene, settings, cache)
+    if len(bodies.placed) < len(scene.bodies) and settings.planar is None:
+        report = _in_other_unit(scene, settings, progress, len(bodies.placed))
         if report is not None:
             return report
-    return _check(scene, settings, progress, roster, keep=known is not None)
+    return _check(scene, settings, progress, bodies, keep=cache is not None)
 
 
 def _in_other_unit(
@@ -94,44 +94,44 @@ def _in_other_unit(
         return None
     unit = OtherUnit(exponent)
     scaled, asked = in_other_unit(scene, exponent), unit.settings(settings)
-    roster = place(scaled, asked)
-    if len(roster.placed) <= placed:
+    bodies = place(scaled, asked)
+    if len(bodies.placed) <= placed:
         return None
-    return unit.report(_check(scaled, asked, progress, roster), scene, settings)
+    return unit.report(_check(scaled, asked, progress, bodies), scene, settings)
 
 
 def _check(
     scene: Scene,
     settings: Settings,
     progress: Progress | None,
-    roster: Roster,
+    bodies: PlacedBodies,
     keep: bool = False,
 ) -> Report:
     """keep: what is made of the bodies is wanted again."""
     movers = _movers(scene)
-    planner = Planner(settings, roster.book, scene.composed, moving=movers is not None)
-    close = close_pairs(roster, planner, movers)
-    turn = InTurn(settings.jobs, keep=keep)
-    examined = _examine_all(roster, close, planner, movers, turn, progress)
-    findings = _findings(roster, close, examined, planner)
-    of_motions = () if movers is None else movers.issues(roster.ids)
+    planner = Planner(settings, bodies.book, scene.composed, moving=movers is not None)
+    close = close_pairs(bodies, planner, movers)
+    queue = PairQueue(settings.jobs, keep=keep)
+    examined = _examine_all(bodies, close, planner, movers, queue, progress)
+    findings = _findings(bodies, close, examined, planner)
+    of_motions = () if movers is None else movers.issues(bodies.ids)
     of_pairs = (issue for one in examined for issue in one.issues)
-    counts = count(roster, len(close), findings)
-    of_sizes = doubtful_sizes(roster, findings, settings.planar)
-    issues = issues_of(scene, roster, counts, (*of_sizes, *of_motions, *of_pairs))
+    counts = count(bodies, len(close), findings)
+    of_sizes = doubtful_sizes(bodies, findings, settings.planar)
+    issues = issues_of(scene, bodies, counts, (*of_sizes, *of_motions, *of_pairs))
     return Report(
         tool=tool(),
         units=scene.units,
         settings=settings.to_dict() | {"depth": planner.depth},
         summary=summarise(counts, findings, settings.fail_on),
-        bodies=body_reports(roster),
+        bodies=body_reports(bodies),
         exempt=exempt_of(scene),
         rules=rule_reports(scene.rules),
         effects=effects_of(
             planner,
             map(_asked_and_found, examined),
             counts,
-            units_unknown=sum(1 for _ in roster.pairs_of_several_units()),
+            units_unknown=sum(1 for _ in bodies.pairs_of_several_units()),
         ),
         motions=() if movers is None else movers.values(),
         pose=scene.posture.pose() if scene.posture else None,
@@ -168,11 +168,11 @@ def _movers(scene: Scene) -> Movers | None:
 
 
 def _examine_all(
-    roster: Roster,
+    bodies: PlacedBodies,
     close: list[tuple[int, int]],
     planner: Planner,
     movers: Movers | None,
-    turn: InTurn,
+    queue: PairQueue,
     progress: Progress | None,
 ) -> list[Examined]:
     done: dict[int, Examined] = {}
@@ -184,18 +184,18 @@ def _examine_all(
         peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
         pairs = [
             Pair(
-                roster.placed[i],
-                roster.placed[j],
+                bodies.placed[i],
+                bodies.placed[j],
                 settings,
                 one,
                 meter,
                 peers,
-                None if movers is None else movers.paths(roster.ids[i], roster.ids[j]),
-                alone=len(close) == 1 and not turn.keep,
+                None if movers is None else movers.paths(bodies.ids[i], bodies.ids[j]),
+                alone=len(close) == 1 and not queue.keep,
             )
             for (i, j), one in zip(close, asked, strict=True)
         ]
-        for k, one in turn.each(pairs, Steps(start_climbs, _examine, leaves_work)):
+        for k, one in queue.each(pairs, Steps(start_climbs, _examine, leaves_work)):
             done[k] = one
             if progress is not None:
                 progress(len(done), len(pairs))
@@ -260,18 +260,18 @@ def _with_certificate(pair: Pair, finding: Finding) -> Finding:
 
 
 def _findings(
-    roster: Roster, close: list[tuple[int, int]], examined: list[Examined], planner: Planner
+    bodies: PlacedBodies, close: list[tuple[int, int]], examined: list[Examined], planner: Planner
 ) -> list[Finding]:
     found = {pair: one.finding for pair, one in zip(close, examined, strict=True)}
-    for i, j, reason in roster.undecidable_pairs():
-        found[i, j] = indeterminate(roster.ids[i], roster.ids[j], reason, Plan())
+    for i, j, reason in bodies.undecidable_pairs():
+        found[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Plan())
     settings = planner.settings
-    total, allowed = roster.book.count()
+    total, allowed = bodies.book.count()
     listed = settings.list_pruned
     if total - allowed <= LISTED_PAIRS if listed is None else listed:
-        for i, j in roster.book.asked_pairs():
+        for i, j in bodies.book.asked_pairs():
             if (i, j) not in found:
-                pair = Pair(roster.placed[i], roster.placed[j], settings, planner.asked(i, j))
+                pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.asked(i, j))
                 finding = apart_by_boxes(pair)
                 found[i, j] = _with_certificate(pair, finding) if settings.certificate else finding
     return [found[pair] for pair in sorted(found)]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.bodies.roster import Roster
 from satcheck.audit.report.report import SIZES_DIFFER, TOLERANCE_LARGE, Finding, Issue
 from satcheck.core import largest_stretch
 from satcheck.core.conventions import Plane, axes_of
@@ -16,13 +16,13 @@ _SHOWN = 5  # bodies in one message
 
 
 def doubtful_sizes(
-    roster: Roster, findings: Sequence[Finding], plane: Plane | None
+    bodies: PlacedBodies, findings: Sequence[Finding], plane: Plane | None
 ) -> Iterator[Issue]:
     """Bodies smaller than the tolerance of one of their pairs, and bodies of very unlike sizes."""
-    sizes = {roster.ids[k]: _size(body, plane) for k, body in roster.placed.items()}
+    sizes = {bodies.ids[k]: _size(body, plane) for k, body in bodies.placed.items()}
     yield from _tolerances(sizes, findings)
-    for unit in dict.fromkeys(roster.units.values()):
-        alike = {roster.ids[k]: sizes[roster.ids[k]] for k, u in roster.units.items() if u == unit}
+    for unit in dict.fromkeys(bodies.units.values()):
+        alike = {bodies.ids[k]: sizes[bodies.ids[k]] for k, u in bodies.units.items() if u == unit}
         yield from _unlike(alike)
 
 

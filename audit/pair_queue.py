@@ -44,7 +44,7 @@ class Steps(Struct, Generic[C, T], frozen=True):
     leaves_work: Callable[[Pair, C], bool]
 
 
-class InTurn(Struct, frozen=True):
+class PairQueue(Struct, frozen=True):
     """jobs: threads, 0 for one a core. keep: what is made of the bodies, for another check."""
 
     jobs: int
@@ -62,7 +62,7 @@ class InTurn(Struct, frozen=True):
                 done = workers.do([pairs[k] for k in batch], climbs, steps)
                 for k, one in zip(batch, done, strict=True):
                     for body in leaving.get(k, ()):
-                        body.let_go()
+                        body.release()
                     yield k, one
 
     def _threads(self, pairs: int) -> int:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.rule_book import RuleBook
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.bodies.roster import Known
+from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.report.report import (
     OVERLAPS,
@@ -171,14 +171,14 @@ def check_poses(
     if not poses:
         raise ValueError("no pose to check")
     placed = [posed(scene, pose) for pose in poses]  # all poses are judged before work is done
-    known = Known()
+    cache = BodyCache()
     tallies: dict[tuple[str, str], PairTally] = {}
     samples: list[Sample] = []
     common: dict[Issue, None] = {}
     tracebacks: list[str] = []
     report: Report | None = None
     for number, one in enumerate(placed, 1):
-        report = check(one, replace(settings, list_pruned=False), known=known)
+        report = check(one, replace(settings, list_pruned=False), cache=cache)
         sample, others = _sample(number, report, one.posture)
         samples.append(sample)
         common |= dict.fromkeys(others)
@@ -189,7 +189,7 @@ def check_poses(
         if progress is not None:
             progress(number, len(placed))
     assert report is not None
-    assert known.book is not None
+    assert cache.book is not None
     return Samples(
         tool=report.tool,
         units=report.units,
@@ -198,7 +198,7 @@ def check_poses(
         exempt=report.exempt,
         rules=report.rules,
         samples=tuple(samples),
-        pairs=_all_pairs(report, known.book, tallies),
+        pairs=_all_pairs(report, cache.book, tallies),
         counts=report.summary.pairs,
         issues=tuple(common),
         tracebacks=tuple(tracebacks),

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.bodies.roster import Known
+from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
 
@@ -112,8 +112,8 @@ def suggest(
 
     Raises what `check` and `check_poses` raise.
     """
-    known = Known()
-    report = check(scene, replace(settings, depth=True, list_pruned=False), known=known)
+    cache = BodyCache()
+    report = check(scene, replace(settings, depth=True, list_pruned=False), cache=cache)
     samples, issues = None, report.issues
     if poses:
         from satcheck.audit.samples import check_poses
@@ -121,9 +121,9 @@ def suggest(
         samples = check_poses(scene, poses, replace(settings, depth=False), progress)
         issues = tuple(dict.fromkeys((*report.issues, *samples.issues)))
     undecided = _undecided(report, samples)
-    assert known.book is not None
+    assert cache.book is not None
     ids = [body.id for body in report.bodies]
-    asked = [(ids[i], ids[j]) for i, j in known.book.asked_pairs()]
+    asked = [(ids[i], ids[j]) for i, j in cache.book.asked_pairs()]
     unchecked = _unchecked(scene, report, asked)
     left_out = {(one.a, one.b) for one in unchecked}
     pairs, may_meet = _suggestions(scene, report, samples, asked, left_out)

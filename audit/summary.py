@@ -8,8 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from satcheck._version import __version__
+from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.bodies.roster import Lost, Roster
 from satcheck.audit.report.report import (
     NOTHING_TO_CHECK,
     RELATIONS,
@@ -45,19 +45,19 @@ def tool() -> Tool:
     return Tool("satcheck", __version__)
 
 
-def count(roster: Roster, close: int, findings: Sequence[Finding]) -> PairCounts:
+def count(bodies: PlacedBodies, close: int, findings: Sequence[Finding]) -> PairCounts:
     """close: how many pairs the broad phase left over. Raises RuntimeError if a pair is lost."""
-    unreadable = sum(1 for _ in roster.undecidable_pairs())
+    unreadable = sum(1 for _ in bodies.undecidable_pairs())
     indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
-    total, allowed = roster.book.count()
-    bodies = len(roster.ids)
+    total, allowed = bodies.book.count()
+    number = len(bodies.ids)
     counts = PairCounts(
         total=total,
         pruned=total - allowed - unreadable - close,
         decided=close - (indeterminate - unreadable),
         allowed=allowed,
         indeterminate=indeterminate,
-        exempt=bodies * (bodies - 1) // 2 - total,
+        exempt=number * (number - 1) // 2 - total,
     )
     unlisted = counts.total - counts.allowed - len(findings)
     if counts.pruned < 0 or unlisted not in (0, counts.pruned):
@@ -90,14 +90,14 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -
     return "incomplete" if unchecked or not counts.asked else "pass"
 
 
-def body_reports(roster: Roster) -> tuple[BodyReport, ...]:
-    meshes = {id(body.shared): body.shared for body in roster.placed.values()}
+def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
+    meshes = {id(body.shared): body.shared for body in bodies.placed.values()}
     health = {key: health_values(mesh.file.health) for key, mesh in meshes.items()}
     return tuple(
-        _lost_report(roster.lost[k])
-        if k in roster.lost
-        else _body_report(roster.placed[k], health[id(roster.placed[k].shared)])
-        for k in range(len(roster.ids))
+        _unusable_report(bodies.unusable[k])
+        if k in bodies.unusable
+        else _body_report(bodies.placed[k], health[id(bodies.placed[k].shared)])
+        for k in range(len(bodies.ids))
     )
 
 
@@ -105,7 +105,7 @@ def health_values(health: MeshHealth) -> Health:
     return {name: _finite(getattr(health, name)) for name in health.__struct_fields__}
 
 
-def _lost_report(body: Lost) -> BodyReport:
+def _unusable_report(body: UnusableBody) -> BodyReport:
     return BodyReport(
         id=body.id,
         name=body.id,
@@ -198,7 +198,7 @@ def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated |
 
 
 def issues_of(
-    scene: Scene, roster: Roster, counts: PairCounts, of_pairs: Iterable[Issue]
+    scene: Scene, bodies: PlacedBodies, counts: PairCounts, of_pairs: Iterable[Issue]
 ) -> tuple[Issue, ...]:
     """The input's issues first, then those of the run; each once."""
     issues = [
@@ -206,7 +206,7 @@ def issues_of(
         for issue in scene.issues
     ]
     empty = [] if counts.asked else [_nothing_to_check(scene, counts)]
-    return tuple(dict.fromkeys((*issues, *roster.issues, *empty, *of_pairs)))
+    return tuple(dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs)))
 
 
 def _nothing_to_check(scene: Scene, counts: PairCounts) -> Issue:

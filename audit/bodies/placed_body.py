@@ -193,7 +193,7 @@ class PlacedBody:
                 )
         return geometry
 
-    def let_go(self) -> None:
+    def release(self) -> None:
         """Forget what was made; it is made again should somebody ask."""
         self._geometry = self._checked = None
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from satcheck import core
 from satcheck.audit.asked.planner import Planner
 from satcheck.audit.bodies.boxes import Box
-from satcheck.audit.bodies.roster import Roster
+from satcheck.audit.bodies.placed_bodies import PlacedBodies
 
 if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
@@ -20,30 +20,32 @@ if TYPE_CHECKING:
 IndexPair = tuple[int, int]
 
 
-def close_pairs(roster: Roster, planner: Planner, movers: Movers | None = None) -> list[IndexPair]:
+def close_pairs(
+    bodies: PlacedBodies, planner: Planner, movers: Movers | None = None
+) -> list[IndexPair]:
     """Asked pairs of placed bodies, sorted, no further apart by their boxes than is asked about.
 
     movers: boxes are then those of whole motions.
     """
-    index, book = tuple(roster.placed), roster.book
+    index, book = tuple(bodies.placed), bodies.book
     place = {body: k for k, body in enumerate(index)}
-    boxes = {k: body.bounds for k, body in roster.placed.items()}
+    boxes = {k: body.bounds for k, body in bodies.placed.items()}
     if movers is not None:
-        boxes = {k: movers.bounds(roster.ids[k], box) for k, box in boxes.items()}
+        boxes = {k: movers.bounds(bodies.ids[k], box) for k, box in boxes.items()}
     close = core.close_pairs(
         list(boxes.values()),
-        planner.reach({k: body.resolution for k, body in roster.placed.items()}),
+        planner.reach({k: body.resolution for k, body in bodies.placed.items()}),
         [book.kind_of[i] for i in index],
         book.exempt_kinds(),
         _among(book.exempt_named(), place),
     )
-    found = close if len(index) == len(roster.ids) else [(index[i], index[j]) for i, j in close]
-    if len(set(roster.units.values())) > 1:
-        found = [pair for pair in found if roster.is_comparable(*pair)]
+    found = close if len(index) == len(bodies.ids) else [(index[i], index[j]) for i, j in close]
+    if len(set(bodies.units.values())) > 1:
+        found = [pair for pair in found if bodies.is_comparable(*pair)]
     if not book.rules:
         return found
     asked = [pair for pair in found if book.is_asked(*pair)]
-    return _within_own_gaps(roster, boxes, planner, asked) if planner.lengths_differ else asked
+    return _within_own_gaps(bodies, boxes, planner, asked) if planner.lengths_differ else asked
 
 
 def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]:
@@ -51,10 +53,10 @@ def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]
 
 
 def _within_own_gaps(
-    roster: Roster, boxes: Mapping[int, Box], planner: Planner, pairs: list[IndexPair]
+    bodies: PlacedBodies, boxes: Mapping[int, Box], planner: Planner, pairs: list[IndexPair]
 ) -> list[IndexPair]:
     """A body reaches as far as the furthest that any rule asks of it; each pair is asked less."""
-    placed = roster.placed
+    placed = bodies.placed
     return [
         (i, j)
         for i, j in pairs

@@ -14,8 +14,8 @@ from satcheck.audit.asked.planner import Planner
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.bodies.roster import place
 from satcheck.audit.finding import examine
 from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.opinion import Opinion, is_objected, is_overlap_excused, opinion_of

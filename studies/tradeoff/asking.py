@@ -12,7 +12,7 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.roster import Known
+from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.finding import examine
 from satcheck.audit.ladder.ladder import Contact, settle
 from satcheck.audit.report.report import Finding
@@ -122,7 +122,7 @@ def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[Asked
 
 def own_rooms(bodies: Bodies) -> Rooms:
     """Volumes of the bodies themselves."""
-    a, b = (own_room(Known().place(body, Settings(), None)) for body in bodies)
+    a, b = (own_room(BodyCache().place(body, Settings(), None)) for body in bodies)
     return a, b
 
 
@@ -157,6 +157,6 @@ def _volume(pair: Pair) -> tuple[float, float] | str:
 
 
 def _pair(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) -> Pair:
-    known = Known()
-    a, b = (known.place(body, settings, None) for body in bodies)
+    cache = BodyCache()
+    a, b = (cache.place(body, settings, None) for body in bodies)
     return Pair(a, b, settings, asked_by(settings), meter)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from satcheck import core
 from satcheck.audit.asked.planner import Planner
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.bodies.roster import place
+from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.check import Progress
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.summary import tool
@@ -66,7 +66,7 @@ def _pairs(scene: Scene) -> list[Bodies]:
         a, b = scene.bodies
         return [(a, b)]
     settings = Settings()
-    roster = place(scene, settings)
-    near = close_pairs(roster, Planner(settings, roster.book, scene.composed))
-    met = [(roster.placed[i], roster.placed[j]) for i, j in near]
+    placed_bodies = place(scene, settings)
+    near = close_pairs(placed_bodies, Planner(settings, placed_bodies.book, scene.composed))
+    met = [(placed_bodies.placed[i], placed_bodies.placed[j]) for i, j in near]
     return [(a.body, b.body) for a, b in met if core.box_gap(a.bounds, b.bounds) == 0]

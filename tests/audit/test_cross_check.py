@@ -11,7 +11,7 @@ from satcheck.audit import Settings, check
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.roster import place
+from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.cross_check.opinions import DISAGREEMENT, say
 from satcheck.audit.cross_check.peers import MISSING, Peers
 from satcheck.audit.ladder.ladder import settle

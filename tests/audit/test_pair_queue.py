@@ -9,7 +9,7 @@ from time import sleep
 
 import pytest
 
-from satcheck.audit.pair_queue import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, InTurn, Steps
+from satcheck.audit.pair_queue import BATCH_PAIRS, BATCH_TRIANGLES, PARALLEL_PAIRS, PairQueue, Steps
 
 
 @dataclass(eq=False)
@@ -17,7 +17,7 @@ class FakeBody:
     bounds: tuple
     gone: list = field(default_factory=list)
 
-    def let_go(self):
+    def release(self):
         self.gone.append(True)
 
 
@@ -50,7 +50,7 @@ def steps(examine, heavy=lambda _: False):
 def test_every_pair_has_its_result(jobs, count, every):
     _, pairs = chain(count)
     heavy = {id(pair) for pair in pairs[::every]} if every else set()
-    found = dict(InTurn(jobs).each(pairs, steps(id, lambda pair: id(pair) in heavy)))
+    found = dict(PairQueue(jobs).each(pairs, steps(id, lambda pair: id(pair) in heavy)))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
 
 
@@ -67,7 +67,7 @@ def test_every_pair_has_its_result_where_no_more_threads_are_granted(granted, mo
     monkeypatch.setattr(Thread, "start", refuse)
     _, pairs = chain(2 * BATCH_PAIRS)
     examined = steps(lambda pair: sleep(1e-4) or id(pair), heavy=lambda _: True)
-    found = dict(InTurn(3).each(pairs, examined))
+    found = dict(PairQueue(3).each(pairs, examined))
     assert found == {k: id(pair) for k, pair in enumerate(pairs)}
 
 
@@ -84,7 +84,9 @@ def test_batches_are_bounded_in_pairs_and_in_triangles(jobs):
         return lambda: batch
 
     done = steps(id)
-    assert len(list(InTurn(jobs).each(pairs, Steps(start_climbs, done.examine, done.leaves_work))))
+    assert len(
+        list(PairQueue(jobs).each(pairs, Steps(start_climbs, done.examine, done.leaves_work)))
+    )
     assert sum(map(len, batches)) == len(pairs)
     assert max(map(len, batches)) <= BATCH_PAIRS
     assert len(batches) > 40 // (jobs + 1)
@@ -102,7 +104,7 @@ def test_a_body_is_let_go_after_its_last_pair():
             met[id(body)] += 1
 
     most = 0
-    for _ in InTurn(1).each(pairs, steps(meet)):
+    for _ in PairQueue(1).each(pairs, steps(meet)):
         most = max(most, sum(met[id(body)] > 0 and not body.gone for body in bodies))
     assert all(body.gone == [True] for body in bodies)
     assert most <= 4
@@ -110,18 +112,18 @@ def test_a_body_is_let_go_after_its_last_pair():
 
 def test_what_another_check_needs_is_kept():
     bodies, pairs = chain(20)
-    assert len(list(InTurn(1, keep=True).each(pairs, steps(id)))) == 20
+    assert len(list(PairQueue(1, keep=True).each(pairs, steps(id)))) == 20
     assert not any(body.gone for body in bodies)
 
 
 def test_no_pairs_at_all():
-    assert list(InTurn(0).each([], steps(id))) == []
+    assert list(PairQueue(0).each([], steps(id))) == []
 
 
 def test_after_an_error_nobody_waits_for_the_others():
     _, pairs = chain(PARALLEL_PAIRS + 2)
     in_order = []
-    list(InTurn(jobs=1).each(pairs, steps(in_order.append)))
+    list(PairQueue(jobs=1).each(pairs, steps(in_order.append)))
     started, answered, heard = Event(), Event(), SimpleQueue()
 
     def examine(pair):
@@ -132,6 +134,6 @@ def test_after_an_error_nobody_waits_for_the_others():
         heard.put(answered.wait(timeout=20))
 
     with pytest.raises(KeyboardInterrupt):
-        list(InTurn(jobs=2).each(pairs, steps(examine, heavy=lambda _: True)))
+        list(PairQueue(jobs=2).each(pairs, steps(examine, heavy=lambda _: True)))
     answered.set()
     assert heard.get(timeout=20)

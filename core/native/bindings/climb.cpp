@@ -81,7 +81,7 @@ resolution: how finely its coordinates are known, world units.)")
       .def("surface", &PlacedGeometry::surface, ReleaseGil())
       .def("hull", &PlacedGeometry::hull, ReleaseGil(), "Of all its vertices, with its faces.")
       .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The same as a shape, usually without faces.")
-      .def("let_go", &PlacedGeometry::let_go, "Forget what was made; it is made again should somebody ask.");
+      .def("release", &PlacedGeometry::release, "Forget what was made; it is made again should somebody ask.");
 }
 
 const char* name_of(BoxOutcome outcome) {

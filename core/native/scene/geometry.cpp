@@ -98,7 +98,7 @@ OrientedBox PlacedGeometry::oriented_box(double pad) {
   return carried_box(shared_->bounds(), &*transform_, pad);
 }
 
-void PlacedGeometry::let_go() {
+void PlacedGeometry::release() {
   const Lock lock(mutex_);
   mesh_.reset();
   surface_.reset();

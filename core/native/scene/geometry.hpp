@@ -83,7 +83,7 @@ class PlacedGeometry {
   // The box of the file's mesh, carried by the transform; it holds every point within `pad` of the body.
   OrientedBox oriented_box(double pad);
 
-  void let_go();
+  void release();
 
  private:
   std::shared_ptr<Geometry> shared_;

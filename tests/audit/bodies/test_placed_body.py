@@ -7,8 +7,8 @@ import math
 import pytest
 
 from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh, world_bounds
-from satcheck.audit.bodies.roster import Known
 from satcheck.audit.check import check
 from satcheck.scene import Body, Scene, load_scene
 from tests.audit import shapes
@@ -35,9 +35,9 @@ def crowd(file, count, step):
 
 
 def work_of(scene, settings=QUICK):
-    known = Known()
-    report = check(scene, settings, known=known)
-    (mesh,) = known.meshes.values()
+    cache = BodyCache()
+    report = check(scene, settings, cache=cache)
+    (mesh,) = cache.meshes.values()
     return report, mesh.work
 
 
@@ -75,7 +75,7 @@ def test_what_was_let_go_is_made_again_and_is_the_same(tmp_path):
     body = PlacedBody(Body("a", "", file, turned(1.0, 3.0)), mesh)
     before = body.surface()
     assert body.surface() is before
-    body.let_go()
+    body.release()
     assert body.surface() is not before
     assert (body.surface().mesh.vertices == before.mesh.vertices).all()
     assert (mesh.work.hierarchies, mesh.work.refits) == (1, 2)

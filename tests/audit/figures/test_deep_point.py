@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from satcheck.audit import Settings
+from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.bodies.roster import place
 from satcheck.audit.figures.deep_point import Outline, depth_around
 from satcheck.scene.planar.laid_flat import laid_flat
 from tests.scene.planar.flat import Corners, scene, sheet

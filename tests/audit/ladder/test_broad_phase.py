@@ -8,7 +8,7 @@ import pytest
 
 from satcheck.audit.asked.planner import Planner
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.bodies.roster import place
+from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.core import box_gap
 from satcheck.core.shapes import Box
@@ -35,10 +35,10 @@ def row(count, step=1.25, groups=None):
     [Settings(), Settings(clearance=0.5), Settings(tolerance=1.0), Settings(clearance=3.0)],
 )
 def test_close_is_what_is_asked_about(settings):
-    roster = place(Scene("", None, row(9)), settings)
+    placed_bodies = place(Scene("", None, row(9)), settings)
     asked = max(settings.clearance or 0.0, settings.tolerance or 0.0)
-    bounds = [body.bounds for body in roster.placed.values()]
-    assert close_pairs(roster, Planner(settings, roster.book)) == [
+    bounds = [body.bounds for body in placed_bodies.placed.values()]
+    assert close_pairs(placed_bodies, Planner(settings, placed_bodies.book)) == [
         (i, j) for i, j in combinations(range(9), 2) if box_gap(bounds[i], bounds[j]) <= asked
     ]
 
@@ -50,14 +50,18 @@ def test_exempt_pairs_are_not_close():
         for a, b in (("b0", "b5"), ("b4", "gone"), ("b[12]", "b3"))
     ]
     scene = Scene("", None, bodies, (), frozenset(("left", "hall")), tuple(allowed))
-    roster = place(scene, Settings())
-    found = close_pairs(roster, Planner(Settings(), roster.book))
-    assert found == sorted(roster.book.asked_pairs())
+    placed_bodies = place(scene, Settings())
+    found = close_pairs(placed_bodies, Planner(Settings(), placed_bodies.book))
+    assert found == sorted(placed_bodies.book.asked_pairs())
     assert len(found) == 3 * 3 - 1 - 2
 
 
 def test_numbers_are_those_of_the_bodies_where_some_are_lost():
     lost = Unreadable("lost", "gone.obj", issue("file-not-found", "gone"))
     scene = Scene("", None, row(3, 0.0), (lost,), order=("lost", "b0", "b1", "b2"))
-    roster = place(scene, Settings())
-    assert close_pairs(roster, Planner(Settings(), roster.book)) == [(1, 2), (1, 3), (2, 3)]
+    placed_bodies = place(scene, Settings())
+    assert close_pairs(placed_bodies, Planner(Settings(), placed_bodies.book)) == [
+        (1, 2),
+        (1, 3),
+        (2, 3),
+    ]

@@ -8,7 +8,7 @@ import random
 import pytest
 
 from satcheck.audit import Settings
-from satcheck.audit.bodies.roster import place
+from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.resolve.free_slot import Slots
 from tests.audit.resolve.boxes import boxes_scene, unit_at
 

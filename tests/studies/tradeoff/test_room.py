@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.bodies.roster import Known
 from satcheck.scene import Body, load_scene
 from satcheck.studies.tradeoff.room import own_room, room
 
@@ -21,7 +21,7 @@ ROUNDOFF = 1e-12  # relative: a chain of some tens of operations
 
 def placed(name: str, transform: tuple[float, ...] | None = None) -> PlacedBody:
     (file,) = {body.file for body in load_scene([SAMPLES / name]).bodies}
-    return Known().place(Body("a", "", file, transform), Settings(), None)
+    return BodyCache().place(Body("a", "", file, transform), Settings(), None)
 
 
 def turned(angle: float, scale: float) -> tuple[float, ...]:

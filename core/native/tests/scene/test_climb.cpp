@@ -175,7 +175,7 @@ void what_was_let_go_is_made_again() {
   const auto body = placed(shell, shifted(1, 2, 3, 0.5));
   const std::shared_ptr<Surface> before = body->surface();
   CHECK(body->surface() == before);
-  body->let_go();
+  body->release();
   CHECK(body->surface() != before && body->surface()->mesh.vertices == before->mesh.vertices);
   CHECK(shell->hierarchies() == 1 && shell->refits() == 2);
 }

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from satcheck.scene.rules import Rule
 
 
-class Lost(Struct, frozen=True):
+class UnusableBody(Struct, frozen=True):
     """A body that takes part in pairs, none of which can be decided."""
 
     id: str
@@ -37,31 +37,31 @@ class Lost(Struct, frozen=True):
     static: bool = False
 
 
-class Roster(Struct, frozen=True):
-    """Bodies by index, in the order given: each is either placed or lost. ids follow it, and so
-    does the book of rules. units: of the placed ones, None where nobody states any; bodies of
+class PlacedBodies(Struct, frozen=True):
+    """Bodies by index, in the order given: each is either placed or unusable. ids follow it, and
+    so does the book of rules. units: of the placed ones, None where nobody states any; bodies of
     different ones have no common frame."""
 
     placed: dict[int, PlacedBody]
-    lost: dict[int, Lost]
+    unusable: dict[int, UnusableBody]
     ids: tuple[str, ...]
     book: RuleBook
     issues: tuple[Issue, ...]
     units: dict[int, str | None]
 
     def undecidable_pairs(self) -> Iterator[tuple[int, int, str]]:
-        """Asked pairs of which one body is lost, or in unknown units, with the reason."""
-        yield from self._of_lost_bodies()
+        """Asked pairs of which one body is unusable, or in unknown units, with the reason."""
+        yield from self._pairs_of_unusable_bodies()
         yield from self.pairs_of_several_units()
 
     def is_comparable(self, i: int, j: int) -> bool:
-        """Of two placed bodies: whether their lengths are in one unit, as far as is known."""
+        """Of two placed bodies: whether their lengths are in one unit, as far as is cache."""
         return self.units.get(i) == self.units.get(j)
 
-    def _of_lost_bodies(self) -> Iterator[tuple[int, int, str]]:
-        for k, body in self.lost.items():
+    def _pairs_of_unusable_bodies(self) -> Iterator[tuple[int, int, str]]:
+        for k, body in self.unusable.items():
             for other in range(len(self.ids)):
-                if other in self.lost and other >= k:
+                if other in self.unusable and other >= k:
                     continue
                 if self.book.is_asked(k, other):
                     yield min(k, other), max(k, other), body.reason
@@ -82,7 +82,7 @@ class Roster(Struct, frozen=True):
         return known if unit else f"no unit of length is stated for {self.ids[k]}"
 
 
-class Known:
+class BodyCache:
     """What a check leaves for others with the same settings, of the same bodies elsewhere.
 
     meshes: what depends on a mesh alone. placed: by their ids, those that stayed where they are
@@ -110,16 +110,16 @@ class Known:
         return self.placed[body.id]
 
 
-def place(scene: Scene, settings: Settings, known: Known | None = None) -> Roster:
-    """Put every body into the world; one whose pose leaves the number range is lost.
+def place(scene: Scene, settings: Settings, cache: BodyCache | None = None) -> PlacedBodies:
+    """Put every body into the world; one whose pose leaves the number range is unusable.
 
-    known: from earlier checks of these bodies; what is new here is added.
+    cache: from earlier checks of these bodies; what is new here is added.
     """
-    known = known or Known()
+    cache = cache or BodyCache()
     if settings.planar is not None:
-        known.meshes.clear()  # an outline is that of one placement
+        cache.meshes.clear()  # an outline is that of one placement
     placed: dict[int, PlacedBody] = {}
-    lost: dict[int, Lost] = {}
+    unusable: dict[int, UnusableBody] = {}
     issues: list[Issue] = []
     members = scene.in_order()
     readable = [body for body in members if isinstance(body, Body)]
@@ -127,26 +127,30 @@ def place(scene: Scene, settings: Settings, known: Known | None = None) -> Roste
     for index, body in enumerate(members):
         if not isinstance(body, Body):
             reason = f"unreadable {body.file}: {body.issue.code}"
-            lost[index] = Lost(body.id, body.file, reason, body.groups, body.path, body.static)
+            unusable[index] = UnusableBody(
+                body.id, body.file, reason, body.groups, body.path, body.static
+            )
             continue
         try:
-            placed[index] = known.place(body, settings, next(bounds))
+            placed[index] = cache.place(body, settings, next(bounds))
         except (ValueError, OverflowError) as error:
             reason = f"cannot be placed: {error}"
-            lost[index] = Lost(body.id, body.file.path, reason, body.groups, body.path, body.static)
+            unusable[index] = UnusableBody(
+                body.id, body.file.path, reason, body.groups, body.path, body.static
+            )
             issues.append(_unplaceable(body, error))
-    known.book = known.book or RuleBook(
+    cache.book = cache.book or RuleBook(
         [Subject(body.id, body.groups, body.static) for body in members],
         scene.rules,
         scene.ignore_within_groups,
         scene.check_static,
     )
-    return Roster(
+    return PlacedBodies(
         placed=placed,
-        lost=lost,
+        unusable=unusable,
         ids=tuple(body.id for body in members),
-        book=known.book,
-        issues=(*map(_unused, known.book.unused()), *issues),
+        book=cache.book,
+        issues=(*map(_unused, cache.book.unused()), *issues),
         units={k: body.body.units for k, body in placed.items()},
     )
 

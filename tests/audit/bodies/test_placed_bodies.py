@@ -1,4 +1,4 @@
-"""Which pairs a roster asks about, counted without going through them."""
+"""Which pairs a placed_bodies asks about, counted without going through them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.bodies.roster import Known, place
+from satcheck.audit.bodies.placed_bodies import BodyCache, place
 from satcheck.core.shapes import Box
 from satcheck.scene import Body, Scene, Unreadable
 from satcheck.scene.issue import issue
@@ -22,19 +22,19 @@ GROUPS = [(), ("a",), ("a",), ("a", "b"), ("b",), ("b", "c"), ("c",), ("d",), ("
 def test_a_pair_is_ignored_when_both_are_in_one_ignored_group(ignored):
     bodies = tuple(Body(f"b{k}", "", FILE, groups=groups) for k, groups in enumerate(GROUPS))
     scene = Scene("", None, bodies, ignore_within_groups=frozenset(ignored))
-    roster = place(scene, Settings())
+    placed_bodies = place(scene, Settings())
     asked = {
         (i, j)
         for i, j in combinations(range(len(GROUPS)), 2)
         if not set(GROUPS[i]) & set(GROUPS[j]) & set(ignored)
     }
-    assert set(roster.book.asked_pairs()) == asked
-    assert roster.book.count() == (len(asked), 0)
+    assert set(placed_bodies.book.asked_pairs()) == asked
+    assert placed_bodies.book.count() == (len(asked), 0)
 
 
 def test_what_stays_where_it_is_is_placed_once():
     body = Body("a", "", FILE, transform=(1.0, 0, 0, 3.0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0))
-    known = Known()
+    known = BodyCache()
     first = place(Scene("", None, (body,)), Settings(), known)
     again = place(Scene("", None, (body,)), Settings(), known)
     moved = place(Scene("", None, (replace(body, transform=None),)), Settings(), known)
@@ -48,8 +48,8 @@ def test_bodies_share_a_mesh_that_was_not_hashed():
     other = replace(shape_file(Box((2.0, 1.0, 1.0)), "test.toml"), sha256=None)
     files = (plain, replace(plain, units="mm"), other)
     bodies = tuple(Body(f"b{k}", "", file) for k, file in enumerate(files))
-    roster = place(Scene("", None, bodies), Settings())
-    first, same, differs = (roster.placed[k].shared for k in range(3))
+    placed_bodies = place(Scene("", None, bodies), Settings())
+    first, same, differs = (placed_bodies.placed[k].shared for k in range(3))
     assert first is same
     assert first is not differs
 
@@ -58,6 +58,6 @@ def test_an_unreadable_body_is_in_its_groups():
     lost = Unreadable("lost", "gone.obj", issue("file-not-found", "gone"), ("a",))
     bodies = tuple(Body(f"b{k}", "", FILE, groups=(group,)) for k, group in enumerate("ab"))
     scene = Scene("", None, bodies, (lost,), frozenset("a"), order=("b0", "lost", "b1"))
-    roster = place(scene, Settings())
-    assert [(i, j) for i, j, _ in roster.undecidable_pairs()] == [(1, 2)]
-    assert roster.book.count() == (2, 0)
+    placed_bodies = place(scene, Settings())
+    assert [(i, j) for i, j, _ in placed_bodies.undecidable_pairs()] == [(1, 2)]
+    assert placed_bodies.book.count() == (2, 0)
