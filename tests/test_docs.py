@@ -47,6 +47,10 @@ PROGRAMS = [
 ]
 
 
+SHELL_LINE = re.compile(r"^satcheck .*$", re.MULTILINE)
+WITH_CALLS = [page for page in PAGES if any(map(SHELL_LINE.search, blocks(page, "")))]
+
+
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
     """A copy of what the pages name, so that reports can be written beside it."""
@@ -54,9 +58,9 @@ def root(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def run(arguments: list[str], folder: Path) -> str:
-    """Both streams, in the order of writing."""
-    found = subprocess.run(
+def run(arguments: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
+    """Its stdout holds both streams, in the order of writing."""
+    return subprocess.run(
         [sys.executable, *arguments],
         cwd=folder,
         env=dict(os.environ, PYTHONIOENCODING="utf-8", COLUMNS="140"),
@@ -65,7 +69,6 @@ def run(arguments: list[str], folder: Path) -> str:
         stderr=subprocess.STDOUT,
         check=False,
     )
-    return found.stdout
 
 
 def without_times(text: str) -> str:
@@ -82,13 +85,21 @@ def test_a_command_prints_what_the_page_shows(block: str, root: Path) -> None:
     for command, shown in commands(block):
         name, *arguments = shlex.split(command)
         assert name == "satcheck"
-        printed = without_times(run(["-m", "satcheck.cli", *arguments], root))
+        printed = without_times(run(["-m", "satcheck.cli", *arguments], root).stdout)
         assert re.fullmatch(as_pattern(shown), printed), f"$ {command}\n{printed}"
+
+
+@pytest.mark.parametrize("page", WITH_CALLS, ids=lambda page: page.name)
+def test_every_call_of_a_page_runs_from_the_root(page: Path, root: Path) -> None:
+    """In their order, in one folder. Exit code 2 is wrong usage or a file that cannot be read."""
+    for call in SHELL_LINE.findall("\n".join(blocks(page, ""))):
+        _, *arguments = shlex.split(call, comments=True)
+        assert run(["-m", "satcheck.cli", *arguments], root).returncode in (0, 1, 3), call
 
 
 @pytest.mark.parametrize("block", PROGRAMS)
 def test_a_program_prints_what_the_page_shows(block: str, root: Path) -> None:
-    printed = run(["-c", block], root).splitlines()
+    printed = run(["-c", block], root).stdout.splitlines()
     assert printed
     assert [line for line in printed if line not in block] == []
 
