@@ -35,10 +35,10 @@ from satcheck.audit.summary import (
 from satcheck.core.errors import SatcheckError
 
 if TYPE_CHECKING:
-    from satcheck.audit.cross_check.peers import Peers
     from satcheck.audit.motion.movers import Movers
     from satcheck.core import Climb
     from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import Peers
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
@@ -110,7 +110,7 @@ def _check(
     """keep: what is made of the bodies is wanted again."""
     movers = _movers(scene)
     planner = Planner(settings, bodies.book, scene.composed, moving=movers is not None)
-    close = close_pairs(bodies, planner, movers)
+    close = close_pairs(bodies, planner, None if movers is None else movers.bounds)
     queue = PairQueue(settings.jobs, keep=keep)
     examined = _examine_all(bodies, close, planner, movers, queue, progress)
     findings = _findings(bodies, close, examined, planner)
@@ -213,7 +213,7 @@ def volume_meter(settings: Settings) -> VolumeMeter:
 
 
 def _peers(settings: Settings) -> Peers:
-    from satcheck.audit.cross_check.peers import Peers
+    from satcheck.core.peers import Peers
 
     return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
 

@@ -94,7 +94,7 @@ def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan)
         known["contacts"] = find_contacts(pair, contact, plan)
     if pair.peers is None:
         return None
-    from satcheck.audit.cross_check.opinions import say
+    from satcheck.audit.cross_check import say
 
     return say(pair, contact, pair.peers, plan)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from satcheck.audit.report.report import Vector
+from satcheck.core.conventions import Vector
 
 
 def dot(a: Vector, b: Vector) -> float:

@@ -15,12 +15,19 @@ from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.conventions import axes_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.cross_check.peers import Peers
-    from satcheck.audit.motion.movers import Paths
     from satcheck.core.overlap_volume import VolumeMeter
+    from satcheck.core.peers import Peers
+    from satcheck.scene.motion import Path
 
 
 _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
+
+
+class Paths(Struct, frozen=True):
+    """How the bodies of a pair move; None: not at all. Not both."""
+
+    a: Path | None
+    b: Path | None
 
 
 class Pair(Struct, frozen=True):

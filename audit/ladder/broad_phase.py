@@ -6,32 +6,28 @@ scene exempts, so that exempt pairs are not made where that can be told beforeha
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping
 
 from satcheck import core
 from satcheck.audit.asked.planner import Planner
-from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
-
-if TYPE_CHECKING:
-    from satcheck.audit.motion.movers import Movers
+from satcheck.core.conventions import Bounds
 
 IndexPair = tuple[int, int]
 
 
 def close_pairs(
-    bodies: PlacedBodies, planner: Planner, movers: Movers | None = None
+    bodies: PlacedBodies, planner: Planner, swept: Callable[[str, Bounds], Bounds] | None = None
 ) -> list[IndexPair]:
     """Asked pairs of placed bodies, sorted, no further apart by their boxes than is asked about.
 
-    movers: boxes are then those of whole motions.
+    swept: the world box of a body over its whole motion, from its id and its box as placed.
     """
     index, book = tuple(bodies.placed), bodies.book
     place = {body: k for k, body in enumerate(index)}
     boxes = {k: body.bounds for k, body in bodies.placed.items()}
-    if movers is not None:
-        boxes = {k: movers.bounds(bodies.ids[k], box) for k, box in boxes.items()}
+    if swept is not None:
+        boxes = {k: swept(bodies.ids[k], box) for k, box in boxes.items()}
     close = core.close_pairs(
         list(boxes.values()),
         planner.reach({k: body.resolution for k, body in bodies.placed.items()}),
@@ -53,7 +49,7 @@ def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]
 
 
 def _within_own_gaps(
-    bodies: PlacedBodies, boxes: Mapping[int, Box], planner: Planner, pairs: list[IndexPair]
+    bodies: PlacedBodies, boxes: Mapping[int, Bounds], planner: Planner, pairs: list[IndexPair]
 ) -> list[IndexPair]:
     """A body reaches as far as the furthest that any rule asks of it; each pair is asked less."""
     placed = bodies.placed

@@ -5,21 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from msgspec import Struct, to_builtins
+from msgspec import to_builtins
 
 from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.motion.swept import swept_box
 from satcheck.audit.motion.track import track_of
 from satcheck.audit.report.report import Issue
-from satcheck.scene.motion import Motion, Path, PosePath, Rotation, Translation
-
-
-class Paths(Struct, frozen=True):
-    """How the bodies of a pair move; None: not at all. Not both."""
-
-    a: Path | None
-    b: Path | None
-
+from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
 
 # How a report calls the kinds of paths.
 KINDS = {Translation: "translation", Rotation: "rotation", PosePath: "path"}

@@ -8,8 +8,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Asked
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.motion.movers import Paths
+from satcheck.audit.bodies.pair import Pair, Paths
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.report.motion_report import Sweep
 from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation

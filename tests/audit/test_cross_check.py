@@ -12,13 +12,13 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
-from satcheck.audit.cross_check.opinions import DISAGREEMENT, say
-from satcheck.audit.cross_check.peers import MISSING, Peers
+from satcheck.audit.cross_check import DISAGREEMENT, say
 from satcheck.audit.ladder.ladder import settle
 from satcheck.cli.report.summary import summary_line
 from satcheck.core import Mesh
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import OverlapVolume
+from satcheck.core.peers import MISSING, Peers
 from satcheck.scene import Scene, load_scene
 from tests.audit.shapes import write
 from tests.core.test_mesh_relation import CELL, CUBE, L_SHAPE, SMALL, moved

@@ -1,4 +1,4 @@
-"""What a peer can say about a pair, and whether that agrees with the proven relation.
+"""`--cross-check`: what another library says about a pair, and whether it agrees with the proof.
 
 Each is only asked what it can tell. python-fcl: do the surfaces meet? It sees no body inside
 another, and surfaces that only touch are a matter of rounding to it, so it is not asked about
@@ -16,10 +16,10 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.cross_check.peers import Peers
 from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS
 from satcheck.core.errors import SatcheckError
+from satcheck.core.peers import Peers
 
 DISAGREEMENT = "cross-check-disagreement"
 

@@ -14,7 +14,7 @@ from satcheck.core.worker import Worker, WorkerError
 MISSING: Final = "cross-check-missing"
 # Module: the name to install it by.
 _LIBRARIES: Final = {"fcl": "python-fcl", "manifold3d": "manifold3d"}
-_FCL_SERVER: Final = "satcheck.audit.cross_check.fcl_server"
+_FCL_SERVER: Final = "satcheck.core.fcl_server"
 
 
 class Peers:

@@ -1,1 +1,0 @@
-"""`--cross-check`: what other libraries say about a pair that was decided here."""
