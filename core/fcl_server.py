@@ -7,7 +7,7 @@ contacts only the count is used; it does not see a body inside another.
 
 from __future__ import annotations
 
-from satcheck.core.blocks import unpack_blocks
+import msgspec
 
 
 def serve(request: bytes) -> bytes:
@@ -15,7 +15,7 @@ def serve(request: bytes) -> bytes:
     import fcl
     import numpy as np
 
-    blocks = unpack_blocks(request)
+    blocks = msgspec.msgpack.decode(request, type=list[bytes])
     bodies = []
     for points, corners in zip(blocks[0::2], blocks[1::2], strict=True):
         vertices = np.frombuffer(points, dtype="<f8").reshape(-1, 3)

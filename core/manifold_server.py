@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, Final
 
-from satcheck.core.blocks import unpack_blocks
+import msgspec
 
 if TYPE_CHECKING:
     import manifold3d
@@ -29,7 +29,7 @@ def serve(request: bytes) -> bytes:
     """
     import numpy as np
 
-    blocks = unpack_blocks(request)
+    blocks = msgspec.msgpack.decode(request, type=list[bytes])
     vertices = [np.frombuffer(block, dtype="<f8").reshape(-1, 3) for block in blocks[0::2]]
     triangles = [np.frombuffer(block, dtype="<u4").reshape(-1, 3) for block in blocks[1::2]]
     centre, exponent = _frame(vertices)

@@ -7,10 +7,10 @@ import math
 from types import TracebackType
 from typing import Final
 
+import msgspec
 from msgspec import Struct
 
 from satcheck.core._native import Mesh
-from satcheck.core.blocks import pack_blocks
 from satcheck.core.errors import SatcheckError
 from satcheck.core.worker import Worker, WorkerError
 
@@ -54,7 +54,7 @@ class VolumeMeter:
         """
         try:
             reply = self._worker.ask(
-                pack_blocks([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
+                msgspec.msgpack.encode([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
             )
         except WorkerError as error:
             raise SatcheckError("volume-failed", f"no volume: {error.message}") from error

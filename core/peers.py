@@ -5,8 +5,9 @@ from __future__ import annotations
 from contextlib import ExitStack
 from typing import Final
 
+import msgspec
+
 from satcheck.core import Mesh
-from satcheck.core.blocks import pack_blocks
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import OverlapVolume, VolumeMeter
 from satcheck.core.worker import Worker, WorkerError
@@ -43,7 +44,7 @@ class Peers:
         """By python-fcl. Raises SatcheckError (`cross-check-failed`) when it gives no answer."""
         try:
             reply = self._fcl.ask(
-                pack_blocks([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
+                msgspec.msgpack.encode([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
             )
         except WorkerError as error:
             raise SatcheckError("cross-check-failed", error.message) from error

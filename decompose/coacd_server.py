@@ -11,61 +11,68 @@ origin and scaled by a power of two to unit size. The scaling is exact both ways
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+from msgspec import Struct
 
 from satcheck.core import Mesh
-from satcheck.core.blocks import pack_blocks, unpack_blocks
+from satcheck.decompose.result import MeshBytes
 from satcheck.decompose.settings import DecompositionSettings
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-_MANIFOLD: Final = b"manifold"
-_NOT_MANIFOLD: Final = b"not manifold"
+
+class _Piece(Struct, frozen=True):
+    """manifold: closed, and each edge has two triangles. CoACD crashes on other meshes, and
+    rebuilds them from voxels first."""
+
+    mesh: MeshBytes
+    manifold: bool
+
+
+class _Request(Struct, frozen=True):
+    settings: DecompositionSettings
+    pieces: list[_Piece]
 
 
 def encode_request(settings: DecompositionSettings, meshes: Sequence[Mesh]) -> bytes:
-    """Meshes that are no closed manifolds are rebuilt from voxels by CoACD: it crashes on them."""
-    blocks = [settings.to_bytes()]
-    for mesh in meshes:
-        blocks += [_MANIFOLD if mesh.topology().manifold else _NOT_MANIFOLD, *mesh.to_bytes()]
-    return pack_blocks(blocks)
+    pieces = [_Piece(mesh.to_bytes(), mesh.topology().manifold) for mesh in meshes]
+    return msgspec.msgpack.encode(_Request(settings, pieces))
 
 
-def decode_reply(reply: bytes) -> list[tuple[bytes, bytes]]:
+def decode_reply(reply: bytes) -> list[MeshBytes]:
     """The parts of all meshes, in order. Raises ValueError on a malformed reply."""
-    blocks = unpack_blocks(reply)
-    return list(zip(blocks[0::2], blocks[1::2], strict=True))
+    return msgspec.msgpack.decode(reply, type=list[MeshBytes])
 
 
-def serve(request: bytes) -> bytes:
+def serve(message: bytes) -> bytes:
     import coacd  # type: ignore[import-untyped]
     import numpy as np
 
     coacd.set_log_level("off")
-    settings_block, *mesh_blocks = unpack_blocks(request)
-    settings = DecompositionSettings.from_bytes(settings_block)
-    blocks = []
-    for kind, vertex_block, triangle_block in zip(
-        mesh_blocks[0::3], mesh_blocks[1::3], mesh_blocks[2::3], strict=True
-    ):
-        vertices = np.frombuffer(vertex_block, dtype="<f8").reshape(-1, 3)
-        triangles = np.frombuffer(triangle_block, dtype="<u4").reshape(-1, 3)
+    request = msgspec.msgpack.decode(message, type=_Request)
+    settings = request.settings
+    parts: list[MeshBytes] = []
+    for piece in request.pieces:
+        vertices = np.frombuffer(piece.mesh[0], dtype="<f8").reshape(-1, 3)
+        triangles = np.frombuffer(piece.mesh[1], dtype="<u4").reshape(-1, 3)
         centre, exponent = _unit_frame(vertices)
-        parts = coacd.run_coacd(
+        found = coacd.run_coacd(
             coacd.Mesh(np.ldexp(vertices - centre, -exponent), triangles.astype(np.int32)),
             threshold=settings.threshold,
-            preprocess_mode="off" if kind == _MANIFOLD else "auto",
+            preprocess_mode="off" if piece.manifold else "auto",
             resolution=settings.resolution,
             mcts_nodes=settings.mcts_nodes,
             mcts_iterations=settings.mcts_iterations,
             seed=settings.seed,
         )
-        for part_vertices, part_triangles in parts:
-            blocks.append((np.ldexp(part_vertices, exponent) + centre).astype("<f8").tobytes())
-            blocks.append(part_triangles.astype("<u4").tobytes())
-    return pack_blocks(blocks)
+        for points, corners in found:
+            placed = np.ldexp(points, exponent) + centre
+            parts.append((placed.astype("<f8").tobytes(), corners.astype("<u4").tobytes()))
+    return msgspec.msgpack.encode(parts)
 
 
 def _unit_frame(vertices: NDArray[np.float64]) -> tuple[NDArray[Any], int]:

@@ -17,11 +17,9 @@ from satcheck.core.worker import (
 from satcheck.decompose import errors
 from satcheck.decompose.coacd_server import decode_reply, encode_request
 from satcheck.decompose.components import diagonal, independent_pieces
-from satcheck.decompose.deadline import Deadline
-from satcheck.decompose.errors import DecompositionError
+from satcheck.decompose.error_bounds import missing_error, outside_error
+from satcheck.decompose.errors import Deadline, DecompositionError
 from satcheck.decompose.inner_parts import inner_parts
-from satcheck.decompose.missing import missing_error
-from satcheck.decompose.outside import outside_error
 from satcheck.decompose.result import FLAT_PARTS_DROPPED, NOT_SOLID, REMESHED, Decomposition, Note
 from satcheck.decompose.settings import DecompositionSettings
 

@@ -6,6 +6,7 @@ import hashlib
 import time
 from typing import Final
 
+import msgspec
 from msgspec.structs import replace
 
 from satcheck.core import Mesh, Polytope
@@ -16,7 +17,7 @@ from satcheck.decompose.result import CACHE_UNAVAILABLE, Decomposition, Note, de
 from satcheck.decompose.settings import DecompositionSettings
 
 # Counted up when anything that decides the content of a cache entry changes, its layout included.
-_SCHEMA: Final = b"satcheck-parts-2"
+_SCHEMA: Final = b"satcheck-parts-3"
 
 
 def decompose(
@@ -68,7 +69,7 @@ def cache_key(mesh: Mesh, settings: DecompositionSettings) -> bytes:
     for block in (
         _SCHEMA,
         version("coacd").encode(),
-        settings.to_bytes(),
+        msgspec.msgpack.encode(settings),
         *mesh.to_bytes(),
     ):
         digest.update(len(block).to_bytes(8, "little"))

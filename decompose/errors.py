@@ -1,7 +1,9 @@
-"""Why a mesh has no convex parts: the codes of decomposition failures, in one place."""
+"""Why a mesh has no convex parts: the codes of failures, and the deadline."""
 
 from __future__ import annotations
 
+import math
+import time
 from typing import Final
 
 from satcheck.core.errors import SatcheckError
@@ -22,3 +24,29 @@ CODES: Final = frozenset(
 
 class DecompositionError(SatcheckError):
     """The mesh could not be split into convex parts; `code` is one of CODES."""
+
+
+class Deadline:
+    """CoACD ends by it, and so does what is done with its parts. seconds: from now, wall clock."""
+
+    def __init__(self, seconds: float) -> None:
+        self.seconds = seconds
+        self._end = time.monotonic() + seconds
+
+    @property
+    def left(self) -> float:
+        return max(0.0, self._end - time.monotonic())
+
+    def check(self) -> None:
+        """Raises DecompositionError once it is over. To be asked in every long loop."""
+        if time.monotonic() > self._end:
+            raise self.error()
+
+    def error(self) -> DecompositionError:
+        return DecompositionError(
+            TIMEOUT,
+            f"no convex parts after {self.seconds:g} s; raise the limit or the threshold",
+        )
+
+
+NEVER = Deadline(math.inf)

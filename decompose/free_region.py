@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 
 from satcheck.core import Mesh, Polytope, Surface
-from satcheck.decompose.deadline import NEVER, Deadline
+from satcheck.decompose.errors import NEVER, Deadline
 from satcheck.decompose.half_spaces import (
     NOISE,
     HalfSpaces,

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from satcheck.core import Mesh, Polytope, Surface, mesh_relation
-from satcheck.decompose.deadline import NEVER, Deadline
+from satcheck.decompose.errors import NEVER, Deadline
 from satcheck.decompose.free_region import free_region
 
 # Tried in this order: contact from inside, rounding far from the origin, shallow dents, deep ones.

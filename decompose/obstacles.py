@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from satcheck.decompose.deadline import NEVER, Deadline
+from satcheck.decompose.errors import NEVER, Deadline
 from satcheck.decompose.half_spaces import NOISE, HalfSpaces
 from satcheck.decompose.polygons import Point, common_part
 

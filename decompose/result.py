@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import struct
 from typing import Final
 
+import msgspec
 from msgspec import Struct
 
 from satcheck.core import Mesh, Polytope
-from satcheck.core.blocks import pack_blocks, unpack_blocks
 from satcheck.decompose.settings import DecompositionSettings
 
 NOT_SOLID: Final = "decomposition-not-solid"
@@ -16,8 +15,7 @@ REMESHED: Final = "decomposition-remeshed"
 FLAT_PARTS_DROPPED: Final = "decomposition-flat-parts-dropped"
 CACHE_UNAVAILABLE: Final = "decomposition-cache-unavailable"
 
-_NUMBERS: Final = struct.Struct("<ddd")
-_COUNTS: Final = struct.Struct("<QQ")
+MeshBytes = tuple[bytes, bytes]  # as of Mesh.to_bytes()
 
 
 class Note(Struct, frozen=True):
@@ -51,47 +49,41 @@ class Decomposition(Struct, frozen=True):
     notes: tuple[Note, ...]
 
 
+class _Entry(Struct, frozen=True):
+    """What a cache entry holds: all but `from_cache` and `settings`, which the reader knows."""
+
+    parts: tuple[MeshBytes, ...]
+    inner: tuple[MeshBytes | None, ...]
+    outside: float
+    missing: float
+    seconds: float
+    notes: tuple[Note, ...]
+
+
 def encode(result: Decomposition) -> bytes:
-    """Everything but `from_cache` and `settings`, which the reader knows."""
-    blocks = [
-        _NUMBERS.pack(result.outside, result.missing, result.seconds),
-        _COUNTS.pack(len(result.parts), len(result.notes)),
-    ]
-    for polytope in result.parts + result.inner:
-        blocks += (b"", b"") if polytope is None else polytope.to_mesh().to_bytes()
-    for note in result.notes:
-        blocks += [note.code.encode(), note.message.encode()]
-    return pack_blocks(blocks)
+    entry = _Entry(
+        parts=tuple(part.to_mesh().to_bytes() for part in result.parts),
+        inner=tuple(part.to_mesh().to_bytes() if part else None for part in result.inner),
+        outside=result.outside,
+        missing=result.missing,
+        seconds=result.seconds,
+        notes=result.notes,
+    )
+    return msgspec.msgpack.encode(entry)
 
 
 def decode(data: bytes, settings: DecompositionSettings) -> Decomposition:
     """Raises ValueError unless `data` is what encode() makes."""
-    blocks = unpack_blocks(data)
-    try:
-        outside, missing, seconds = _NUMBERS.unpack(blocks[0])
-        part_count, note_count = _COUNTS.unpack(blocks[1])
-    except (IndexError, struct.error) as error:
-        raise ValueError("the head of the entry is malformed") from error
-    if len(blocks) != 2 + 4 * part_count + 2 * note_count:
-        raise ValueError(f"{len(blocks)} blocks for {part_count} parts and {note_count} notes")
-    bodies = [
-        Mesh.from_bytes(blocks[index], blocks[index + 1]).convex_hull() if blocks[index] else None
-        for index in range(2, 2 + 4 * part_count, 2)
-    ]
-    parts = tuple(part for part in bodies[:part_count] if part is not None)
-    if len(parts) != part_count:
-        raise ValueError("a part is empty")
-    notes = blocks[2 + 4 * part_count :]
+    entry = msgspec.msgpack.decode(data, type=_Entry)
+    if len(entry.inner) != len(entry.parts) or any(not vertices for vertices, _ in entry.parts):
+        raise ValueError("a part is empty, or has no inner part beside it")
     return Decomposition(
-        parts=parts,
-        inner=tuple(bodies[part_count:]),
-        outside=outside,
-        missing=missing,
-        seconds=seconds,
+        parts=tuple(Mesh.from_bytes(*part).convex_hull() for part in entry.parts),
+        inner=tuple(part and Mesh.from_bytes(*part).convex_hull() for part in entry.inner),
+        outside=entry.outside,
+        missing=entry.missing,
+        seconds=entry.seconds,
         from_cache=True,
         settings=settings,
-        notes=tuple(
-            Note(code.decode(), message.decode())
-            for code, message in zip(notes[0::2], notes[1::2], strict=True)
-        ),
+        notes=entry.notes,
     )

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import struct
-from typing import Final, Self
+from typing import Final
 
 from msgspec import Struct
 
 from satcheck.decompose.errors import BAD_SETTING, DecompositionError
 
 _SEED_LIMIT: Final = 1 << 32  # CoACD's seed is a C unsigned int
-_LAYOUT: Final = struct.Struct("<dIIII")
 
 
 class DecompositionSettings(Struct, frozen=True):
@@ -42,13 +40,3 @@ class DecompositionSettings(Struct, frozen=True):
                 BAD_SETTING,
                 f"the decomposition seed is {self.seed}; it must be from 0 to {_SEED_LIMIT - 1}",
             )
-
-    def to_bytes(self) -> bytes:
-        return _LAYOUT.pack(
-            self.threshold, self.seed, self.mcts_iterations, self.mcts_nodes, self.resolution
-        )
-
-    @classmethod
-    def from_bytes(cls, data: bytes) -> Self:
-        threshold, seed, iterations, nodes, resolution = _LAYOUT.unpack(data)
-        return cls(threshold, seed, iterations, nodes, resolution)

@@ -196,12 +196,12 @@ def test_the_memory_limit_is_kept(torus: Mesh) -> None:
         ("raise RuntimeError('no')", codes.FAILED),
         ("return b'no blocks'", codes.BAD_OUTPUT),
         (
-            "from satcheck.core.blocks import pack_blocks; return pack_blocks([])",
+            "import msgspec; return msgspec.msgpack.encode([])",
             codes.BAD_OUTPUT,
         ),
         (
-            "from satcheck.core.blocks import pack_blocks; import struct; "
-            "return pack_blocks([struct.pack('<9d', *[float('nan')] * 9), b''])",
+            "import msgspec, struct; nan = struct.pack('<9d', *[float('nan')] * 9); "
+            "return msgspec.msgpack.encode([(nan, b'')])",
             codes.BAD_OUTPUT,
         ),
     ],
@@ -209,7 +209,7 @@ def test_the_memory_limit_is_kept(torus: Mesh) -> None:
 def test_whatever_the_child_does_is_a_code(
     l_shape: Mesh, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, body: str, code: str
 ) -> None:
-    head = "from satcheck.core import blocks\ndef serve(request):\n    "
+    head = "def serve(request):\n    "
     (tmp_path / "bad_server.py").write_text(head + body)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
     monkeypatch.setattr(computation, "_SERVER", "bad_server")

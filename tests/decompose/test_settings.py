@@ -22,8 +22,3 @@ def test_a_seed_out_of_range_is_refused(seed: int) -> None:
     with pytest.raises(DecompositionError) as caught:
         DecompositionSettings(seed=seed)
     assert caught.value.code == BAD_SETTING
-
-
-def test_bytes_carry_every_field() -> None:
-    settings = DecompositionSettings(0.125, 7, 11, 13, 17)
-    assert DecompositionSettings.from_bytes(settings.to_bytes()) == settings

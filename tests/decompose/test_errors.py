@@ -7,11 +7,11 @@ import pytest
 
 from satcheck.core import Mesh, Surface
 from satcheck.decompose import DecompositionError, computation, decompose, errors
-from satcheck.decompose.deadline import NEVER, Deadline
+from satcheck.decompose.error_bounds import missing_error
+from satcheck.decompose.errors import NEVER, Deadline
 from satcheck.decompose.free_region import free_region
 from satcheck.decompose.half_spaces import around
 from satcheck.decompose.inner_parts import inner_parts
-from satcheck.decompose.missing import missing_error
 from satcheck.decompose.obstacles import surface_inside
 
 OVER = Deadline(-1.0)

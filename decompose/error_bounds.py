@@ -1,4 +1,6 @@
-"""How far a mesh sticks out of the union of its convex parts: a proven and tight upper bound.
+"""How far convex parts and the mesh they came from stick out of each other: proven upper bounds.
+
+Outside, of the parts: `core.deviation`. Missing, of the mesh, tight:
 
 The distance to a convex body is a convex function, so over a convex polygon it is largest at a
 corner. The mesh's triangles are cut along the parts into polygons, and each polygon is given to one
@@ -20,9 +22,9 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from satcheck.core import Mesh, Polytope, Surface
+from satcheck.core import Mesh, Polytope, Surface, deviation
 from satcheck.decompose.components import diagonal
-from satcheck.decompose.deadline import NEVER, Deadline
+from satcheck.decompose.errors import NEVER, Deadline
 from satcheck.decompose.half_spaces import around
 from satcheck.decompose.polygons import Plane, Point, Polygon, without
 
@@ -37,6 +39,25 @@ _FIRST_SLACK_FAR: Final = 1e-13
 _SLACK_GROWTH: Final = 1.5
 # Roundings of a distance and of a cut point, in units of the largest coordinate.
 _ROUNDINGS: Final = 64.0 * 2.0**-53
+# Slack of the bound, in diagonals of the mesh's bounding box for a threshold of 1. Parts stick out
+# by about 0.3 * threshold, so the first slack keeps the bound meaningful; the second is for parts
+# that stick out by next to nothing.
+_SLACKS: Final = (0.02, 0.005)
+_WIDE: Final = 1.25  # upper over lower bound that is not worth the finer slack
+
+
+def outside_error(parts: Sequence[Polytope], surface: Surface, threshold: float) -> float:
+    """Upper bound of max over points of the parts' surfaces of the distance to the mesh."""
+    unit = threshold * diagonal(surface.mesh)
+    meshes = [part.to_mesh() for part in parts]
+    bounds = [deviation(mesh, surface, _SLACKS[0] * unit) for mesh in meshes]
+    for slack in _SLACKS[1:]:
+        enough = _WIDE * max(lower for lower, _ in bounds)
+        bounds = [
+            deviation(mesh, surface, slack * unit) if bound[1] > enough else bound
+            for mesh, bound in zip(meshes, bounds, strict=True)
+        ]
+    return max(upper for _, upper in bounds)
 
 
 def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NEVER) -> float:

@@ -1,4 +1,4 @@
-"""decompose/outside.py: the reported bound holds what dense sampling finds, and not much more."""
+"""decompose/error_bounds.py, what is outside: the reported bound holds what dense sampling finds, and not much more."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from satcheck.core import Mesh, Surface
 from satcheck.decompose import decompose
 from satcheck.decompose.components import diagonal
-from satcheck.decompose.outside import outside_error
+from satcheck.decompose.error_bounds import outside_error
 from tests.decompose.brute_force import solid_distance, surface_samples
 
 STEPS = 3

@@ -1,4 +1,4 @@
-"""decompose/missing.py: the reported bound holds what dense sampling finds, and not much more."""
+"""decompose/error_bounds.py, what is missing: the reported bound holds what dense sampling finds, and not much more."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from satcheck.core import Mesh, Surface, deviation
 from satcheck.decompose import decompose
 from satcheck.decompose.components import diagonal, merged
-from satcheck.decompose.missing import missing_error
+from satcheck.decompose.error_bounds import missing_error
 from tests.decompose.brute_force import solid_distance, surface_samples
 
 STEPS = 4
