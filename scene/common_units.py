@@ -16,9 +16,9 @@ from msgspec.structs import replace
 from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body, Transform
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.units import MICROMETRES, is_unit, ratio, stated_unit, unit_in
+from satcheck.scene.words import listed
 
 Kind = Literal["mesh", "scene", "robot"]
-_SHOWN = 5  # files in one message
 
 
 class Input:
@@ -151,7 +151,7 @@ def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[I
     for (scale, unit), paths in files.items():
         own = unit_in(unit, scale)
         times = repr(scale).removesuffix(".0")
-        message = f"{_listed(list(paths))}: converted from {own} to {unit}, times {times}"
+        message = f"{listed(list(paths))}: converted from {own} to {unit}, times {times}"
         notes.append(issue("units-converted", message, file=next(iter(paths))))
     return notes
 
@@ -168,14 +168,9 @@ def _unknown(bodies: Sequence[Body], inputs: Sequence[Input]) -> list[Issue]:
         path = body.file.path if owner.path == unsaid else owner.path
         files.setdefault(body.units, {})[path] = None
     unstated = list(files.pop(None, {})) or [unsaid or ""]
-    known = " and ".join(f"{_listed(list(paths))} in {unit}" for unit, paths in files.items())
+    known = " and ".join(f"{listed(list(paths))} in {unit}" for unit, paths in files.items())
     message = (
-        f"{_listed(unstated)}: no unit of length is stated, beside {known}: their pairs are not "
+        f"{listed(unstated)}: no unit of length is stated, beside {known}: their pairs are not "
         f"decided. State the unit: {'`units` in the scene' if unsaid else '--units'}"
     )
     return [issue(UNITS_UNKNOWN, message, file=unstated[0])]
-
-
-def _listed(paths: Sequence[str]) -> str:
-    more = f" and {len(paths) - _SHOWN} more" if len(paths) > _SHOWN else ""
-    return ", ".join(paths[:_SHOWN]) + more

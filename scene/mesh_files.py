@@ -17,6 +17,7 @@ from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
     from satcheck.core.shapes import Primitive
@@ -141,7 +142,7 @@ class MeshFiles:
         by_path = self._by_path[self._absolute(location), components]
         if part in by_path:
             return by_path[part]
-        message = f"there is no part {part!r} in the file{_meant(part, by_path)}"
+        message = f"there is no part {part!r} in the file{meant(part, filter(None, by_path))}"
         return MeshFileError("unknown-part", message, file=path)
 
     def shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
@@ -157,13 +158,6 @@ class MeshFiles:
                 found = error
             self._shapes[key] = found
         return found
-
-
-def _meant(part: str, known: Iterable[str | None]) -> str:
-    from difflib import get_close_matches
-
-    close = get_close_matches(part, [name for name in known if name], n=1)
-    return f" (did you mean {close[0]!r}?)" if close else ""
 
 
 def _is_large(location: Path) -> bool:

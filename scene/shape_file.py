@@ -1,10 +1,13 @@
-"""A primitive shape as if it came from a mesh file of its own."""
+"""Meshes that are in no file, as if they were: those of shapes, and new ones of a file."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 
+from msgspec.structs import replace
+
+from satcheck.core import Mesh
 from satcheck.core.power_of_two import exponent_into_range, exponent_of
 from satcheck.core.shape_mesh import DEFAULT_SEGMENTS, mesh_of
 from satcheck.core.shapes import Primitive, sizes_of, times_power_of_two, values_of
@@ -47,4 +50,20 @@ def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) ->
         health=examined.health,
         issues=(),
         exponent=exponent,
+    )
+
+
+def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
+    """The file with this mesh, inspected and repaired as one that was read.
+
+    sha256 is that of the mesh, so that nothing known about the file's own is taken for this one.
+    Raises MeshFileError when no triangle has an area.
+    """
+    examined = examine(mesh, resolution=lambda _: file.resolution)
+    return replace(
+        file,
+        sha256=hashlib.sha256(b"".join(mesh.to_bytes())).hexdigest(),
+        mesh=examined.mesh,
+        topology=examined.topology,
+        health=examined.health,
     )

@@ -19,7 +19,7 @@ from satcheck.core import Mesh
 from satcheck.core.curved.freeing import move_off
 from satcheck.core.shape_mesh import mesh_around
 from satcheck.core.tolerances import rounding_pad
-from satcheck.scene.remeshed import remeshed
+from satcheck.scene.shape_file import remeshed
 
 
 def sandwiched_depth(pair: Pair, move: Vector | None, plan: Plan) -> Depth:

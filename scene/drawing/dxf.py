@@ -23,9 +23,9 @@ from satcheck.scene.drawing.contour import (
     Tracer,
 )
 from satcheck.scene.drawing.dxf_entities import ANNOTATIONS, Outline, outline_of
-from satcheck.scene.drawing.expansion import refuse_explosion
 from satcheck.scene.drawing.joining import Line, join
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.placing import MAX_DEPTH, refuse_explosion
 
 _UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 13: "um"}
 _OF_THE_REFERENCE = "0"  # the layer whose entities lie on that of the reference to their block
@@ -59,7 +59,7 @@ class _Reading:
     def shapes(self) -> Iterator[DrawnShape | RefusedShape]:
         space = self._document.modelspace()
         root = str(space.block_record_name)
-        refuse_explosion(root, self._held, self._size, lambda name: f"block {name!r}")
+        refuse_explosion([root], self._held, self._size, lambda name: f"block {name!r}", MAX_DEPTH)
         loose: list[Outline] = []
         for entity in self._shown(space, _OF_THE_REFERENCE):
             kind, handle = entity.dxftype(), entity.dxf.handle

@@ -17,7 +17,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.scene.drawing.contour import Affine, Drawing, DrawnShape, RefusedShape
-from satcheck.scene.drawing.expansion import refuse_explosion
 from satcheck.scene.drawing.svg_shapes import SHAPES, outlines
 from satcheck.scene.drawing.svg_size import drawn_size
 from satcheck.scene.drawing.svg_style import Style, StyleSheets
@@ -32,6 +31,7 @@ from satcheck.scene.drawing.svg_values import (
     view_box,
 )
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.loading.placing import MAX_DEPTH, refuse_explosion
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_xml
 
 _NAMESPACE = "http://www.w3.org/2000/svg"
@@ -104,7 +104,7 @@ class _Reading:
         self.warnings: set[str] = set()
 
     def shapes(self) -> Iterator[DrawnShape | RefusedShape]:
-        refuse_explosion(self._root, self._held, lambda _: 1, _describe)
+        refuse_explosion([self._root], self._held, lambda _: 1, _describe, MAX_DEPTH)
         style = self._sheets.style_of(self._root, Style(), True)
         if self._root.get("transform"):
             raise unread("<svg>: a transform of the whole drawing is not read")

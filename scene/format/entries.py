@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
+from satcheck.scene.issue import Issue, issue
+from satcheck.scene.units import is_unit
+from satcheck.scene.words import meant
+
 if TYPE_CHECKING:
     from satcheck.core.shapes import Primitive
     from satcheck.scene.bodies import Transform
-    from satcheck.scene.issue import Issue
     from satcheck.scene.motion import Motion
     from satcheck.scene.rules import Rule
 
@@ -59,3 +63,24 @@ class SceneFile(Struct, frozen=True):
     rules: tuple[Rule, ...]
     motions: tuple[Motion, ...]
     issues: tuple[Issue, ...]
+
+
+def unknown_units(units: str | None, path: str) -> list[Issue]:
+    """A warning about units that a scene declares and that are none."""
+    if units is None or is_unit(units):
+        return []
+    message = f"unknown units {units!r}: lengths are plain numbers"
+    return [issue("unknown-units", message, file=path)]
+
+
+def unknown_groups(ignored: frozenset[str], bodies: Iterable[BodyEntry], path: str) -> list[Issue]:
+    """Warnings about groups of ignore_within_groups that have no body."""
+    groups = {group for body in bodies for group in body.groups}
+    return [
+        issue(
+            "unknown-group",
+            f"no body is in group {group!r} of ignore_within_groups{meant(group, groups)}",
+            file=path,
+        )
+        for group in sorted(ignored - groups)
+    ]

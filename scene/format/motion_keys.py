@@ -8,9 +8,8 @@ from typing import Any
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.format.entries import BodyEntry
-from satcheck.scene.format.placement import quaternion
+from satcheck.scene.format.placement import Quaternion, quaternion, quaternion_of_euler
 from satcheck.scene.format.problems import Wrong, dotted
-from satcheck.scene.format.rotation import Quaternion, quaternion_of_euler
 from satcheck.scene.format.rule_keys import selector
 from satcheck.scene.format.table import Table
 from satcheck.scene.format.values import items, number, shown, triple

@@ -6,10 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from satcheck.core.transform import Rotation, of_quaternion
+from satcheck.core.transform import Rotation, about_fixed_axes, cos_sin, of_quaternion
 from satcheck.scene.bodies import Transform
 from satcheck.scene.format.problems import Wrong
-from satcheck.scene.format.rotation import Quaternion, of_euler
 from satcheck.scene.format.table import Table
 from satcheck.scene.format.values import (
     Triple,
@@ -32,6 +31,8 @@ KEYS = frozenset((*PARTS, "matrix"))
 _NO_TURN: Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 _NO_SCALE = (1.0, 1.0, 1.0)
 _ORIGIN = (0.0, 0.0, 0.0)
+
+Quaternion = tuple[float, float, float, float]  # (x, y, z, w)
 
 
 def placement(table: Table) -> Transform | None:
@@ -130,3 +131,20 @@ def _scale(value: Any) -> Triple:
     if 0.0 in factors:
         raise Wrong("a scale of 0 leaves nothing", code="singular-transform")
     return factors
+
+
+def of_euler(degrees: Sequence[float]) -> Rotation:
+    """Turned about the fixed axes x, then y, then z. Quarter turns are exact."""
+    x, y, z = map(cos_sin, degrees)
+    return about_fixed_axes(x, y, z)
+
+
+def quaternion_of_euler(degrees: Sequence[float]) -> Quaternion:
+    """The same turn as a unit quaternion (x, y, z, w)."""
+    (cx, sx), (cy, sy), (cz, sz) = (cos_sin(angle / 2.0) for angle in degrees)
+    return (
+        sx * cy * cz - cx * sy * sz,
+        cx * sy * cz + sx * cy * sz,
+        cx * cy * sz - sx * sy * cz,
+        cx * cy * cz + sx * sy * sz,
+    )

@@ -9,13 +9,18 @@ from __future__ import annotations
 from typing import Any
 
 from satcheck.core.shapes import PRIMITIVES, Primitive, primitive_of
-from satcheck.scene.format.entries import NO_MESH, BodyEntry, SceneFile
+from satcheck.scene.format.entries import (
+    NO_MESH,
+    BodyEntry,
+    SceneFile,
+    unknown_groups,
+    unknown_units,
+)
 from satcheck.scene.format.mesh_places import MeshPlaces
 from satcheck.scene.format.motion_keys import read_motion
 from satcheck.scene.format.placement import KEYS as PLACEMENT_KEYS
 from satcheck.scene.format.placement import placement
 from satcheck.scene.format.problems import Problems, Wrong
-from satcheck.scene.format.remarks import unknown_groups, unknown_units
 from satcheck.scene.format.rule_keys import read_rule
 from satcheck.scene.format.table import Table
 from satcheck.scene.format.text import Parsed

@@ -15,15 +15,14 @@ from __future__ import annotations
 from typing import Any
 
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.format.entries import BodyEntry, SceneFile
+from satcheck.scene.format.entries import BodyEntry, SceneFile, unknown_groups, unknown_units
 from satcheck.scene.format.mesh_places import MeshPlaces
 from satcheck.scene.format.placement import is_4x4, singular, sixteen
 from satcheck.scene.format.problems import Wrong
-from satcheck.scene.format.remarks import unknown_groups, unknown_units
 from satcheck.scene.format.text import Parsed
-from satcheck.scene.format.values import meant
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.rules import Rule, Selector
+from satcheck.scene.words import meant
 
 _BODY_KEYS = frozenset(("id", "mesh", "transform", "group", "static"))
 _SCENE_KEYS = frozenset(

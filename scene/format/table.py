@@ -7,7 +7,8 @@ from typing import Any, TypeVar
 
 from satcheck.scene.format.positions import Keys
 from satcheck.scene.format.problems import Problems, Wrong
-from satcheck.scene.format.values import Reader, meant, shown
+from satcheck.scene.format.values import Reader, shown
+from satcheck.scene.words import meant
 
 T = TypeVar("T")
 D = TypeVar("D")

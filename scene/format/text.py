@@ -11,9 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import SceneFileError
-from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.regular_file import read_whole
 
 if TYPE_CHECKING:
     from satcheck.scene.format.positions import Positions
@@ -49,20 +48,11 @@ def is_toml(location: Path) -> bool:
 
 def read_text(path: str, location: Path) -> str:
     """Raises SceneFileError. path: for messages."""
+    data = read_whole(path, location, _MAX_BYTES, SceneFileError)
     try:
-        if size_of(location) > _MAX_BYTES:
-            raise SceneFileError("too-large", f"larger than {_MAX_BYTES} bytes", file=path)
-        # Line ends as they are. The codec utf-8-sig is slow, and to be imported.
-        return location.read_bytes().removeprefix(BOM_UTF8).decode()
-    except SceneFileError:
-        raise
-    except SatcheckError as error:
-        raise SceneFileError(error.code, error.message, file=path) from None
+        return data.removeprefix(BOM_UTF8).decode()  # line ends as they are
     except UnicodeDecodeError:
         raise SceneFileError("bad-encoding", "the scene file is not UTF-8", file=path) from None
-    except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise SceneFileError("unreadable-file", reason, file=path) from None
 
 
 def parse(path: str, location: Path) -> Parsed:

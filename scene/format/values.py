@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from functools import lru_cache
 from typing import Any, TypeVar
 
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.units import MICROMETRES, unit_of
+from satcheck.scene.words import meant
 
 T = TypeVar("T")
 Reader = Callable[[Any], T]
@@ -131,16 +131,3 @@ def shown(value: Any) -> str:
     if isinstance(value, list):
         return f"a list of {len(value)}"
     return "keys and values" if isinstance(value, dict) else "a date or a time"
-
-
-def meant(word: str, known: Iterable[str], form: str = " (did you mean {}?)") -> str:
-    """A question for the known word that `word` resembles most, empty when it resembles none."""
-    close = _closest(word, frozenset(known))
-    return form.format(repr(close)) if close else ""
-
-
-@lru_cache(maxsize=64)  # who misspells a key of one body misspells it in all of them
-def _closest(word: str, known: frozenset[str]) -> str | None:
-    from difflib import get_close_matches
-
-    return next(iter(get_close_matches(word, sorted(known), n=1)), None)

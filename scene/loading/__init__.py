@@ -18,7 +18,7 @@ from satcheck.scene.health import Examined, examine, examine_bytes
 from satcheck.scene.issue import issue
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
-from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone, into_range
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.resolution import file_resolution, placement_step
@@ -127,8 +127,6 @@ def _in_range(raw: RawMesh, make: Callable[[RawMesh], Made]) -> tuple[RawMesh, M
     try:
         return raw, make(raw)
     except OverflowError:
-        from satcheck.scene.loading.into_range import into_range
-
         scaled = into_range(raw)
         return scaled, make(scaled)
 

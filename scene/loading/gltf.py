@@ -27,13 +27,11 @@ from satcheck.scene.loading.gltf_buffers import (
     split_glb,
 )
 from satcheck.scene.loading.gltf_meshes import DRACO, Meshes, Shape, Skin
-from satcheck.scene.loading.placing import Instance, instances, multiply, tidy_name
+from satcheck.scene.loading.placing import Instance, instances, multiply, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import (
     NO_SURFACE,
     Matrix,
     RawMesh,
-    RawNode,
-    RawPart,
     RawScene,
     Refusal,
 )
@@ -139,23 +137,17 @@ class _Scene:
             name=self._name,
             kind="node",
         )
-        placed = [(self._shape(node.key), node) for node in nodes]
-        shapes = {shape: place for place, shape in enumerate(dict.fromkeys(s for s, _ in placed))}
-        meshes = [self._mesh(shape) for shape in shapes]
+        paths = UniqueNames()
+        placed = [
+            Instance(self._shape(node.key), matrix, paths.unique(path))
+            for node in nodes
+            for path, matrix in self._copies(node)
+        ]
+        scene = raw_scene(placed, lambda shape: self._mesh_name(shape.mesh), self._mesh)
+        meshes = [part.mesh for part in scene.parts]
         if all(isinstance(mesh, Refusal) and mesh.code == NO_SURFACE for mesh in meshes):
             raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
-        names, paths = UniqueNames(), UniqueNames()
-        return RawScene(
-            parts=tuple(
-                RawPart(names.unique(self._mesh_name(shape.mesh)), mesh)
-                for shape, mesh in zip(shapes, meshes, strict=True)
-            ),
-            nodes=tuple(
-                RawNode(paths.unique(path), shapes[shape], matrix)
-                for shape, node in placed
-                for path, matrix in self._copies(node)
-            ),
-        )
+        return scene
 
     def _shape(self, number: int) -> Shape:
         node, mesh = self._nodes[number], self._mesh_of(number)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import Generic, TypeVar
 
@@ -10,12 +11,13 @@ from msgspec import Struct
 from satcheck.core.transform import compose
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import Matrix
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 
 _LONGEST_NAME = 80
 _LONGEST_PATH = 200  # of a deep graph the last steps are kept
 _CUT = "..."
+MAX_DEPTH = 200  # of the elements of a drawing: deeper than any program writes them
 
 Key = TypeVar("Key", bound=Hashable)
 
@@ -41,9 +43,12 @@ def instances(
     children: the parts placed inside a part; kind: what a part is called in messages. Depth first,
     in the order of the file. Raises MeshFileError for a circle, and for more parts than the limit.
     """
-    total = _total(roots, children, lambda key: f"{kind} {name(key)!r}")
-    if total > limits.MAX_PLACEMENTS:
-        raise MeshFileError("too-large", f"{total} placed parts exceed {limits.MAX_PLACEMENTS}")
+    refuse_explosion(
+        [root for root, _ in roots],
+        lambda key: [(child, 1) for child, _ in children(key)],
+        lambda _: 1,
+        lambda key: f"{kind} {name(key)!r}",
+    )
     paths = UniqueNames()
     found = []
     stack = list(_named("", roots, name))[::-1]
@@ -79,27 +84,56 @@ def tidy_name(name: object, otherwise: str) -> str:
     return shown.replace(COMPONENT_MARK, "").strip() or otherwise
 
 
-def _total(
-    roots: Sequence[tuple[Key, Matrix | None]],
-    children: Callable[[Key], Sequence[tuple[Key, Matrix | None]]],
+def refuse_explosion(
+    roots: Iterable[Key],
+    within: Callable[[Key], Iterable[tuple[Key, int]]],
+    size: Callable[[Key], int],
     describe: Callable[[Key], str],
-) -> int:
-    """Placements of all parts together, each part visited once."""
+    most_depth: float = math.inf,
+) -> None:
+    """What references expand to is counted before any of it is made; each thing is visited once.
+
+    within: what a thing holds directly, and how often. size: what it counts by itself, without
+    that. Raises MeshFileError: a thing contains itself, or is too deep or too much in all.
+    """
     totals: dict[Key, int] = {}
+    depths: dict[Key, int] = {}
     open_: set[Key] = set()
-    stack = [(root, False) for root, _ in roots]
+    roots = list(roots)
+    stack = [(root, False) for root in roots]
     while stack:
         key, closing = stack.pop()
         if closing:
             open_.discard(key)
-            totals[key] = 1 + sum(totals[child] for child, _ in children(key))
+            held = list(within(key))
+            totals[key] = size(key) + sum(times * totals[child] for child, times in held)
+            depths[key] = 1 + max((depths[child] for child, _ in held), default=0)
         elif key in open_:
             raise MeshFileError("reference-cycle", f"{describe(key)} contains itself: a cycle")
         elif key not in totals:
             open_.add(key)
             stack.append((key, True))
-            stack.extend((child, False) for child, _ in children(key))
-    return sum(totals[root] for root, _ in roots)
+            stack.extend((child, False) for child, _ in within(key))
+    total = sum(totals[root] for root in roots)
+    if total > limits.MAX_PLACEMENTS:
+        message = f"its references expand to {total} elements, more than {limits.MAX_PLACEMENTS}"
+        raise MeshFileError("too-large", message)
+    if max((depths[root] for root in roots), default=0) > most_depth:
+        raise MeshFileError("too-large", f"elements are nested deeper than {most_depth}")
+
+
+def raw_scene(
+    nodes: Sequence[Instance[Key]],
+    name: Callable[[Key], str],
+    mesh: Callable[[Key], RawMesh | Refusal],
+) -> RawScene:
+    """Each part once, however many nodes have it."""
+    used = {key: place for place, key in enumerate(dict.fromkeys(node.key for node in nodes))}
+    names = UniqueNames()
+    return RawScene(
+        parts=tuple(RawPart(names.unique(name(key)), mesh(key)) for key in used),
+        nodes=tuple(RawNode(node.path, used[node.key], node.matrix) for node in nodes),
+    )
 
 
 def multiply(outer: Matrix | None, inner: Matrix | None) -> Matrix | None:

@@ -1,13 +1,15 @@
-"""Whether a path names a file that can be read from start to end, asked without opening it."""
+"""Files that can be read from start to end: pipes, devices and folders cannot."""
 
 from __future__ import annotations
 
 import stat
 from pathlib import Path
+from typing import TypeVar
 
 from satcheck.core.errors import SatcheckError
 
 STANDARD_INPUT = "-"
+E = TypeVar("E", bound=SatcheckError)
 
 # Opening one of these may block for ever, or read without an end.
 _SPECIAL = (
@@ -36,3 +38,16 @@ def size_of(location: Path) -> int:
         kind = next((name for test, name in _SPECIAL if test(status.st_mode)), "a special file")
         raise SatcheckError("not-a-file", f"is {kind}, not a file: not read")
     return status.st_size
+
+
+def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
+    """All bytes of a file. Raises an error of this kind, with the path, for what is not a regular
+    file, what has more bytes than `most`, and what cannot be read."""
+    try:
+        if size_of(location) > most:
+            raise SatcheckError("too-large", f"larger than {most} bytes")
+        return location.read_bytes()
+    except SatcheckError as error:
+        raise kind(error.code, error.message, file=path) from None
+    except OSError as error:
+        raise kind("unreadable-file", f"cannot be read: {error.strerror}", file=path) from None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import hashlib
 from collections.abc import Mapping
 from pathlib import Path
@@ -29,7 +30,13 @@ FORMATS = {
     ".xaml": "xaml",
 }
 
-_MARKS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\0\0\xfe\xff")
+# The longer marks first: the mark of UTF-32 begins like that of UTF-16.
+_WIDE_MARKS = (
+    (codecs.BOM_UTF32_LE, "utf-32-le"),
+    (codecs.BOM_UTF32_BE, "utf-32-be"),
+    (codecs.BOM_UTF16_LE, "utf-16-le"),
+    (codecs.BOM_UTF16_BE, "utf-16-be"),
+)
 # Formats of text, or of text and numbers behind it, that may begin with a byte order mark. XML is
 # not among them: its parser knows the mark, and what the text says of its own encoding.
 _MARKED_FORMATS = frozenset({"obj", "stl", "ply", "off", "gltf"})
@@ -142,14 +149,18 @@ def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
 
 
 def _without_mark(path: str, data: bytes) -> bytes:
-    if not data.startswith(_MARKS):
-        return data
-    from satcheck.scene.loading.byte_order_mark import without_byte_order_mark
-
-    try:
-        return without_byte_order_mark(data)
-    except MeshFileError as error:
-        raise MeshFileError(error.code, error.message, file=path) from None
+    """Text that begins with a byte order mark, as UTF-8 without one."""
+    if data.startswith(codecs.BOM_UTF8):
+        return data[len(codecs.BOM_UTF8) :]
+    for mark, encoding in _WIDE_MARKS:
+        if data.startswith(mark):
+            try:
+                return data[len(mark) :].decode(encoding).encode()
+            except UnicodeError:
+                name = encoding[: len("utf-16")].upper()
+                message = f"the byte order mark is that of {name}, the text is not"
+                raise MeshFileError("bad-encoding", message, file=path) from None
+    return data
 
 
 def _size(path: str, location: Path) -> int:

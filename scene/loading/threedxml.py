@@ -10,12 +10,11 @@ from __future__ import annotations
 import zipfile
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.placing import instances, tidy_name
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawScene, Refusal
 from satcheck.scene.loading.written_mesh import WrittenMesh, of_fan, of_strip
 from satcheck.scene.loading.xml_tree import Element, read_elements
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
-from satcheck.scene.plain_ids import UniqueNames
 
 _URN = "urn:3DXML:"
 _UNITS = "millimeter"
@@ -55,12 +54,7 @@ class _Assembly:
         )
         if not nodes:
             raise MeshFileError("empty-mesh", "empty mesh: the product has no part")
-        used = {key: place for place, key in enumerate(dict.fromkeys(node.key for node in nodes))}
-        names = UniqueNames()
-        return RawScene(
-            parts=tuple(RawPart(names.unique(self._names[key]), self._part(key)) for key in used),
-            nodes=tuple(RawNode(node.path, used[node.key], node.matrix) for node in nodes),
-        )
+        return raw_scene(nodes, lambda key: self._names[key], self._part)
 
     def _document(self, name: str) -> Element:
         if name not in self._archive.namelist():

@@ -8,19 +8,51 @@ items and components; supports count like any other object.
 
 from __future__ import annotations
 
+import math
+import posixpath
 import zipfile
+from array import array
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import IO
 
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.placing import instances
-from satcheck.scene.loading.raw_mesh import RawNode, RawPart, RawScene
-from satcheck.scene.loading.threemf_model import ENCODINGS, Model, Object, part_name, read_model
-from satcheck.scene.loading.xml_tree import UnboundPrefix, read_elements
+from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
+from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawScene, Refusal
+from satcheck.scene.loading.written_mesh import digits_of
+from satcheck.scene.loading.xml_tree import (
+    UNDECLARED,
+    UnboundPrefix,
+    UndeclaredPrefixes,
+    guarded_parser,
+    parse_stream,
+    read_elements,
+    split_name,
+)
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
-from satcheck.scene.plain_ids import UniqueNames
 
 _START_PART = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
 _DEFAULT_PART = "3D/3dmodel.model"
+_CORE = frozenset(
+    {
+        "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+        "http://schemas.microsoft.com/3dmanufacturing/2013/01",
+    }
+)
+_OBJECT = frozenset(f"{namespace} object" for namespace in _CORE)
+_BUILD = frozenset(f"{namespace} build" for namespace in _CORE)
+# Any other element of the core namespace in an object or in the build is misspelt.
+_KNOWN = frozenset({"mesh", "vertices", "triangles", "components", "metadatagroup", "metadata"})
+_PRODUCTION_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
+# Extensions a model may require and that leave its triangles as they are.
+_HARMLESS = ("/production/", "/material/", "/slice/", "/trianglesets/")
+_ENCODINGS = frozenset({"utf-8", "utf-16"})
+_DEFAULT_UNIT = "millimeter"
+_MESH = frozenset({"vertex", "triangle"})  # what is wrong with them concerns their object alone
+# Elements of extensions that make a body of something else than triangles, or add to these.
+_OTHER_GEOMETRY = frozenset(
+    {"beamlattice", "booleanshape", "displacementmesh", "levelset", "volumedata"}
+)
 
 
 def read_3mf(data: memoryview) -> RawScene:
@@ -52,14 +84,10 @@ class _Package:
         )
         if not nodes:
             raise MeshFileError("empty-mesh", "empty mesh: the build has no triangles")
-        used = {key: place for place, key in enumerate(dict.fromkeys(node.key for node in nodes))}
-        names = UniqueNames()
-        return RawScene(
-            parts=tuple(
-                RawPart(names.unique(object_.name), object_.mesh(root.unit))
-                for object_ in (self._object(*key) for key in used)
-            ),
-            nodes=tuple(RawNode(node.path, used[node.key], node.matrix) for node in nodes),
+        return raw_scene(
+            nodes,
+            lambda key: self._object(*key).name,
+            lambda key: self._object(*key).mesh(root.unit),
         )
 
     def _start_part(self) -> str:
@@ -67,7 +95,7 @@ class _Package:
         if relationships is None:
             return _DEFAULT_PART
         with self._open(relationships) as stream:
-            root = read_elements(stream, encodings=ENCODINGS)
+            root = read_elements(stream, encodings=_ENCODINGS)
         targets = [
             element.attributes.get("Target", _DEFAULT_PART)
             for element in root.below()
@@ -98,3 +126,225 @@ class _Package:
         if object_ is None:
             raise MeshFileError("index-out-of-range", f"unknown object id {id_!r} in {part!r}")
         return object_
+
+
+@dataclass(slots=True)
+class Object:
+    """decimals, significant: as in RawMesh. refusal: the first thing wrong with its mesh."""
+
+    name: str
+    vertices: array[float] = field(default_factory=lambda: array("d"))
+    triangles: array[int] = field(default_factory=lambda: array("I"))
+    references: list[Reference] = field(default_factory=list)
+    decimals: int = 0
+    significant: int = 0
+    refusal: MeshFileError | None = None
+
+    @property
+    def is_empty(self) -> bool:
+        return not (self.refusal or self.triangles or self.references)
+
+    @property
+    def has_mesh(self) -> bool:
+        return self.refusal is not None or bool(self.triangles)
+
+    def mesh(self, unit: str) -> RawMesh | Refusal:
+        if self.refusal is not None:
+            return Refusal(self.refusal.code, self.refusal.message)
+        return RawMesh(
+            vertices=self.vertices.tobytes(),
+            triangles=self.triangles.tobytes(),
+            precision="written-digits",
+            decimals=self.decimals,
+            significant=self.significant,
+            units=unit,
+        )
+
+
+@dataclass(slots=True)
+class Reference:
+    """A component or a build item: object `id` of `part`, placed by `matrix` (row-major 4x4)."""
+
+    part: str
+    id: str
+    matrix: Matrix | None
+
+
+@dataclass(slots=True)
+class Model:
+    unit: str = _DEFAULT_UNIT
+    objects: dict[str, Object] = field(default_factory=dict)
+    items: list[Reference] = field(default_factory=list)
+
+
+def read_model(part: str, stream: IO[bytes], *, undeclared_prefixes: bool = False) -> Model:
+    """part: its name in the package. undeclared_prefixes: whether XML prefixes need no declaration,
+    as some programs write those of their own data; within an object they do.
+
+    Raises MeshFileError; what is wrong with the mesh of one object is kept with it.
+    """
+    return _ModelReader(part, undeclared_prefixes).read(stream)
+
+
+def part_name(target: str) -> str:
+    return posixpath.normpath(posixpath.join("/", target)).lstrip("/")
+
+
+class _ModelReader:
+    """Nothing but coordinates, indices and references is kept."""
+
+    def __init__(self, part: str, undeclared_prefixes: bool) -> None:
+        self._part = part
+        self._model = Model()
+        self._object: Object | None = None
+        self._in_object = self._in_build = False
+        self._parser = guarded_parser(_ENCODINGS, namespaces=not undeclared_prefixes)
+        self._prefixes: dict[str | None, str] = {}
+        self._undeclared: UndeclaredPrefixes | None = None
+        if undeclared_prefixes:
+            self._undeclared = UndeclaredPrefixes(self._parser, self._on_element, self._on_end)
+        else:
+            self._parser.StartElementHandler = self._on_element
+            self._parser.EndElementHandler = self._on_end
+            self._parser.StartNamespaceDeclHandler = self._on_namespace
+        self._handlers = {
+            "model": self._on_model,
+            "object": self._on_object,
+            "vertex": self._on_vertex,
+            "triangle": self._on_triangle,
+            "component": self._on_component,
+            "item": self._on_item,
+        }
+
+    def read(self, stream: IO[bytes]) -> Model:
+        parse_stream(self._parser, stream)
+        for id_, object_ in self._model.objects.items():
+            if object_.is_empty:
+                object_.refusal = MeshFileError("empty-mesh", f"object {id_!r} has no triangles")
+            count = len(object_.vertices) // 3
+            if object_.refusal is None and max(object_.triangles, default=-1) >= count:
+                object_.refusal = MeshFileError(
+                    "index-out-of-range",
+                    f"object {id_!r}: face index out of range: "
+                    f"{max(object_.triangles)} of {count} vertices",
+                )
+        return self._model
+
+    def _fail(self, code: str, message: str) -> MeshFileError:
+        line = self._parser.CurrentLineNumber
+        return MeshFileError(code, f"{self._part}, line {line}: {message}")
+
+    def _on_namespace(self, prefix: str | None, uri: str) -> None:
+        self._prefixes[prefix] = uri
+
+    def _on_element(self, name: str, attributes: dict[str, str]) -> None:
+        namespace, local = split_name(name)
+        handler = self._handlers.get(local) if namespace in _CORE else None
+        if handler is None:
+            self._on_other(namespace, local)
+            return
+        try:
+            self._handle(handler, local, attributes)
+        except MeshFileError as error:
+            if self._object is None or local not in _MESH:
+                raise
+            self._object.refusal = self._object.refusal or error
+
+    def _on_end(self, name: str) -> None:
+        if name in _OBJECT:
+            self._in_object = False
+        elif name in _BUILD:
+            self._in_build = False
+
+    def _on_other(self, namespace: str, local: str) -> None:
+        """What holds no coordinates and places nothing, as far as we know."""
+        if local == "build" and namespace in _CORE:
+            self._in_build = True
+        elif not (self._in_object or self._in_build):
+            return
+        elif local in _OTHER_GEOMETRY:
+            self._refuse(f"<{local}> is not read")
+        elif namespace in _CORE and local not in _KNOWN:
+            self._refuse(f"<{local}> is unknown: it could be geometry")
+        elif namespace.startswith(UNDECLARED):
+            prefix = namespace.removeprefix(UNDECLARED)
+            self._refuse(f"<{prefix}:{local}> could be geometry: its prefix is not declared")
+
+    def _refuse(self, message: str) -> None:
+        """Refuses the object that is read, or all of the build."""
+        refusal = self._fail("unsupported-feature", message)
+        if self._object is None or self._in_build:
+            raise refusal
+        self._object.refusal = self._object.refusal or refusal
+
+    def _handle(
+        self, handler: Callable[[dict[str, str]], None], local: str, attributes: dict[str, str]
+    ) -> None:
+        try:
+            handler(attributes)
+        except KeyError as error:
+            raise self._fail("bad-record", f"<{local}> lacks {error.args[0]!r}") from None
+        except (ValueError, OverflowError) as error:
+            raise self._fail("bad-record", f"<{local}>: {error}") from None
+
+    def _on_model(self, attributes: dict[str, str]) -> None:
+        self._model.unit = attributes.get("unit", _DEFAULT_UNIT)
+        for prefix in attributes.get("requiredextensions", "").split():
+            known = self._undeclared.namespace(prefix) if self._undeclared else None
+            uri = known or self._prefixes.get(prefix, prefix)
+            if not any(part in uri for part in _HARMLESS):
+                raise self._fail("unsupported-feature", f"the model requires extension {uri!r}")
+
+    def _on_object(self, attributes: dict[str, str]) -> None:
+        id_ = attributes["id"]
+        if id_ in self._model.objects:
+            raise self._fail("bad-record", f"object id {id_!r} occurs twice")
+        name = tidy_name(attributes.get("name"), tidy_name(f"object{id_}", "object"))
+        self._object = self._model.objects[id_] = Object(name)
+        self._in_object = True
+
+    def _current(self) -> Object:
+        if self._object is None:
+            raise self._fail("bad-record", "geometry outside of an object")
+        return self._object
+
+    def _on_vertex(self, attributes: dict[str, str]) -> None:
+        object_ = self._current()
+        for axis in ("x", "y", "z"):
+            text = attributes[axis]
+            value = float(text)
+            if not math.isfinite(value):
+                raise self._fail("non-finite", f"non-finite coordinate {text[:24]!r}")
+            object_.vertices.append(value)
+            _note_digits(object_, text)
+
+    def _on_triangle(self, attributes: dict[str, str]) -> None:
+        triangles = self._current().triangles
+        triangles.extend((int(attributes["v1"]), int(attributes["v2"]), int(attributes["v3"])))
+
+    def _on_component(self, attributes: dict[str, str]) -> None:
+        self._current().references.append(self._reference(attributes))
+
+    def _on_item(self, attributes: dict[str, str]) -> None:
+        self._model.items.append(self._reference(attributes))
+
+    def _reference(self, attributes: dict[str, str]) -> Reference:
+        path = attributes.get(_PRODUCTION_PATH)
+        part = part_name(path) if path else self._part
+        return Reference(part, attributes["objectid"], self._matrix(attributes))
+
+    def _matrix(self, attributes: dict[str, str]) -> Matrix | None:
+        """3MF writes 4x3 values for row vectors; here they become a 4x4 for column vectors."""
+        if "transform" not in attributes:
+            return None
+        values = [float(word) for word in attributes["transform"].split()]
+        if len(values) != 12 or not all(map(math.isfinite, values)):
+            raise self._fail("bad-record", "a transform needs 12 finite numbers")
+        rows = [(*values[axis::3],) for axis in range(3)]
+        return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
+
+
+def _note_digits(object_: Object, text: str) -> None:
+    decimals, significant = digits_of(text)
+    object_.decimals = max(object_.decimals, decimals)
+    object_.significant = max(object_.significant, significant)

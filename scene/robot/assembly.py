@@ -22,9 +22,9 @@ from satcheck.scene.robot.packages import MeshPlaces
 from satcheck.scene.robot.poses import Pose, settle
 from satcheck.scene.robot.srdf import Srdf, State
 from satcheck.scene.rules import Rule, Selector
+from satcheck.scene.words import listed
 
 SAME_LINK = "one rigid link"
-_SHOWN = 5
 
 
 class Part(Struct, frozen=True):
@@ -124,7 +124,7 @@ def bare_links(robot: Robot) -> list[Issue]:
     have = "link has" if len(bare) == 1 else "links have"
     message = (
         f"{len(bare)} {have} visual geometry and no <collision>, so no body is checked: "
-        f"{_listed(bare)}"
+        f"{listed(bare)}"
     )
     return [issue("no-collision-geometry", message, file=robot.file)]
 
@@ -268,11 +268,6 @@ def _checked_neighbours(robot: SceneRobot) -> list[Issue]:
     pairs = "pair" if len(checked) == 1 else "pairs"
     message = (
         f"{len(checked)} {pairs} of links with a joint between them are checked like any other, "
-        f"as no SRDF allows them to touch: {_listed(checked)}"
+        f"as no SRDF allows them to touch: {listed(checked)}"
     )
     return [issue("neighbours-checked", message, file=robot.robot.file)]
-
-
-def _listed(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return ", ".join(names[:_SHOWN]) + more

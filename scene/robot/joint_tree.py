@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 
 from satcheck.scene.robot.model import Joint, Link
 from satcheck.scene.robot.xml_tree import Element
-
-_SHOWN = 5
+from satcheck.scene.words import listed, meant
 
 
 def in_order(
@@ -23,8 +21,7 @@ def in_order(
     for joint, element in joints:
         for role, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in links:
-                close = get_close_matches(link, sorted(links), n=1)
-                hint = f" (did you mean {close[0]!r}?)" if close else ""
+                hint = meant(link, links)
                 element.need(role).refuse(
                     f"joint {joint.name!r} names link {link!r}, which is not there{hint}",
                     "index-out-of-range",
@@ -37,9 +34,8 @@ def in_order(
         carriers[joint.child] = joint
     roots = [name for name in links if name not in carriers]
     if len(roots) > 1:
-        robot.refuse(
-            f"{len(roots)} links are carried by no joint, only the root may be: {_named(roots)}"
-        )
+        names = listed([repr(root) for root in roots])
+        robot.refuse(f"{len(roots)} links are carried by no joint, only the root may be: {names}")
     ordered = _walk(roots, [joint for joint, _ in joints])
     if len(ordered) < len(joints):
         reached = {*roots, *(joint.child for joint in ordered)}
@@ -83,8 +79,3 @@ def _check_mimics(joints: Sequence[tuple[Joint, Element]]) -> None:
             if leader in chain:
                 element.refuse(f"joint {joint.name!r} mimics itself in the end", "reference-cycle")
             chain.append(leader)
-
-
-def _named(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return ", ".join(map(repr, names[:_SHOWN])) + more

@@ -12,7 +12,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -20,10 +19,11 @@ from msgspec import Struct
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.issue import Issue, issue
-from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.robot.kinematics import Values
 from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.srdf import State
+from satcheck.scene.words import meant
 
 Pose = Mapping[str, Values]
 # Up to this, what a mimic joint is said to do and what it does are the same: states are written
@@ -128,14 +128,9 @@ def _movable(robots: Sequence[Robot]) -> dict[str, Joint]:
 
 def _text(path: str) -> str:
     try:
-        if size_of(Path(path)) > _MAX_BYTES:
-            raise SatcheckError("too-large", f"larger than {_MAX_BYTES} bytes", file=path)
-        return Path(path).read_text("utf-8-sig")
+        return read_whole(path, Path(path), _MAX_BYTES, SatcheckError).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise SatcheckError("bad-encoding", "the file of poses is not UTF-8", file=path) from None
-    except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise SatcheckError("unreadable-file", reason, file=path) from None
     except SatcheckError as error:
         hint = '; values themselves are written {"joint": value}' if "=" in path else ""
         raise SatcheckError(error.code, error.message + hint, file=path) from None
@@ -176,9 +171,7 @@ def _check_named(
 ) -> None:
     owners = [robot.name for robot in robots if robot.joint(name) is not None]
     if not owners:
-        close = get_close_matches(name, list(movable), n=1)
-        hint = f" (did you mean {close[0]!r}?)" if close else ""
-        raise SatcheckError("bad-pose", f"unknown joint {name!r}{hint}")
+        raise SatcheckError("bad-pose", f"unknown joint {name!r}{meant(name, movable)}")
     if len(owners) > 1:
         raise SatcheckError("bad-pose", f"joint {name!r}: robots {' and '.join(owners)} have it")
     if name not in movable:

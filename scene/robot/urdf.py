@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 from typing import NoReturn, get_args
 
 from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.bodies import IDENTITY
-from satcheck.scene.issue import Issue
+from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.joint_tree import in_order
 from satcheck.scene.robot.kinematics import from_quaternion, from_rpy
 from satcheck.scene.robot.model import (
@@ -32,8 +31,8 @@ from satcheck.scene.robot.model import (
     Robot,
     Vector,
 )
-from satcheck.scene.robot.slips import Slips
 from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
+from satcheck.scene.words import meant
 
 _KINDS: tuple[JointKind, ...] = get_args(JointKind)
 _X: Vector = (1.0, 0.0, 0.0)  # the axis where none is given
@@ -62,10 +61,30 @@ def read_urdf(path: str, location: Path) -> tuple[Robot, tuple[Issue, ...]]:
     return _Reader(path).read(read_tree(path, location, "robot"))
 
 
+class _Slips:
+    """Harmless mistakes, in the order of the file: one warning for each cause."""
+
+    def __init__(self) -> None:
+        self._lines: dict[tuple[str, str], list[int]] = {}
+
+    def note(self, code: str, element: Element, cause: str) -> None:
+        self._lines.setdefault((code, cause), []).append(element.line)
+
+    def issues(self, file: str) -> tuple[Issue, ...]:
+        return tuple(
+            issue(code, f"line {lines[0]}: {cause}{_more(lines)}", file=file)
+            for (code, cause), lines in self._lines.items()
+        )
+
+
+def _more(lines: list[int]) -> str:
+    return f" ({len(lines)} times)" if len(lines) > 1 else ""
+
+
 class _Reader:
     def __init__(self, path: str) -> None:
         self._path = path
-        self._slips = Slips()
+        self._slips = _Slips()
 
     def read(self, root: Element) -> tuple[Robot, tuple[Issue, ...]]:
         links: dict[str, Link] = {}
@@ -183,8 +202,7 @@ class _Reader:
     def _note_unknown(self, element: Element, known: frozenset[str]) -> None:
         for child in element.children:
             if child.tag not in known and child.tag not in _EXTENSIONS and ":" not in child.tag:
-                close = get_close_matches(child.tag, sorted(known), n=1)
-                hint = f" (did you mean <{close[0]}>?)" if close else ""
+                hint = meant(child.tag, known)
                 cause = f"unknown <{child.tag}> in <{element.tag}>{hint}: ignored"
                 self._slips.note("unknown-element", child, cause)
 

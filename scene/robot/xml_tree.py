@@ -8,16 +8,15 @@ import re
 from collections.abc import Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import partial
 from pathlib import Path
 from typing import NoReturn, Self
 
-from satcheck.core.errors import SatcheckError
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.loading import xml_tree
-from satcheck.scene.loading.regular_file import size_of
+from satcheck.scene.loading.regular_file import read_whole
 from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, parse_xml
+from satcheck.scene.words import meant
 
 _MAX_BYTES = 64 << 20
 # What C reads as a decimal number; float() would take more ("1_0", "nan", digits of any script).
@@ -95,9 +94,8 @@ class Element(xml_tree.Element):
         """
         for name in self.attributes:
             if name not in attributes and ":" not in name:
-                close = get_close_matches(name, sorted(attributes), n=1)
-                hint = f" (did you mean {close[0]!r}?)" if close else ""
-                if close or not others:
+                hint = meant(name, attributes)
+                if hint or not others:
                     self.refuse(f"unknown attribute {name!r}{hint}")
 
     def refuse(self, message: str, code: str = "bad-robot") -> NoReturn:
@@ -120,18 +118,7 @@ def read_tree(path: str, location: Path, root: str) -> Element:
 
     Texts between elements are left out. Raises SceneFileError, with the line.
     """
-    try:
-        if size_of(location) > _MAX_BYTES:
-            raise SceneFileError("too-large", f"larger than {_MAX_BYTES} bytes", file=path)
-        data = location.read_bytes()
-    except SceneFileError:
-        raise
-    except SatcheckError as error:
-        raise SceneFileError(error.code, error.message, file=path) from None
-    except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise SceneFileError("unreadable-file", reason, file=path) from None
-    document = _parse(path, data)
+    document = _parse(path, read_whole(path, location, _MAX_BYTES, SceneFileError))
     if document.tag != root:
         document.refuse(f"the outermost element should be <{root}>", "not-this-format")
     _refuse_macros(document)

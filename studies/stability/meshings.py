@@ -9,7 +9,7 @@ from numpy.random import Generator
 
 from satcheck.core import Mesh
 from satcheck.scene import Body, MeshFile
-from satcheck.scene.remeshed import remeshed
+from satcheck.scene.shape_file import remeshed
 from satcheck.studies.stability.bounds import one_ulp, rounded_once
 from satcheck.studies.stability.retessellation import retessellate
 from satcheck.studies.stability.variant import Points, Question, Variant, body

@@ -211,7 +211,7 @@ REFUSED = {
             '<item objectid="11"/>',
         ),
         "too-large",
-        "placed parts",
+        "references expand",
     ),
     "encoding.3mf": (
         files.package_3mf(

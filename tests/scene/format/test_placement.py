@@ -7,9 +7,8 @@ import math
 import pytest
 
 from satcheck.core.transform import of_quaternion
-from satcheck.scene.format.placement import placement
+from satcheck.scene.format.placement import of_euler, placement, quaternion_of_euler
 from satcheck.scene.format.problems import Problems
-from satcheck.scene.format.rotation import of_euler, quaternion_of_euler
 from satcheck.scene.format.table import Table
 
 HALF = math.sqrt(0.5)

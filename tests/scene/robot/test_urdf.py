@@ -249,7 +249,7 @@ def test_what_is_misspelt_is_told_and_what_simulators_add_is_not(tmp_path: Path)
     _, issues = read_urdf("r.urdf", path)
     assert {issue.code for issue in issues} == {"unknown-element"}
     assert [issue.message for issue in issues] == [
-        "line 2: unknown <colision> in <link> (did you mean <collision>?): ignored (2 times)",
+        "line 2: unknown <colision> in <link> (did you mean 'collision'?): ignored (2 times)",
         "line 3: unknown <x> in <link>: ignored",
     ]
 

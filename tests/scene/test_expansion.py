@@ -6,16 +6,16 @@ from itertools import pairwise
 
 import pytest
 
-from satcheck.scene.drawing.expansion import MAX_DEPTH, refuse_explosion
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.limits import MAX_PLACEMENTS
+from satcheck.scene.loading.placing import MAX_DEPTH, refuse_explosion
 
 Held = dict[str, list[tuple[str, int]]]
 
 
 def refused(held: Held, size: int = 1) -> str | None:
     try:
-        refuse_explosion("root", lambda key: held.get(key, []), lambda _: size, str)
+        refuse_explosion(["root"], lambda key: held.get(key, []), lambda _: size, str, MAX_DEPTH)
     except MeshFileError as error:
         return f"{error.code}: {error.message}"
     return None
