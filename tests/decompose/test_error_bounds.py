@@ -1,4 +1,4 @@
-"""decompose/error_bounds.py, what is missing: the reported bound holds what dense sampling finds, and not much more."""
+"""decompose/error_bounds.py, missing: the bound holds what dense sampling finds, not much more."""
 
 from __future__ import annotations
 
