@@ -67,7 +67,7 @@ def check(
     earlier checks of the same bodies elsewhere, with the same settings, computed; this one adds to
     it.
 
-    Raises SatcheckError (`too-few-bodies`, `cross-check-missing`; from loading: what the scene
+    Raises SatcheckError (`too-few-bodies`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
     """
     scene = _loaded(scene, settings)

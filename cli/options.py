@@ -187,6 +187,14 @@ jobs_option = click.option(
     show_default=True,
     help="Threads; 0 is one per core. Changes no answer.",
 )
+cache_option = click.option(
+    "--no-cache",
+    "cache",
+    is_flag=True,
+    flag_value=False,
+    default=DEFAULTS.cache,
+    help="Neither read nor write the cache of convex parts.",
+)
 debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")
 package_option = click.option(
     "--package",

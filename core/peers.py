@@ -12,17 +12,13 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import OverlapVolume, VolumeMeter
 from satcheck.core.worker import Worker, WorkerError
 
-MISSING: Final = "cross-check-missing"
-# Module: the name to install it by.
-_LIBRARIES: Final = {"fcl": "python-fcl", "manifold3d": "manifold3d"}
 _FCL_SERVER: Final = "satcheck.core.fcl_server"
 
 
 class Peers:
     """python-fcl and manifold3d; to be used in a `with`. A child starts with its first question.
 
-    seconds: for one question. megabytes: of each child. Raises SatcheckError
-    (`cross-check-missing`) where a library is not installed.
+    seconds: for one question. megabytes: of each child.
     """
 
     def __init__(self, *, seconds: float, megabytes: int, fcl_server: str = _FCL_SERVER) -> None:
@@ -30,7 +26,6 @@ class Peers:
         self._fcl = Worker(fcl_server, megabytes=megabytes)
         self._meter = VolumeMeter(seconds=seconds, megabytes=megabytes)
         self._open = ExitStack()
-        _require_installed()
 
     def __enter__(self) -> Peers:
         self._open.enter_context(self._fcl)
@@ -53,14 +48,3 @@ class Peers:
     def common_volume(self, a: Mesh, b: Mesh) -> OverlapVolume:
         """By manifold3d. Raises SatcheckError when it cannot use a mesh or gives no answer."""
         return self._meter.measure(a, b)
-
-
-def _require_installed() -> None:
-    from importlib.util import find_spec
-
-    missing = [name for module, name in _LIBRARIES.items() if find_spec(module) is None]
-    if missing:
-        raise SatcheckError(
-            MISSING,
-            f"cannot cross-check without {' and '.join(missing)}: pip install {' '.join(missing)}",
-        )

@@ -6,6 +6,7 @@ from __future__ import annotations
 # help of each command says the same.
 COMMANDS = {
     "cache": "The cache of convex parts: info, clear.",
+    "decompose": "Split meshes into convex parts, for physics engines.",
     "resolve": "Move the bodies of a scene apart, by short translations.",
     "schema": "Print the JSON Schema of the report of a command, or of a scene file.",
     "stability": "Ask the same question in other ways: does the answer stay?",

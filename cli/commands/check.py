@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 from msgspec.structs import replace
@@ -16,11 +16,12 @@ from satcheck.audit.asked.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.samples import Samples, check_poses
 from satcheck.cli import exit_codes
 from satcheck.cli.commands import COMMANDS
-from satcheck.cli.inputs import Inputs, load, poses_of, refuse_early
+from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     DEFAULTS,
     HELP_NAMES,
     Command,
+    cache_option,
     debug_option,
     form_of,
     form_option,
@@ -45,7 +46,10 @@ from satcheck.cli.report.json import render as render_json
 from satcheck.cli.report.summary import samples_line, summary_line
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.scene import Scene
-from satcheck.scene.robot import Pose, posed
+
+if TYPE_CHECKING:
+    from satcheck.scene.robot import Pose
+
 
 # With -o at most this many warnings are repeated on stderr.
 WARNINGS = 5
@@ -172,14 +176,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Add evidence to the proven verdicts of a JSON report; satcheck verify checks it.",
 )
 @jobs_option
-@click.option(
-    "--no-cache",
-    "cache",
-    is_flag=True,
-    flag_value=False,
-    default=DEFAULTS.cache,
-    help="Neither read nor write the cache of convex parts, which only --accuracy parts uses.",
-)
+@cache_option
 @click.option(
     "--no-timings",
     "timings",
@@ -234,14 +231,13 @@ def command(
     failed = any(issue.severity == "error" for issue in scene.issues)
     if failed and len(scene.bodies) < 2 and form == "table":
         return exit_codes.ERROR  # every pair would be an empty row, and the error is told
-    poses = poses_of(scene, inputs) if inputs.has_poses else {}
+    scene, poses = _placed(scene, inputs)
     result: Report | Samples
-    if isinstance(poses, list):
+    if poses is None:
+        result = _check(scene, settings_of(options, scene))
+    else:
         _refuse_of_poses(explain=explain, **options)
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
-    else:
-        scene = posed(scene, poses) if inputs.has_poses else scene
-        result = _check(scene, settings_of(options, scene))
     document.deliver(
         lambda page: _render(result, form, page, explain=explain, timings=options["timings"]),
         output,
@@ -259,6 +255,18 @@ def _collect_garbage(scene: Scene) -> None:
     ):
         gc.enable()
         gc.set_threshold(COLLECT_AFTER)
+
+
+def _placed(scene: Scene, inputs: Inputs) -> tuple[Scene, list[Pose] | None]:
+    """The scene in the pose of the options, or the poses to check where there are several."""
+    if not inputs.has_poses:
+        return scene, None
+    # With the readers of robots comes numpy.
+    from satcheck.cli.posing import poses_of
+    from satcheck.scene.robot import posed
+
+    poses = poses_of(scene, inputs)
+    return (scene, poses) if isinstance(poses, list) else (posed(scene, poses), None)
 
 
 def _check(scene: Scene, settings: Settings) -> Report:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from satcheck.audit import Report, Settings, check
 from satcheck.audit.resolve import Resolution, proof_of, resolve
 from satcheck.cli import exit_codes
-from satcheck.cli.inputs import Inputs, load, poses_of, refuse_early
+from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
     Command,
@@ -33,6 +33,7 @@ from satcheck.cli.options import (
     units_option,
 )
 from satcheck.cli.output import Document, Page, talk, write_file
+from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import issue_line

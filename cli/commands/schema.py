@@ -10,6 +10,7 @@ from satcheck.cli.report.schema import text
 
 DOCUMENTS = (
     "report",
+    "decomposition",
     "resolution",
     "samples",
     "scene",

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.suggest import Suggestions, suggest
 from satcheck.cli import exit_codes
-from satcheck.cli.inputs import Inputs, load, poses_of, refuse_early
+from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
     Command,
@@ -26,6 +26,7 @@ from satcheck.cli.options import (
     units_option,
 )
 from satcheck.cli.output import Document, talk
+from satcheck.cli.posing import poses_of
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.suggest import chosen, remark, srdf, toml

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 from pathlib import Path
 
 import pytest
@@ -16,9 +15,8 @@ from satcheck.audit.cross_check import DISAGREEMENT, say
 from satcheck.audit.ladder.ladder import settle
 from satcheck.cli.report.summary import summary_line
 from satcheck.core import Mesh
-from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import OverlapVolume
-from satcheck.core.peers import MISSING, Peers
+from satcheck.core.peers import Peers
 from satcheck.scene import Scene, load_scene
 from tests.audit.shapes import write
 from tests.core.test_mesh_relation import CELL, CUBE, L_SHAPE, SMALL, moved
@@ -117,13 +115,6 @@ def test_a_peer_that_dies_gives_no_answer(tmp_path: Path) -> None:
     with Peers(seconds=60, megabytes=4096, fcl_server="satcheck.no_such_module") as peers:
         found, plan = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
     assert (found, plan.issues) == (["no answer", "agrees"], [])
-
-
-def test_what_is_not_installed_is_said_before_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(importlib.util, "find_spec", lambda _: None)
-    with pytest.raises(SatcheckError, match="pip install python-fcl manifold3d") as refused:
-        Peers(seconds=1, megabytes=64)
-    assert refused.value.code == MISSING
 
 
 def test_the_report_counts_the_answers() -> None:

@@ -114,6 +114,17 @@ def test_a_verification_follows_its_schema(tmp_path: Path, certified: bool) -> N
     assert satcheck("verify", str(report), "-o", str(report)).code == 2
 
 
+@pytest.mark.parametrize("code", [0, 2, 3])
+def test_a_decomposition_follows_its_schema(tmp_path: Path, code: int) -> None:
+    """Of bodies with parts, of a file that cannot be read, of a body without parts."""
+    (tmp_path / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    more = {0: (), 2: ("gone.obj",), 3: (str(tmp_path / "flat.obj"),)}[code]
+    ran = satcheck("decompose", "--format", "json", *PUSHED, *more)
+    assert ran.code == code
+    validator("decomposition").validate(ran.document)
+    assert ran.document["tool"] == {"name": "satcheck", "version": __version__}
+
+
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_each_schema_is_one(document: str) -> None:
     Draft202012Validator.check_schema(json.loads(text(document)))

@@ -1,0 +1,288 @@
+"""`satcheck decompose MESH`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import click
+from msgspec import Struct
+from rich import box
+from rich.table import Table
+
+from satcheck.audit.summary import tool
+from satcheck.cli import exit_codes
+from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.options import (
+    DEFAULTS,
+    FORMATS,
+    HELP_NAMES,
+    Command,
+    cache_option,
+    debug_option,
+    outside_option,
+    paths_argument,
+    split_option,
+    units_option,
+)
+from satcheck.cli.output import Document, Page, talk, write_file
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.numbers import at_most, duration
+from satcheck.cli.report.words import counted, issue_line, with_unit
+from satcheck.core.errors import SatcheckError
+from satcheck.core.shapes import is_curved
+from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose
+from satcheck.scene import Body, Scene, parts_file
+from satcheck.scene.other_unit import require_in_range
+from satcheck.scene.units import unit_of
+
+SCHEMA = "satcheck.decomposition/1"
+_FILES = ", ".join(parts_file.FORMATS)
+
+
+class _Parts(Struct, frozen=True):
+    """A body, and its convex parts in world coordinates or why there are none."""
+
+    body: Body
+    result: Decomposition | SatcheckError
+
+    @property
+    def has_parts(self) -> bool:
+        return isinstance(self.result, Decomposition)
+
+    def named(self) -> Iterator[parts_file.Part]:
+        if isinstance(self.result, Decomposition):
+            for number, part in enumerate(self.result.parts, 1):
+                yield f"{self.body.id}-{number}", part.to_mesh()
+
+
+@click.command("decompose", cls=Command, context_settings=HELP_NAMES)
+@paths_argument("MESH")
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help=f"Write the parts to FILE ({_FILES}): a node of a GLB or an object of an OBJ file each; "
+    "an STL file holds them all.",
+)
+@click.option(
+    "--threshold",
+    type=click.FloatRange(0, 1, min_open=True),
+    metavar="RATIO",
+    default=DEFAULTS.part_threshold,
+    show_default=True,
+    help="Split until parts are this close to convex, in CoACD's measure. A smaller one gives more "
+    "parts, which fit better.",
+)
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0, max=2**32 - 1),
+    metavar="N",
+    default=DEFAULTS.part_seed,
+    show_default=True,
+    help="Of CoACD's random search: the same seed gives the same parts.",
+)
+@click.option(
+    "--seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    metavar="SECONDS",
+    default=DEFAULTS.part_seconds,
+    show_default=True,
+    help="The time limit of one body.",
+)
+@click.option(
+    "--format", "form", type=click.Choice(FORMATS), default="table", help="How to report."
+)
+@cache_option
+@split_option
+@units_option
+@outside_option
+@debug_option
+def command(
+    output: Path | None,
+    threshold: float,
+    seed: int,
+    seconds: float,
+    form: str,
+    cache: bool,
+    debug: bool,
+    **options: Any,
+) -> int:
+    """Split meshes into convex parts, for physics engines.
+
+    MESH is a mesh file or a scene. Each body is split by CoACD. A body that is convex already is
+    its own part. The report says for each body how far its parts stick out of the mesh, and how far
+    the mesh sticks out of its parts, at most. A mesh that is not closed is rebuilt from voxels
+    first, which thickens it. The parts lie where the input places them.
+
+    Exit codes: 0, every body has its parts; 2, wrong usage, an unreadable input, no parts at all,
+    or an internal error; 3, some bodies have no parts.
+    """
+    del debug
+    inputs = Inputs.taken_from(options)
+    _refuse_output(inputs, output)
+    document = Document()
+    scene = load(inputs, least=1)
+    require_in_range(scene)
+    if output is not None:
+        scene.require_one_unit()
+    if not scene.bodies and form == "table":
+        return exit_codes.ERROR  # the error is told
+    store = Cache() if cache else None
+    bodies = []
+    with Bar("bodies") as bar:
+        for number, body in enumerate(scene.bodies, 1):
+            bodies.append(_Parts(body, _split(body, threshold, seed, seconds, store)))
+            if bar is not None:
+                bar(number, len(scene.bodies))
+    parts = [part for each in bodies for part in each.named()]
+    if output is not None and parts:
+        write_file(output, parts_file.written(parts, output.suffix.lower(), scene.units))
+    for each in bodies:
+        if isinstance(each.result, SatcheckError):
+            talk(f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]")
+    settings = {"threshold": threshold, "seed": seed, "seconds": seconds}
+    document.deliver(
+        lambda page: (
+            json_document(_values(bodies, scene, settings, output))
+            if form == "json"
+            else _table(bodies, scene, output, page)
+        ),
+        None,
+        utf8=form == "json",
+    )
+    if scene.unreadable or not parts:
+        return exit_codes.ERROR
+    whole = all(each.has_parts for each in bodies)
+    return exit_codes.CLEAN if whole else exit_codes.INCOMPLETE
+
+
+def _refuse_output(inputs: Inputs, output: Path | None) -> None:
+    if not inputs.paths:
+        raise click.UsageError("give a mesh file or a scene")
+    refuse_early(inputs, output)
+    if output is not None and output.suffix.lower() not in parts_file.FORMATS:
+        raise click.UsageError(f"-o {output}: parts are written as {_FILES}")
+
+
+def _split(
+    body: Body, threshold: float, seed: int, seconds: float, cache: Cache | None
+) -> Decomposition | SatcheckError:
+    if body.shape is not None and is_curved(body.shape):
+        return SatcheckError("curved-shape", "a curved shape is convex, and has no triangles")
+    try:
+        return decompose(
+            body.world_mesh(), threshold=threshold, seed=seed, seconds=seconds, cache=cache
+        )
+    except ValueError as error:
+        return SatcheckError("out-of-range", str(error))
+    except DecompositionError as error:
+        return error
+
+
+def _rounding(bodies: list[_Parts], output: Path | None) -> float | None:
+    """Of the file that was written."""
+    parts = [part for each in bodies for part in each.named()]
+    return None if output is None else parts_file.rounding(parts, output.suffix.lower())
+
+
+def _values(
+    bodies: list[_Parts], scene: Scene, settings: dict[str, Any], output: Path | None
+) -> dict[str, Any]:
+    return {
+        "schema": SCHEMA,
+        "tool": tool(),
+        "units": scene.units,
+        "settings": settings,
+        "output": None if output is None else output.as_posix(),
+        "rounding": _rounding(bodies, output),
+        "bodies": [_body_values(each) for each in bodies],
+        "issues": scene.issues,
+    }
+
+
+def _body_values(parts: _Parts) -> dict[str, Any]:
+    result, mesh = parts.result, parts.body.file
+    values = {"id": parts.body.id, "file": mesh.path, "triangles": mesh.mesh.triangle_count}
+    if isinstance(result, SatcheckError):
+        failure = {"code": result.code, "message": str(result)}
+        return {**values, "parts": None, "outside": None, "missing": None, "failure": failure}
+    return {
+        **values,
+        "parts": [
+            {"name": name, "vertices": part.vertex_count, "triangles": part.triangle_count}
+            for name, part in parts.named()
+        ],
+        "outside": result.outside,
+        "missing": result.missing,
+        "failure": None,
+        "seconds": result.seconds,
+        "from_cache": result.from_cache,
+        "notes": result.notes,
+    }
+
+
+def _table(bodies: list[_Parts], scene: Scene, output: Path | None, page: Page) -> str:
+    canvas = Canvas(page)
+    unit = unit_of(scene.units)
+    named = f" ({unit})" if unit else ""
+    table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
+    table.add_column("body", overflow="fold")
+    for name in (
+        "triangles",
+        "parts",
+        f"parts stick out{named}",
+        f"mesh sticks out{named}",
+        "time",
+    ):
+        table.add_column(name, justify="right")
+    for each in bodies:
+        if isinstance(each.result, Decomposition):
+            table.add_row(
+                each.body.id,
+                f"{each.body.file.mesh.triangle_count:,}",
+                f"{len(each.result.parts):,}",
+                _error(each.result.outside),
+                _error(each.result.missing),
+                "cached" if each.result.from_cache else duration(each.result.seconds * 1e6),
+            )
+    if table.row_count:
+        canvas.print(table)
+    for line in _remarks(bodies, scene):
+        canvas.print(line)
+    canvas.print(_summary(bodies, output, unit))
+    return canvas.text()
+
+
+def _error(length: float) -> str:
+    """Measured as an upper bound."""
+    return "0" if length == 0 else f"<= {at_most(length)}"
+
+
+def _remarks(bodies: list[_Parts], scene: Scene) -> Iterator[str]:
+    for each in bodies:
+        if isinstance(each.result, Decomposition):
+            for note in each.result.notes:
+                yield f"note: {each.body.id}: {note.message} [{note.code}]"
+    for issue in scene.issues:
+        if issue.severity == "warning":
+            yield issue_line(issue)
+
+
+def _summary(bodies: list[_Parts], output: Path | None, unit: str | None) -> str:
+    made = [each.result for each in bodies if isinstance(each.result, Decomposition)]
+    parts = sum(len(result.parts) for result in made)
+    whole = f"{counted(len(made), 'body', 'bodies')}, {counted(parts, 'convex part')}."
+    if failed := len(bodies) - len(made):
+        whole += f" {counted(failed, 'body has', 'bodies have')} none."
+    if output is None or not parts:
+        return whole
+    whole += f" Written to {output}"
+    error = _rounding(bodies, output)
+    if not error:
+        return f"{whole}."
+    return f"{whole}, whose 32-bit numbers move a vertex by {with_unit(at_most(error), unit)}."

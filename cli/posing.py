@@ -1,0 +1,37 @@
+"""From --pose, --state, --sample and --seed to poses of the robots of a scene.
+
+Apart from `cli.inputs`, because it imports the readers of robots, and these numpy.
+"""
+
+from __future__ import annotations
+
+import click
+
+from satcheck.cli.inputs import Inputs
+from satcheck.scene import Scene
+from satcheck.scene.robot import Pose, joint_samples, pose_of_states, read_poses
+
+
+def poses_of(scene: Scene, inputs: Inputs) -> list[Pose] | Pose:
+    """A pose, or a list of poses where several or random ones are given, even if it has only one.
+
+    UsageError for a combination that makes no sense; what is wrong with a pose is a SatcheckError.
+    """
+    if not scene.robots:
+        raise click.UsageError("there is no robot to pose: give a URDF")
+    if inputs.seed is not None and not inputs.sample:
+        raise click.UsageError("--seed chooses among random poses: add --sample N")
+    base = pose_of_states(scene, inputs.state)
+    given = [read_poses(text) for text in inputs.pose]
+    if inputs.sample:
+        if len(given) > 1 or any(isinstance(poses, list) for poses in given):
+            raise click.UsageError(
+                "--sample draws random poses: give one --pose at most, whose joints stay"
+            )
+        held = {**base, **(given[0] if given and not isinstance(given[0], list) else {})}
+        robots = [robot.robot for robot in scene.robots]
+        return joint_samples(robots, inputs.sample, inputs.random_seed or 0, held)
+    if len(given) == 1 and not isinstance(given[0], list):
+        return {**base, **given[0]}
+    listed = [pose for poses in given for pose in (poses if isinstance(poses, list) else [poses])]
+    return [{**base, **pose} for pose in listed] if listed else base

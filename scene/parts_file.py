@@ -1,0 +1,138 @@
+"""Convex parts as a mesh file: GLB with a node a part, OBJ with an object a part, or one STL.
+
+GLB and STL hold 32-bit floats (glTF 2.0, section 3.6.2.2; the STL of 3D Systems, 1988).
+"""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from satcheck.core import Mesh
+from satcheck.scene.units import MICROMETRES, unit_of
+
+_FLOAT, _UNSIGNED_INT = 5126, 5125
+_VERTICES, _INDICES = 34962, 34963
+_STL_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("unused", "<u2")])
+
+Part = tuple[str, Mesh]
+
+
+def written(parts: Sequence[Part], suffix: str, units: str | None) -> bytes:
+    """The content of a file. parts: names, and meshes in one frame. suffix: a key of FORMATS.
+    units: of the coordinates; a GLB file is in metres where they are known."""
+    return FORMATS[suffix]([(_plain(name), mesh) for name, mesh in parts], units)
+
+
+def rounding(parts: Sequence[Part], suffix: str) -> float:
+    """How far the numbers of the file are off: a bound on the distance that a vertex moves."""
+    if suffix == ".obj":
+        return 0.0
+    steps = [mesh.vertices - mesh.vertices.astype("<f4") for _, mesh in parts]
+    return max((float(np.linalg.norm(step, axis=1).max()) for step in steps), default=0.0)
+
+
+def _plain(name: str) -> str:
+    """A name of one line."""
+    return "".join(c if c.isprintable() else "_" for c in name)
+
+
+def _obj(parts: Sequence[Part], units: str | None) -> bytes:
+    lines = ["# convex parts, made by satcheck", *([f"# units: {units}"] if units else [])]
+    first = 1
+    for name, mesh in parts:
+        lines.append(f"o {name}")
+        lines += ["v {!r} {!r} {!r}".format(*point) for point in mesh.vertices.tolist()]
+        corners = mesh.triangles.astype(np.int64) + first
+        lines += ["f {} {} {}".format(*triangle) for triangle in corners.tolist()]
+        first += mesh.vertex_count
+    return "".join(f"{line}\n" for line in lines).encode(errors="backslashreplace")
+
+
+def _stl(parts: Sequence[Part], units: str | None) -> bytes:
+    del units
+    corners = np.concatenate([mesh.vertices[mesh.triangles] for _, mesh in parts])
+    triangles = np.zeros(len(corners), _STL_TRIANGLE)
+    triangles["corners"] = corners
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    np.divide(normals, lengths, out=normals, where=lengths > 0)
+    triangles["normal"] = normals
+    header = b"convex parts, made by satcheck".ljust(80)
+    return header + struct.pack("<I", len(triangles)) + triangles.tobytes()
+
+
+def _glb(parts: Sequence[Part], units: str | None) -> bytes:
+    views: list[dict[str, Any]] = []
+    accessors: list[dict[str, Any]] = []
+    chunks: list[bytes] = []
+
+    def add(data: bytes, target: int, **accessor: Any) -> int:
+        start = sum(map(len, chunks))
+        chunks.append(data)
+        view = {"buffer": 0, "byteOffset": start, "byteLength": len(data), "target": target}
+        views.append(view)
+        accessors.append({"bufferView": len(views) - 1, **accessor})
+        return len(accessors) - 1
+
+    meshes = []
+    for name, mesh in parts:
+        points, corners = mesh.vertices.astype("<f4"), mesh.triangles.astype("<u4")
+        position = add(
+            points.tobytes(),
+            _VERTICES,
+            componentType=_FLOAT,
+            count=len(points),
+            type="VEC3",
+            min=points.min(axis=0).tolist(),
+            max=points.max(axis=0).tolist(),
+        )
+        indices = add(
+            corners.tobytes(),
+            _INDICES,
+            componentType=_UNSIGNED_INT,
+            count=corners.size,
+            type="SCALAR",
+        )
+        primitive = {"attributes": {"POSITION": position}, "indices": indices}
+        meshes.append({"name": name, "primitives": [primitive]})
+    nodes: list[dict[str, Any]] = [
+        {"name": name, "mesh": number, **_in_metres(units)}
+        for number, (name, _) in enumerate(parts)
+    ]
+    document = {
+        "asset": {"version": "2.0", "generator": "satcheck"},
+        "scene": 0,
+        "scenes": [{"nodes": list(range(len(nodes)))}],
+        "nodes": nodes,
+        "meshes": meshes,
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": sum(map(len, chunks))}],
+    }
+    text = json.dumps(document, separators=(",", ":")).encode()
+    return _container({b"JSON": text + b" " * (-len(text) % 4), b"BIN\0": b"".join(chunks)})
+
+
+def _in_metres(units: str | None) -> dict[str, list[float]]:
+    unit = unit_of(units)
+    if unit in (None, "m"):
+        return {}
+    assert unit is not None
+    return {"scale": [MICROMETRES[unit] / MICROMETRES["m"]] * 3}
+
+
+def _container(chunks: Mapping[bytes, bytes]) -> bytes:
+    body = b"".join(struct.pack("<I", len(c)) + kind + c for kind, c in chunks.items())
+    return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body
+
+
+FORMATS: dict[str, Callable[[Sequence[Part], str | None], bytes]] = {
+    ".glb": _glb,
+    ".obj": _obj,
+    ".stl": _stl,
+}
