@@ -7,43 +7,43 @@ from collections.abc import Collection
 
 from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.report.report import Vector
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd
-from satcheck.audit.resolve.wall import BodyPair
+from satcheck.audit.resolve.layout import Layout
+from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 
 # Digits that a place keeps, counted from the first of the largest coordinate of its body: fewer
 # are tried first.
 DIGITS = (9, 12)
 
 
-def write_plainly(crowd: Crowd, left: Collection[BodyPair], longest: float) -> None:
+def write_plainly(layout: Layout, left: Collection[BodyPair], longest: float) -> None:
     """Round where bodies were moved to, one after the other: to the nearest number, or away from
     home. left: pairs that need not be free."""
-    moved = [i for i, offset in enumerate(crowd.offsets) if offset != ORIGIN]
-    boxes = [body.bounds for body in crowd.placed]
+    moved = [i for i, offset in enumerate(layout.offsets) if offset != ORIGIN]
+    boxes = [body.bounds for body in layout.placed]
     for i in moved:
-        boxes[i] = _around(boxes[i], 2 * _grain(crowd, i, DIGITS[0]))
-    close = crowd.close_pairs(boxes)
+        boxes[i] = _around(boxes[i], 2 * _grain(layout, i, DIGITS[0]))
+    close = layout.close_pairs(boxes)
     for i in moved:
-        offset = crowd.offsets[i]
+        offset = layout.offsets[i]
         around = [pair for pair in close if i in pair and pair not in left]
-        for plainer in _plainer(crowd, i):
-            crowd.move({i: plainer})
-            if math.hypot(*plainer) <= longest and _are_free(crowd, around):
+        for plainer in _plainer(layout, i):
+            layout.move({i: plainer})
+            if math.hypot(*plainer) <= longest and _are_free(layout, around):
                 break
-            crowd.move({i: offset})
+            layout.move({i: offset})
 
 
-def _are_free(crowd: Crowd, pairs: Collection[BodyPair]) -> bool:
-    return all(said.kind == "free" for said in crowd.opinions(list(pairs)).values())
+def _are_free(layout: Layout, pairs: Collection[BodyPair]) -> bool:
+    return all(state.kind == "free" for state in layout.states(list(pairs)).values())
 
 
-def _plainer(crowd: Crowd, i: int) -> list[Vector]:
+def _plainer(layout: Layout, i: int) -> list[Vector]:
     """Translations that end at shorter numbers, those with the fewest digits first."""
-    offset, body = crowd.offsets[i], crowd.home[i].body
+    offset, body = layout.offsets[i], layout.home[i].body
     start = (0.0, 0.0, 0.0) if body.transform is None else body.transform[3:12:4]
     found: list[Vector] = []
     for digits in DIGITS:
-        grain = _grain(crowd, i, digits)
+        grain = _grain(layout, i, digits)
         decimals = -round(math.log10(grain))
         for away in (0.0, 0.5):
             x, y, z = (
@@ -55,9 +55,9 @@ def _plainer(crowd: Crowd, i: int) -> list[Vector]:
     return found
 
 
-def _grain(crowd: Crowd, i: int, digits: int) -> float:
+def _grain(layout: Layout, i: int, digits: int) -> float:
     """The power of ten that is the last of so many digits of the body's largest coordinate."""
-    return 10.0 ** (math.ceil(math.log10(largest_coordinate(crowd.home[i].bounds))) - digits)
+    return 10.0 ** (math.ceil(math.log10(largest_coordinate(layout.home[i].bounds))) - digits)
 
 
 def _around(box: Box, margin: float) -> Box:

@@ -16,12 +16,9 @@ from satcheck.audit.asked.plan import Plan
 from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.finding import examine
 from satcheck.audit.report.report import Vector
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd
-from satcheck.audit.resolve.islands import islands
-from satcheck.audit.resolve.least_motion import least_motion
-from satcheck.audit.resolve.opinion import may_overlap
-from satcheck.audit.resolve.separation import separation
-from satcheck.audit.resolve.wall import BodyPair, Wall
+from satcheck.audit.resolve.layout import Layout
+from satcheck.audit.resolve.pair_state import may_overlap, separation
+from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
 from satcheck.core.tolerances import rounding_pad
 
@@ -38,40 +35,40 @@ BISECTIONS = 30
 Offsets = dict[int, Vector]
 
 
-def pull_back(crowd: Crowd, left: Collection[BodyPair], longest: float) -> None:
+def pull_back(layout: Layout, left: Collection[BodyPair], longest: float) -> None:
     """Move the bodies closer to home, on the whole; none farther than `longest`, as they are.
 
     left: pairs that may overlap; no others do.
     """
-    for _ in range(CAREFUL_STEPS if crowd.careful else STEPS):
-        start, before = dict(enumerate(crowd.offsets)), _squares(crowd)
+    for _ in range(CAREFUL_STEPS if layout.careful else STEPS):
+        start, before = dict(enumerate(layout.offsets)), layout.squares()
         if before == 0:
             return
-        _step(crowd, left, longest)
-        if before - _squares(crowd) < _least_gain(crowd) * before:
-            crowd.move(start)
+        _step(layout, left, longest)
+        if before - layout.squares() < _least_gain(layout) * before:
+            layout.move(start)
             return
 
 
-def walled(crowd: Crowd, pair: BodyPair) -> Wall | None:
+def walled(layout: Layout, pair: BodyPair) -> Wall | None:
     """The wall between two bodies where they are, as far off as they may come closer or overlap;
     None where no direction is known."""
-    asked = crowd.pair(pair)
+    asked = layout.pair(pair)
     found = separation(asked)
     if found is None:
-        return _wall_of_contact(crowd, pair) if crowd.careful else None
+        return _wall_of_contact(layout, pair) if layout.careful else None
     normal, gap = found
-    room = max(0.0, gap - crowd.clearance(pair) + may_overlap(asked))
-    return Wall(*pair, normal, dot(normal, crowd.offset(pair)) - room)
+    room = max(0.0, gap - layout.clearance(pair) + may_overlap(asked))
+    return Wall(*pair, normal, dot(normal, layout.offset(pair)) - room)
 
 
-def _wall_of_contact(crowd: Crowd, pair: BodyPair) -> Wall | None:
+def _wall_of_contact(layout: Layout, pair: BodyPair) -> Wall | None:
     """Of bodies that touch, whose nearest points have no direction: what a small step back home is
     stopped by, or how far apart they are there."""
-    there = crowd.offset(pair)
+    there = layout.offset(pair)
     if not any(there):
         return None
-    back = crowd.pair_after(pair, scaled(there, -STEP_BACK))
+    back = layout.pair_after(pair, scaled(there, -STEP_BACK))
     way = examine(back, Plan()).mtv
     if way is not None and any(way):
         normal, gap = unit(way), -math.hypot(*way)
@@ -91,22 +88,18 @@ def swept(start: Box, end: Box) -> Box:
     return low, high  # type: ignore[return-value]
 
 
-def _least_gain(crowd: Crowd) -> float:
-    return CAREFUL_GAIN if crowd.careful else LEAST_GAIN
+def _least_gain(layout: Layout) -> float:
+    return CAREFUL_GAIN if layout.careful else LEAST_GAIN
 
 
-def _squares(crowd: Crowd) -> float:
-    return math.fsum(dot(t, t) for t in crowd.offsets)
-
-
-def _step(crowd: Crowd, left: Collection[BodyPair], longest: float) -> None:
-    start = dict(enumerate(crowd.offsets))
-    groups = _groups(crowd, left, longest)
+def _step(layout: Layout, left: Collection[BodyPair], longest: float) -> None:
+    start = dict(enumerate(layout.offsets))
+    groups = _groups(layout, left, longest)
     member = {body: number for number, group in enumerate(groups) for body in group}
     share = [1.0] * len(groups)
-    halvings = CAREFUL_HALVINGS if crowd.careful else HALVINGS
+    halvings = CAREFUL_HALVINGS if layout.careful else HALVINGS
     while True:
-        crowd.move(
+        layout.move(
             {
                 body: _between(start[body], end, share[number])
                 for number, group in enumerate(groups)
@@ -115,8 +108,8 @@ def _step(crowd: Crowd, left: Collection[BodyPair], longest: float) -> None:
         )
         met = {
             member[body]
-            for pair, said in crowd.opinions(crowd.close_pairs()).items()
-            if said.kind != "free" and pair not in left
+            for pair, state in layout.states(layout.close_pairs()).items()
+            if state.kind != "free" and pair not in left
             for body in pair
             if body in member and share[member[body]] > 0
         }
@@ -132,27 +125,27 @@ def _between(start: Vector, end: Vector, share: float) -> Vector:
     return added(scaled(start, 1 - share), scaled(end, share))
 
 
-def _groups(crowd: Crowd, left: Collection[BodyPair], longest: float) -> list[Offsets]:
+def _groups(layout: Layout, left: Collection[BodyPair], longest: float) -> list[Offsets]:
     """Where the bodies would go, those together that share walls, and that it is worth it for."""
-    walls, held = _walls(crowd, left)
-    free = crowd.movable - held.keys()
+    walls, held = _walls(layout, left)
+    free = layout.movable - held.keys()
     found: list[Offsets] = []
-    for island in islands(walls, free):
-        moved = least_motion(island, held)
+    for group in connected(walls, free):
+        moved = least_motion(group, held)
         if not moved.broken:
             found.append(moved.offsets)
     walled_in = {body for wall in walls for body in (wall.a, wall.b)}
     found += [{body: ORIGIN} for body in sorted(free - walled_in)]
-    found = [_within(longest, crowd, group) for group in found]
-    return [group for group in found if _is_worth_it(crowd, group)]
+    found = [_within(longest, layout, group) for group in found]
+    return [group for group in found if _is_worth_it(layout, group)]
 
 
-def _within(longest: float, crowd: Crowd, group: Offsets) -> Offsets:
+def _within(longest: float, layout: Layout, group: Offsets) -> Offsets:
     """The group as far on its way as none of it gets farther from home than that."""
-    share = min(_share_within(longest, crowd.offsets[body], end) for body, end in group.items())
+    share = min(_share_within(longest, layout.offsets[body], end) for body, end in group.items())
     if share == 1.0:
         return group
-    return {body: _between(crowd.offsets[body], end, share) for body, end in group.items()}
+    return {body: _between(layout.offsets[body], end, share) for body, end in group.items()}
 
 
 def _share_within(longest: float, start: Vector, end: Vector) -> float:
@@ -171,23 +164,26 @@ def _share_within(longest: float, start: Vector, end: Vector) -> float:
     return share
 
 
-def _is_worth_it(crowd: Crowd, group: Offsets) -> bool:
-    before = math.fsum(dot(crowd.offsets[body], crowd.offsets[body]) for body in group)
-    return math.fsum(dot(t, t) for t in group.values()) < (1 - _least_gain(crowd)) * before
+def _is_worth_it(layout: Layout, group: Offsets) -> bool:
+    before = layout.squares(group)
+    return math.fsum(dot(t, t) for t in group.values()) < (1 - _least_gain(layout)) * before
 
 
-def _walls(crowd: Crowd, left: Collection[BodyPair]) -> tuple[list[Wall], Offsets]:
+def _walls(layout: Layout, left: Collection[BodyPair]) -> tuple[list[Wall], Offsets]:
     """Between all bodies that might meet on their ways home; and the bodies that are held: those
     that stay, and those of pairs without a wall."""
-    ways = [swept(a.bounds, b.bounds) for a, b in zip(crowd.home, crowd.placed, strict=True)]
-    walls, held = [], {i: ORIGIN for i in range(len(crowd.home)) if i not in crowd.movable}
-    for pair in crowd.close_pairs(ways):
-        if all(crowd.offsets[body] == ORIGIN for body in pair) or pair in left:
+    ways = [swept(a.bounds, b.bounds) for a, b in zip(layout.home, layout.placed, strict=True)]
+    walls, held = (
+        [],
+        {i: ORIGIN for i in range(len(layout.home)) if i not in layout.movable},
+    )
+    for pair in layout.close_pairs(ways):
+        if all(layout.offsets[body] == ORIGIN for body in pair) or pair in left:
             continue
-        wall = walled(crowd, pair)
+        wall = walled(layout, pair)
         if wall is None:
-            held.update({body: crowd.offsets[body] for body in pair})
+            held.update({body: layout.offsets[body] for body in pair})
             continue
-        wall.least += rounding_pad(largest_coordinate(*(crowd.placed[i].bounds for i in pair)))
+        wall.least += rounding_pad(largest_coordinate(*(layout.placed[i].bounds for i in pair)))
         walls.append(wall)
     return [wall for wall in walls if wall.a not in held or wall.b not in held], held

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, Literal, cast
 
 from msgspec import Struct, to_builtins
 
 from satcheck.audit.asked.settings import FailOn
 from satcheck.audit.report.report import OVERLAPS, Finding, Relation, Report, Vector
-from satcheck.audit.resolve.opinion import is_objected
+from satcheck.audit.resolve.layout import Layout
+from satcheck.audit.resolve.pair_state import is_objected
+from satcheck.audit.resolve.walls import BodyPair
 
 SCHEMA = "satcheck.resolution/1"
+
+BOTH_STAY = "both bodies stay"
+LINKS_STAY = "links of a robot stay where its joints put them"
+NO_WAY = "no way out was found"
+ONLY_MOVING = "only while they move, and motions are not resolved"
 
 Verdict = Literal["resolved", "unresolved", "incomplete"]
 _VERDICTS: dict[str, Verdict] = {
@@ -137,3 +144,34 @@ def objected(report: Report) -> tuple[Finding, ...]:
 
 def _counts(by_relation: Mapping[Relation, int]) -> dict[str, int]:
     return {relation: count for relation, count in sorted(by_relation.items()) if count}
+
+
+def reasons(
+    layout: Layout,
+    staying: frozenset[str],
+    links: frozenset[str],
+    given_up: dict[BodyPair, str],
+) -> dict[frozenset[str], str]:
+    """Why pairs are left, including those that no check fails on as they are placed."""
+    found = {}
+    for pair, state in layout.states(layout.close_pairs()).items():
+        ids = frozenset(layout.home[i].id for i in pair)
+        if state.kind == "free":
+            found[ids] = ONLY_MOVING
+        elif ids <= links:
+            found[ids] = LINKS_STAY
+        elif ids <= staying:
+            found[ids] = BOTH_STAY
+        else:
+            found[ids] = given_up.get(pair, NO_WAY)
+    return found
+
+
+def left_pairs(report: Report, known: dict[frozenset[str], str]) -> Iterator[Left]:
+    for finding in objected(report):
+        motion = finding.motion
+        far = NO_WAY if motion is None else ONLY_MOVING
+        why, relation = known.get(frozenset((finding.a, finding.b)), far), finding.at_rest
+        if why == ONLY_MOVING and motion is not None:
+            relation = motion.relation
+        yield Left(finding.a, finding.b, relation, why)

@@ -12,14 +12,13 @@ from msgspec.structs import replace
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check, volume_meter
 from satcheck.audit.report.report import Vector
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd, translated
+from satcheck.audit.resolve.layout import Layout, translated
 from satcheck.audit.resolve.plain_numbers import write_plainly
 from satcheck.audit.resolve.pull_back import pull_back
-from satcheck.audit.resolve.reasons import left_pairs, reasons
-from satcheck.audit.resolve.resolution import Move, Resolution
+from satcheck.audit.resolve.resolution import Move, Resolution, left_pairs, reasons
 from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
-from satcheck.audit.vectors import dot
+from satcheck.audit.resolve.walls import ORIGIN
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
@@ -64,23 +63,23 @@ def resolve(
     staying = _staying(scene, pins)
     with ExitStack() as stack:
         meter = stack.enter_context(volume_meter(settings)) if _limits_volume(scene) else None
-        crowd = Crowd(scene, settings, staying, meter)
-        before = crowd.opinions(crowd.close_pairs())
-        overlaps = [pair for pair, said in before.items() if said.kind in ("overlap", "near")]
-        kinds = Counter(said.kind for said in before.values())
+        layout = Layout(scene, settings, staying, meter)
+        before = layout.states(layout.close_pairs())
+        overlaps = [pair for pair, state in before.items() if state.kind in ("overlap", "near")]
+        kinds = Counter(state.kind for state in before.values())
         few = len(overlaps) <= FEW
         if few:
-            crowd.look_closely(kinds["overlap"])
-            crowd.opinions(crowd.close_pairs())
-        crowd.settle()
+            layout.look_closely(kinds["overlap"])
+            layout.states(layout.close_pairs())
+        layout.settle()
         longest = max_motion or math.inf
-        rounds = _shortest(crowd, few, longest, iterations, progress)
+        rounds = _shortest(layout, few, longest, iterations, progress)
         if few and not rounds.left:
-            retry(crowd, overlaps, longest, iterations)
+            retry(layout, overlaps, longest, iterations)
         if few:
-            write_plainly(crowd, rounds.left, longest)
-        why = reasons(crowd, staying, _links(scene), rounds.left)
-    moves = _moves(scene, crowd)
+            write_plainly(layout, rounds.left, longest)
+        why = reasons(layout, staying, _links(scene), rounds.left)
+    moves = _moves(scene, layout)
     translations = {move.body: move.translation for move in moves}
     report = check(moved_scene(scene, translations), proof_of(settings))
     return Resolution(
@@ -96,21 +95,21 @@ def resolve(
 
 
 def _shortest(
-    crowd: Crowd, both: bool, longest: float, iterations: int, progress: Progress | None
+    layout: Layout, both: bool, longest: float, iterations: int, progress: Progress | None
 ) -> Rounds:
     """Rounds of one kind, or the better of both kinds; the bodies are where these left them."""
     best: tuple[tuple[int, float], Rounds, list[Vector]] | None = None
     for deepest_first in (False, True) if both else (False,):
-        crowd.restart()
-        rounds = Rounds(crowd, longest, deepest_first=deepest_first)
+        layout.restart()
+        rounds = Rounds(layout, longest, deepest_first=deepest_first)
         rounds.run(iterations, progress)
-        pull_back(crowd, rounds.left, longest)
-        squares = math.fsum(dot(t, t) for t in crowd.offsets)
+        pull_back(layout, rounds.left, longest)
+        squares = layout.squares()
         key = (len(rounds.left), squares * (1 + TIE) if deepest_first else squares)
         if best is None or key < best[0]:
-            best = key, rounds, list(crowd.offsets)
+            best = key, rounds, list(layout.offsets)
     assert best is not None
-    crowd.move(dict(enumerate(best[2])))
+    layout.move(dict(enumerate(best[2])))
     return best[1]
 
 
@@ -145,8 +144,8 @@ def _staying(scene: Scene, pins: Sequence[str]) -> frozenset[str]:
     )
 
 
-def _moves(scene: Scene, crowd: Crowd) -> tuple[Move, ...]:
-    by_id = {body.id: offset for body, offset in zip(crowd.home, crowd.offsets, strict=True)}
+def _moves(scene: Scene, layout: Layout) -> tuple[Move, ...]:
+    by_id = {body.id: offset for body, offset in zip(layout.home, layout.offsets, strict=True)}
     return tuple(
         Move(body.id, offset, math.hypot(*offset))
         for body in scene.bodies

@@ -3,8 +3,10 @@
 The rounds push from home, so they end at a least motion near there. Where one body has a short way
 out of everything, the sum of squares may be less when it goes first and the others only make room
 for what is left. And a body that was pushed about may have a shorter way to a place that is free
-now. Both ask for the shortest way of one body among others that stay (`way_alone`), which is no
-matter of what is near. What comes out is kept where it is shorter and proven free.
+now. Both ask for the shortest way of one body among others that stay (`way_alone`). These are taken
+as one mesh, and the translations of the body that free it of that are searched as those of a pair
+are (`core.search_depth`): from where the scene has the body, up to the width and the budget of the
+depth of a pair. A result is kept where it is shorter and proven free.
 """
 
 from __future__ import annotations
@@ -12,14 +14,21 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable
 
+import numpy as np
+
+from satcheck import core
+from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
+from satcheck.audit.figures.verify import FREE
 from satcheck.audit.report.report import Vector
-from satcheck.audit.resolve.alone import way_alone
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd
+from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pull_back import pull_back, swept
 from satcheck.audit.resolve.rounds import Rounds
-from satcheck.audit.resolve.wall import BodyPair
-from satcheck.audit.vectors import dot
+from satcheck.audit.resolve.walls import ORIGIN, BodyPair
+from satcheck.core.conventions import axis_across
 
+# More triangles than this around a body, and it is not tried.
+MOST_TRIANGLES = 500_000
 # So many bodies are tried as the first to go, and so many moved bodies by themselves, so often.
 STARTS = 16
 SINGLES = 32
@@ -28,78 +37,129 @@ PASSES = 3
 LEAST_GAIN = 1e-6
 
 
-def retry(crowd: Crowd, overlaps: Collection[BodyPair], longest: float, iterations: int) -> None:
+def retry(layout: Layout, overlaps: Collection[BodyPair], longest: float, iterations: int) -> None:
     """Shorten what the bodies of a scene were moved by, which are free of each other.
 
     overlaps: pairs that were not at home."""
     tried = 0
-    for group in _groups(crowd, overlaps):
+    for group in _groups(layout, overlaps):
         first = sorted({i for pair in overlaps for i in pair if i in group})
         for i in first[: STARTS - tried]:
             tried += 1
-            _start_with(crowd, i, group, longest, iterations)
+            _start_with(layout, i, group, longest, iterations)
     for _ in range(PASSES):
-        if not _each_alone(crowd):
+        if not _each_alone(layout):
             return
-        pull_back(crowd, (), longest)
+        pull_back(layout, (), longest)
 
 
-def _groups(crowd: Crowd, overlaps: Iterable[BodyPair]) -> list[frozenset[int]]:
+def _groups(layout: Layout, overlaps: Iterable[BodyPair]) -> list[frozenset[int]]:
     """The bodies that moved or overlapped, those together that have to do with each other; the
     longest motions first."""
-    ways = [swept(a.bounds, b.bounds) for a, b in zip(crowd.home, crowd.placed, strict=True)]
-    moved = {i for i, offset in enumerate(crowd.offsets) if offset != ORIGIN}
-    moved |= {i for pair in overlaps for i in pair} & crowd.movable
+    ways = [swept(a.bounds, b.bounds) for a, b in zip(layout.home, layout.placed, strict=True)]
+    moved = {i for i, offset in enumerate(layout.offsets) if offset != ORIGIN}
+    moved |= {i for pair in overlaps for i in pair} & layout.movable
     group = {i: {i} for i in moved}
-    for i, j in (*overlaps, *crowd.close_pairs(ways)):
+    for i, j in (*overlaps, *layout.close_pairs(ways)):
         if i in moved and j in moved and group[i] is not group[j]:
             group[i] |= group[j]
             group.update(dict.fromkeys(group[j], group[i]))
     found = {min(members): frozenset(members) for members in group.values()}
-    return sorted(found.values(), key=lambda one: (-_squares(crowd, one), min(one)))
-
-
-def _squares(crowd: Crowd, bodies: Iterable[int]) -> float:
-    return math.fsum(dot(crowd.offsets[i], crowd.offsets[i]) for i in bodies)
+    return sorted(found.values(), key=lambda one: (-layout.squares(one), min(one)))
 
 
 def _start_with(
-    crowd: Crowd, i: int, group: frozenset[int], longest: float, iterations: int
+    layout: Layout, i: int, group: frozenset[int], longest: float, iterations: int
 ) -> None:
     """One body goes by itself, the others of its group only as far as they then have to. Bodies
     moved for other groups stay where they are."""
-    before, movable = list(crowd.offsets), crowd.movable
+    before, movable = list(layout.offsets), layout.movable
     elsewhere = {j for j, offset in enumerate(before) if offset != ORIGIN and j not in group}
-    squares = _squares(crowd, range(len(before)))
-    crowd.movable = movable - elsewhere
-    crowd.move(dict.fromkeys(group, ORIGIN))
-    way = way_alone(crowd, i, min(longest, math.sqrt(squares)))
+    squares = layout.squares()
+    layout.movable = movable - elsewhere
+    layout.move(dict.fromkeys(group, ORIGIN))
+    way = way_alone(layout, i, min(longest, math.sqrt(squares)))
     if way is not None:
-        rounds = Rounds(crowd, longest)
+        rounds = Rounds(layout, longest)
         rounds.put(i, way)
         rounds.run(iterations)
-        pull_back(crowd, rounds.left, longest)
-    crowd.movable = movable
-    worse = _squares(crowd, range(len(before))) > squares * (1 - LEAST_GAIN)
+        pull_back(layout, rounds.left, longest)
+    layout.movable = movable
+    worse = layout.squares() > squares * (1 - LEAST_GAIN)
     if way is None or rounds.left or worse:
-        crowd.move(dict(enumerate(before)))
+        layout.move(dict(enumerate(before)))
 
 
-def _each_alone(crowd: Crowd) -> bool:
+def _each_alone(layout: Layout) -> bool:
     """Give each moved body the shortest way that there is among the others; whether one gained."""
-    moved = [i for i, offset in enumerate(crowd.offsets) if offset != ORIGIN]
-    moved.sort(key=lambda i: -math.hypot(*crowd.offsets[i]))
-    return sum(_goes_alone(crowd, i) for i in moved[:SINGLES]) > 0
+    moved = [i for i, offset in enumerate(layout.offsets) if offset != ORIGIN]
+    moved.sort(key=lambda i: -math.hypot(*layout.offsets[i]))
+    return sum(_goes_alone(layout, i) for i in moved[:SINGLES]) > 0
 
 
-def _goes_alone(crowd: Crowd, i: int) -> bool:
-    before: Vector = crowd.offsets[i]
-    way = way_alone(crowd, i, (1 - LEAST_GAIN) * math.hypot(*before))
+def _goes_alone(layout: Layout, i: int) -> bool:
+    before: Vector = layout.offsets[i]
+    way = way_alone(layout, i, (1 - LEAST_GAIN) * math.hypot(*before))
     if way is None:
         return False
-    crowd.move({i: way})
-    around = [pair for pair in crowd.close_pairs() if i in pair]
-    if all(said.kind == "free" for said in crowd.opinions(around).values()):
+    layout.move({i: way})
+    around = [pair for pair in layout.close_pairs() if i in pair]
+    if all(state.kind == "free" for state in layout.states(around).values()):
         return True
-    crowd.move({i: before})
+    layout.move({i: before})
     return False
+
+
+def way_alone(layout: Layout, i: int, longest: float) -> Vector | None:
+    """A translation from home that leaves the body free of all others where these are, shorter than
+    `longest`, world units; None: none was found, or bodies around have no inside, are curved, or
+    may overlap it, or have to keep a clearance from it."""
+    home, around = layout.home[i], _around(layout, i, longest)
+    if around is None or not math.isfinite(longest):
+        return None
+    if not around:
+        return ORIGIN
+    obstacle = _as_one(around)
+    if core.mesh_relation(home.surface(), obstacle).relation in FREE:
+        return ORIGIN
+    settings = layout.settings
+    return core.search_depth(
+        home.surface(),
+        obstacle,
+        upper=longest,
+        lower=0.0,
+        width=settings.depth_width,
+        work=math.ceil(settings.depth_budget * WORK_PER_SECOND),
+        across=-1 if settings.planar is None else axis_across(settings.planar),
+    ).way_out
+
+
+def _around(layout: Layout, i: int, longest: float) -> list[PlacedBody] | None:
+    """The bodies that it may meet within its longest way; None: not all of them are solid meshes
+    that it only has to leave."""
+    home = layout.home[i]
+    found = []
+    for j, other in enumerate(layout.placed):
+        if j == i or not layout.is_asked((i, j)):
+            continue
+        if core.box_gap(home.bounds, other.bounds) - layout.clearance((i, j)) > longest:
+            continue
+        if layout.clearance((i, j)) or layout.is_limited((i, j)):
+            return None
+        found.append(other)
+    solid = all(body.solid and body.curved is None for body in (home, *found))
+    few = sum(body.mesh.triangle_count for body in found) <= MOST_TRIANGLES
+    return found if solid and few else None
+
+
+def _as_one(bodies: list[PlacedBody]) -> core.Surface:
+    if len(bodies) == 1:
+        return bodies[0].surface()
+    meshes = [body.mesh for body in bodies]
+    firsts = np.cumsum([0, *(mesh.vertex_count for mesh in meshes)])
+    triangles = [mesh.triangles + first for mesh, first in zip(meshes, firsts, strict=False)]
+    mesh = core.Mesh(
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate(triangles).astype(np.uint32),
+    )
+    return core.Surface(mesh, True)

@@ -8,7 +8,7 @@ comes out is a least motion and not the sum of many small ones.
 A wall is a half space of translations. The translations that free a pair are no half space as a
 rule, so a wall may be in the way of another one. Of one pair a wall between the hulls then takes
 the place of both, or the bodies are locked to each other. Of several pairs one body is taken out to
-a free slot, its walls are made anew there, and the rounds go on.
+a free place, its walls are made anew there, and the rounds go on.
 """
 
 from __future__ import annotations
@@ -21,14 +21,11 @@ from satcheck.audit.bodies.boxes import largest_coordinate
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.report.report import Vector
-from satcheck.audit.resolve.crowd import ORIGIN, Crowd
-from satcheck.audit.resolve.free_slot import Slots
-from satcheck.audit.resolve.islands import islands
-from satcheck.audit.resolve.least_motion import least_motion
-from satcheck.audit.resolve.opinion import Opinion
+from satcheck.audit.resolve.free_places import FreePlaces
+from satcheck.audit.resolve.layout import Layout
+from satcheck.audit.resolve.pair_state import PairState, longer, out_of_hull
 from satcheck.audit.resolve.pull_back import swept, walled
-from satcheck.audit.resolve.separation import longer, out_of_hull
-from satcheck.audit.resolve.wall import BodyPair, Wall
+from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
 from satcheck.core.tolerances import rounding_pad
 
@@ -62,11 +59,11 @@ class Rounds:
     reason. count: rounds so far.
     """
 
-    def __init__(self, crowd: Crowd, longest: float, *, deepest_first: bool = False) -> None:
-        self._crowd = crowd
+    def __init__(self, layout: Layout, longest: float, *, deepest_first: bool = False) -> None:
+        self._layout = layout
         self._longest = longest
         self._deepest_first = deepest_first
-        self._slots = Slots(crowd.home)
+        self._places = FreePlaces(layout.home)
         self._walls: dict[BodyPair, list[Wall]] = {}
         self._locked: set[BodyPair] = set()
         self._seen: Counter[BodyPair] = Counter()
@@ -92,21 +89,21 @@ class Rounds:
             self._push_apart(_deepest(overlaps) if self._deepest_first else overlaps)
             self.count += 1
 
-    def overlaps(self) -> dict[BodyPair, Opinion]:
+    def overlaps(self) -> dict[BodyPair, PairState]:
         """Pairs of which one body at least can be moved, in a fixed order."""
-        crowd = self._crowd
-        found = crowd.opinions(
+        layout = self._layout
+        found = layout.states(
             [
                 pair
-                for pair in crowd.close_pairs()
-                if pair not in self.left and not crowd.movable.isdisjoint(pair)
+                for pair in layout.close_pairs()
+                if pair not in self.left and not layout.movable.isdisjoint(pair)
             ]
         )
         asking = ("overlap", "near", "open")
-        return {pair: said for pair, said in found.items() if said.kind in asking}
+        return {pair: state for pair, state in found.items() if state.kind in asking}
 
-    def _push_apart(self, overlaps: dict[BodyPair, Opinion]) -> None:
-        stuck = [pair for pair, opinion in overlaps.items() if not self._add_wall(pair, opinion)]
+    def _push_apart(self, overlaps: dict[BodyPair, PairState]) -> None:
+        stuck = [pair for pair, state in overlaps.items() if not self._add_wall(pair, state)]
         done: set[int] = set()
         for pair in stuck:
             if done.isdisjoint(pair):
@@ -123,25 +120,25 @@ class Rounds:
         self._project()
 
     def _project(self) -> list[list[Wall]]:
-        """Move the bodies whose walls can be kept, all others stay; returns, of each island where
+        """Move the bodies whose walls can be kept, all others stay; returns, of each group where
         that cannot be, or not within the longest motion, the walls to blame, the worst first."""
-        crowd = self._crowd
-        offsets = dict.fromkeys(sorted(crowd.movable), ORIGIN)
+        layout = self._layout
+        offsets = dict.fromkeys(sorted(layout.movable), ORIGIN)
         conflicts = []
-        for island in islands(self.walls, crowd.movable):
-            bodies = {body for wall in island for body in (wall.a, wall.b)}
-            held = {body: crowd.offsets[body] for body in bodies - crowd.movable}
-            found = least_motion(island, held)
-            blamed = found.broken or self._too_hard(island, found.offsets)
+        for group in connected(self.walls, layout.movable):
+            bodies = {body for wall in group for body in (wall.a, wall.b)}
+            held = {body: layout.offsets[body] for body in bodies - layout.movable}
+            found = least_motion(group, held)
+            blamed = found.broken or self._too_hard(group, found.offsets)
             if blamed:
                 conflicts.append(list(blamed))
-                for wall in island:
+                for wall in group:
                     wall.multiplier = 0.0
                 for body in found.offsets:
                     del offsets[body]
             else:
                 offsets.update(found.offsets)
-        crowd.move(offsets)
+        layout.move(offsets)
         return conflicts
 
     def _too_hard(self, walls: list[Wall], offsets: dict[int, Vector]) -> list[Wall]:
@@ -164,13 +161,13 @@ class Rounds:
         if not self._take_out(tuple(bodies)):
             self._give_up(pair)
 
-    def _add_wall(self, pair: BodyPair, opinion: Opinion) -> bool:
+    def _add_wall(self, pair: BodyPair, state: PairState) -> bool:
         """Whether the pair has a wall that is worth a try.
 
         Between bodies that are not convex a wall holds nearby only. A remainder of an overlap
         raises the walls that are there. Where walls contradict each other, or come too often, one
         that holds everywhere takes their place, or the bodies are locked to each other."""
-        push, size = opinion.push, self._size(pair)
+        push, size = state.push, self._size(pair)
         if push is None or not any(push):
             return False
         walls, length = self._walls.get(pair, []), math.hypot(*push)
@@ -189,13 +186,13 @@ class Rounds:
         if pair in self._locked:
             self._lock(pair, push)
         elif opposed or self._seen[pair] > LOCAL_WALLS:
-            hull = out_of_hull(self._crowd.pair(pair))
+            hull = out_of_hull(self._layout.pair(pair))
             if math.hypot(*hull) <= MUCH_LONGER * max([length, *(wall.least for wall in walls)]):
                 self._walls[pair] = [self._wall(pair, hull)]
             else:
                 self._lock(pair, push)
         else:
-            there = added(self._crowd.offset(pair), push)
+            there = added(self._layout.offset(pair), push)
             kept = [wall for wall in walls if wall.slack(there) >= -ROUNDING_SHARE * size]
             self._walls[pair] = [*kept, self._wall(pair, push)]
         return self._seen[pair] <= PATIENCE
@@ -203,8 +200,12 @@ class Rounds:
     def _raised(self, pair: BodyPair, walls: Sequence[Wall]) -> bool:
         """Whether the overlap is one of rounding: the bodies keep their walls, and are free when
         one of these is raised by very little, as it then is."""
-        crowd, there, size = self._crowd, self._crowd.offset(pair), self._size(pair)
-        asked = crowd.pair(pair)
+        layout, there, size = (
+            self._layout,
+            self._layout.offset(pair),
+            self._size(pair),
+        )
+        asked = layout.pair(pair)
         if asked.asked.limited or asked.asked.clearance or self._repairs[pair] > REPAIRS:
             return False
         if any(wall.slack(there) < -ROUNDING_SHARE * size for wall in walls):
@@ -220,11 +221,11 @@ class Rounds:
 
     def _wall(self, pair: BodyPair, push: Vector) -> Wall:
         normal = unit(push)
-        return Wall(*pair, normal, dot(normal, added(self._crowd.offset(pair), push)))
+        return Wall(*pair, normal, dot(normal, added(self._layout.offset(pair), push)))
 
     def _lock(self, pair: BodyPair, push: Vector) -> None:
         """Keep the bodies just where the push puts one from the other."""
-        there = added(self._crowd.offset(pair), push)
+        there = added(self._layout.offset(pair), push)
         self._locked.add(pair)
         self._walls[pair] = [
             Wall(*pair, scaled(axis, side), side * dot(axis, there))
@@ -233,12 +234,12 @@ class Rounds:
         ]
 
     def _size(self, pair: BodyPair) -> float:
-        return largest_coordinate(*(self._crowd.placed[i].bounds for i in pair))
+        return largest_coordinate(*(self._layout.placed[i].bounds for i in pair))
 
     def _take_out(self, bodies: Sequence[int]) -> tuple[int, ...]:
-        """Put the one of these bodies that has the shortest way to a free slot there; returns it,
+        """Put the one of these bodies that has the shortest way to a free place there; returns it,
         or nothing where none has one."""
-        ways = [(way, i) for i in bodies if (way := self._slot(i)) is not None]
+        ways = [(way, i) for i in bodies if (way := self._free_place(i)) is not None]
         if not ways:
             return ()
         way, i = min(ways, key=lambda found: math.hypot(*found[0]))
@@ -247,37 +248,37 @@ class Rounds:
 
     def put(self, i: int, way: Vector) -> None:
         """Move the body there, and keep it from all that is on its way home."""
-        self._crowd.move({i: way})
+        self._layout.move({i: way})
         self._wall_in(i)
 
     def _give_up(self, pair: BodyPair) -> None:
         self.left[pair] = "no free place was found within the longest motion allowed"
         self._walls.pop(pair, None)
 
-    def _slot(self, i: int) -> Vector | None:
-        crowd = self._crowd
-        if i not in crowd.movable:
+    def _free_place(self, i: int) -> Vector | None:
+        layout = self._layout
+        if i not in layout.movable:
             return None
-        others = [j for j in range(len(crowd.home)) if j != i and crowd.is_asked((i, j))]
-        gaps = [crowd.clearance((i, j)) for j in others]
-        return self._slots.free(i, others, crowd.offsets, gaps, self._longest)
+        others = [j for j in range(len(layout.home)) if j != i and layout.is_asked((i, j))]
+        gaps = [layout.clearance((i, j)) for j in others]
+        return self._places.free(i, others, layout.offsets, gaps, self._longest)
 
     def _wall_in(self, i: int) -> None:
         """Make the walls of a body anew, from where it is, to all that is on its way home."""
-        crowd = self._crowd
+        layout = self._layout
         self._walls = {pair: walls for pair, walls in self._walls.items() if i not in pair}
         self._locked = {pair for pair in self._locked if i not in pair}
-        way = swept(crowd.home[i].bounds, crowd.placed[i].bounds)
-        boxes = [way if j == i else other.bounds for j, other in enumerate(crowd.placed)]
-        for pair in crowd.close_pairs(boxes):
+        way = swept(layout.home[i].bounds, layout.placed[i].bounds)
+        boxes = [way if j == i else other.bounds for j, other in enumerate(layout.placed)]
+        for pair in layout.close_pairs(boxes):
             if i in pair:
                 self._seen[pair] = self._repairs[pair] = 0
-                wall = walled(crowd, pair)
+                wall = walled(layout, pair)
                 if wall is not None:
                     self._walls[pair] = [wall]
 
     def _take_out_all(self) -> None:
-        """Without another push: a body that still overlaps goes to a slot that is free of all
+        """Without another push: a body that still overlaps goes to a place that is free of all
         others, wherever these are now, so that the number of overlaps only falls."""
         taken: set[int] = set()
         while overlaps := self.overlaps():
@@ -292,9 +293,9 @@ def _is_free_after(pair: Pair, normal: Vector, length: float) -> bool:
     return relation_after(pair, scaled(normal, length)) in FREE
 
 
-def _deepest(overlaps: dict[BodyPair, Opinion]) -> dict[BodyPair, Opinion]:
+def _deepest(overlaps: dict[BodyPair, PairState]) -> dict[BodyPair, PairState]:
     """Of each body the deepest of its overlaps, or none where that is a deeper one of the other."""
-    chosen: dict[BodyPair, Opinion] = {}
+    chosen: dict[BodyPair, PairState] = {}
     taken: set[int] = set()
     for pair in sorted(overlaps, key=lambda pair: -math.hypot(*(overlaps[pair].push or ()))):
         if taken.isdisjoint(pair):

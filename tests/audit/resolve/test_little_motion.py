@@ -10,8 +10,7 @@ import pytest
 
 from satcheck.audit import Settings, check
 from satcheck.audit.resolve import resolve
-from satcheck.audit.resolve.least_motion import least_motion
-from satcheck.audit.resolve.wall import Wall
+from satcheck.audit.resolve.walls import Wall, least_motion
 from satcheck.audit.vectors import dot, scaled
 from satcheck.scene import load_scene
 from tests.audit.resolve.boxes import boxes_scene, moves, unit_at

@@ -268,16 +268,16 @@ def test_rounds_are_counted(tmp_path) -> None:
 
 
 def test_a_pair_that_fails_does_not_take_the_others_with_it(tmp_path, monkeypatch) -> None:
-    from satcheck.audit.resolve import crowd
+    from satcheck.audit.resolve import layout
 
-    examine = crowd.examine
+    examine = layout.examine
 
     def broken(pair, plan):
         if "c" in (pair.a.id, pair.b.id):
             raise RuntimeError("a fault")
         return examine(pair, plan)
 
-    monkeypatch.setattr(crowd, "examine", broken)
+    monkeypatch.setattr(layout, "examine", broken)
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(-0.5)})
     found = resolve(scene)
     assert {move.body for move in found.moves} == {"a", "b"}

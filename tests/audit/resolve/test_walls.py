@@ -8,9 +8,7 @@ import random
 import pytest
 
 from satcheck import core
-from satcheck.audit.resolve.islands import islands
-from satcheck.audit.resolve.least_motion import least_motion
-from satcheck.audit.resolve.wall import Wall
+from satcheck.audit.resolve.walls import Wall, connected, least_motion
 
 X, Y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 
@@ -58,9 +56,9 @@ def test_walls_that_exclude_each_other_are_named() -> None:
 
 def test_walls_fall_into_islands_at_bodies_that_stay() -> None:
     walls = [Wall(0, 1, X, 1.0), Wall(2, 3, X, 1.0), Wall(1, 4, X, 1.0), Wall(3, 4, X, 1.0)]
-    found = islands(walls, frozenset((0, 1, 2, 3)))
+    found = connected(walls, frozenset((0, 1, 2, 3)))
     assert found == [[walls[0], walls[2]], [walls[1], walls[3]]]
-    assert islands(walls, frozenset(range(5))) == [walls]
+    assert connected(walls, frozenset(range(5))) == [walls]
 
 
 @pytest.mark.parametrize(

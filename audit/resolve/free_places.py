@@ -45,7 +45,7 @@ AXES = _unit_axes()
 RAYS = np.concatenate([AXES, -AXES, _spread(SPREAD_RAYS)])
 
 
-class Slots:
+class FreePlaces:
     """Free places among these bodies, which are translated from where they are placed here."""
 
     def __init__(self, bodies: Sequence[PlacedBody]) -> None:

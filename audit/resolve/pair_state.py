@@ -1,19 +1,77 @@
-"""Directions in which two bodies without a common interior are apart."""
+"""The state of a pair where its bodies are: whether a check objects, and which way ends that."""
 
 from __future__ import annotations
 
 import math
 from itertools import product
+from typing import Literal
+
+from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.settings import FailOn
 from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import examine
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.report.report import Vector
+from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Vector
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.tolerances import rounding_pad
+
+
+class PairState(Struct, frozen=True):
+    """How a pair is judged where it is.
+
+    open: a hole of one body leaves open whether they overlap. push: a translation of the first body
+    that ends the overlap, widens the gap to the clearance, or leads away from the hole; None: none
+    was found. excused: no check fails on them where the scene has them, although they overlap or
+    may overlap: within the touch band, for instance.
+    """
+
+    kind: Literal["free", "overlap", "near", "open", "undecided"]
+    push: Vector | None = None
+    excused: bool = False
+
+
+def is_objected(finding: Finding, fail_on: FailOn) -> bool:
+    """Whether a check fails on what the pair is known to be, or cannot tell whether an overlap is
+    within its limits."""
+    if finding.undecided == "limit" and finding.at_rest in OVERLAPS:
+        return True
+    grave = SEVERITIES[: SEVERITIES.index(fail_on) + 1]
+    return finding.severity in grave and (finding.undecided is None or finding.severity == "error")
+
+
+def state_of(pair: Pair, finding: Finding) -> PairState:
+    """finding: of the pair where its bodies are."""
+    clearance = pair.asked.clearance or 0.0
+    if finding.relation == "indeterminate":
+        push = None if pair.both_solid or pair.curved else way_outside(pair)
+        return PairState("undecided" if push is None else "open", push)
+    if not is_objected(finding, pair.settings.fail_on):
+        return PairState("free")
+    if finding.relation in OVERLAPS:
+        return PairState(
+            "overlap", finding.mtv and longer(finding.mtv, clearance - may_overlap(pair))
+        )
+    if finding.normal is None:
+        return PairState("near", parting_step(pair, clearance))
+    return PairState("near", scaled(finding.normal, (finding.distance or 0.0) - clearance))
+
+
+def may_overlap(pair: Pair) -> float:
+    """How deep the bodies may overlap. Where depth is an interval, less than the limit by its
+    width, so that the interval can end below the limit. A limit of the volume is no length."""
+    if pair.asked.max_depth is None or pair.asked.max_volume is not None:
+        return 0.0
+    width = 0.0 if pair.both_convex else pair.settings.depth_width
+    return pair.asked.max_depth * (1 - width)
+
+
+def is_overlap_excused(finding: Finding) -> bool:
+    """Of a finding that no check fails on: whether it is an overlap, or may be one."""
+    return finding.exact_relation in OVERLAPS or finding.undecided is not None
 
 
 def separation(pair: Pair) -> tuple[Vector, float] | None:
@@ -39,7 +97,7 @@ def separation(pair: Pair) -> tuple[Vector, float] | None:
     return unit(step), near.distance
 
 
-def nudge(pair: Pair, length: float) -> Vector | None:
+def parting_step(pair: Pair, length: float) -> Vector | None:
     """Of the translations of A this long to the faces, edges and corners of a cube, the one that
     leaves touching bodies farthest apart; None where none parts them."""
     best, way = 0.0, None

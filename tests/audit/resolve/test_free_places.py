@@ -9,15 +9,15 @@ import pytest
 
 from satcheck.audit import Settings
 from satcheck.audit.bodies.placed_bodies import place
-from satcheck.audit.resolve.free_slot import Slots
+from satcheck.audit.resolve.free_places import FreePlaces
 from tests.audit.resolve.boxes import boxes_scene, unit_at
 
 
-def slots(tmp_path, boxes) -> Slots:
-    return Slots(list(place(boxes_scene(tmp_path, boxes), Settings()).placed.values()))
+def slots(tmp_path, boxes) -> FreePlaces:
+    return FreePlaces(list(place(boxes_scene(tmp_path, boxes), Settings()).placed.values()))
 
 
-def free(found: Slots, count: int, offsets=None, gap: float = 0.0, longest: float = math.inf):
+def free(found: FreePlaces, count: int, offsets=None, gap: float = 0.0, longest: float = math.inf):
     others = range(1, count)
     still = [(0.0, 0.0, 0.0)] * count
     return found.free(0, others, offsets or still, [gap] * len(others), longest)

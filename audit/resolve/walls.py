@@ -1,21 +1,40 @@
-"""The shortest translations, by the sum of their squares, that keep a set of walls."""
+"""Walls between bodies, and the shortest translations that keep a set of them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.report.report import Vector
-from satcheck.audit.resolve.wall import Wall
 from satcheck.audit.vectors import added, dot, scaled
+
+BodyPair = tuple[int, int]
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 # Of the longest way that a wall asks for: by what a wall may be missed and still is no sign that
 # walls exclude each other, and what is rounding in a translation.
 MISSED = 1e-3
 NOISE = 1e-13
+
+
+class Wall(Struct):
+    """normal . (t_a - t_b) >= least, for translations t of the bodies a and b, world frame.
+
+    normal: unit; A goes along it to get away from B. multiplier: what the wall pushes A with, and B
+    the other way, in the last solution (`least_motion`); a length.
+    """
+
+    a: int
+    b: int
+    normal: Vector
+    least: float
+    multiplier: float = 0.0
+
+    def slack(self, offset: Vector) -> float:
+        """By how much t_a - t_b = offset keeps the wall; negative: breaks it."""
+        return dot(self.normal, offset) - self.least
 
 
 class Motion(Struct, frozen=True):
@@ -59,3 +78,23 @@ def least_motion(walls: Sequence[Wall], held: Mapping[int, Vector]) -> Motion:
 def _clean(offset: Vector, noise: float) -> Vector:
     x, y, z = (0.0 if abs(c) <= noise else c for c in offset)
     return x, y, z
+
+
+def connected(walls: Sequence[Wall], movable: Collection[int]) -> list[list[Wall]]:
+    """The walls by connected component; bodies that stay connect nothing. In the order of their
+    first walls, each with its walls in the order given. Union-find with path halving."""
+    parent = {body: body for wall in walls for body in (wall.a, wall.b) if body in movable}
+
+    def root(body: int) -> int:
+        while parent[body] != body:
+            parent[body] = parent[parent[body]]
+            body = parent[body]
+        return body
+
+    for wall in walls:
+        if wall.a in parent and wall.b in parent:
+            parent[root(wall.b)] = root(wall.a)
+    found: dict[int, list[Wall]] = {}
+    for wall in walls:
+        found.setdefault(root(wall.a if wall.a in parent else wall.b), []).append(wall)
+    return list(found.values())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
@@ -18,10 +19,10 @@ from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
 from satcheck.audit.report.report import Vector
-from satcheck.audit.resolve.opinion import Opinion, is_objected, is_overlap_excused, opinion_of
-from satcheck.audit.resolve.wall import BodyPair
+from satcheck.audit.resolve.pair_state import PairState, is_objected, is_overlap_excused, state_of
+from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 from satcheck.audit.side_by_side import side_by_side
-from satcheck.audit.vectors import added, scaled
+from satcheck.audit.vectors import added, dot, scaled
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:
@@ -35,10 +36,8 @@ WAY_OUT_BUDGET = 0.006
 # Seconds of a slow machine that the ways out of few overlaps may take together.
 CAREFUL_BUDGET = 4.0
 
-ORIGIN: Vector = (0.0, 0.0, 0.0)
 
-
-class Crowd:
+class Layout:
     """Bodies go by their rank among the ids, and a pair is (i, j) with i < j: the order of a scene
     then changes nothing.
 
@@ -67,15 +66,15 @@ class Crowd:
             cross_check=False,
             certificate=False,
         )
-        self._roster = place(scene, self.settings)
-        self._planner = Planner(self.settings, self._roster.book, scene.composed)
-        self._index = sorted(self._roster.placed, key=self._roster.ids.__getitem__)
-        self.home = [self._roster.placed[index] for index in self._index]
+        self._bodies = place(scene, self.settings)
+        self._planner = Planner(self.settings, self._bodies.book, scene.composed)
+        self._index = sorted(self._bodies.placed, key=self._bodies.ids.__getitem__)
+        self.home = [self._bodies.placed[index] for index in self._index]
         self.placed = list(self.home)
         self.movable = frozenset(i for i, body in enumerate(self.home) if body.id not in staying)
         self.offsets = [ORIGIN] * len(self.home)
         self._excused: set[BodyPair] = set()
-        self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, Opinion]] = {}
+        self._known: dict[BodyPair, tuple[PlacedBody, PlacedBody, PairState]] = {}
         self.careful = False
         self.settle()
 
@@ -85,7 +84,7 @@ class Crowd:
         own, self.careful = self._own, True
         budget = min(own.depth_budget, CAREFUL_BUDGET / max(overlaps, 1))
         self.settings = replace(self.settings, depth_width=own.depth_width, depth_budget=budget)
-        self._known = {pair: said for pair, said in self._known.items() if said[2].push is None}
+        self._known = {pair: state for pair, state in self._known.items() if state[2].push is None}
 
     def move(self, offsets: dict[int, Vector]) -> None:
         """Put these bodies at these translations from home."""
@@ -107,6 +106,11 @@ class Crowd:
         """All bodies to where the scene has them."""
         self.placed, self.offsets = list(self.home), [ORIGIN] * len(self.home)
         self._known, self._excused = dict(self._start[0]), set(self._start[1])
+
+    def squares(self, bodies: Iterable[int] | None = None) -> float:
+        """The sum of the squared lengths of the translations of these bodies, by default of all."""
+        chosen = self.offsets if bodies is None else [self.offsets[i] for i in bodies]
+        return math.fsum(dot(offset, offset) for offset in chosen)
 
     def offset(self, pair: BodyPair) -> Vector:
         """t_a - t_b."""
@@ -131,7 +135,7 @@ class Crowd:
         return self._planner.asked(*self._members(pair)).limited
 
     def is_asked(self, pair: BodyPair) -> bool:
-        return self._roster.book.is_asked(*self._members(pair))
+        return self._bodies.book.is_asked(*self._members(pair))
 
     def _members(self, pair: BodyPair) -> tuple[int, int]:
         """In the order of the scene."""
@@ -147,12 +151,12 @@ class Crowd:
         close = core.close_pairs(around, reach, [0] * len(around))
         return [pair for pair in close if self.is_asked(pair)]
 
-    def opinions(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, Opinion]:
+    def states(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, PairState]:
         """Of pairs where their bodies are now; those that did not move are not asked again."""
         unknown = [pair for pair in pairs if not self._is_known(pair)]
-        for pair, opinion in zip(unknown, self._in_parallel(unknown), strict=True):
-            self._known[pair] = (self.placed[pair[0]], self.placed[pair[1]], opinion)
-            if opinion.excused:
+        for pair, state in zip(unknown, self._in_parallel(unknown), strict=True):
+            self._known[pair] = (self.placed[pair[0]], self.placed[pair[1]], state)
+            if state.excused:
                 self._excused.add(pair)
             else:
                 self._excused.discard(pair)
@@ -162,20 +166,20 @@ class Crowd:
         known = self._known.get(pair)
         return known is not None and all(known[k] is self.placed[pair[k]] for k in range(2))
 
-    def _in_parallel(self, pairs: Sequence[BodyPair]) -> Iterable[Opinion]:
+    def _in_parallel(self, pairs: Sequence[BodyPair]) -> Iterable[PairState]:
         threads = min(self.settings.jobs or os.cpu_count() or 1, len(pairs))
         if threads <= 1:
-            return map(self._opinion, pairs)
-        return side_by_side(self._opinion, pairs, threads)
+            return map(self._state, pairs)
+        return side_by_side(self._state, pairs, threads)
 
-    def _opinion(self, pair: BodyPair) -> Opinion:
+    def _state(self, pair: BodyPair) -> PairState:
         """A pair that fails must not take the others with it; the check at the end says so."""
         try:
             return self._judged(pair)
         except Exception:  # noqa: BLE001 as in a check
-            return Opinion("undecided")
+            return PairState("undecided")
 
-    def _judged(self, pair: BodyPair) -> Opinion:
+    def _judged(self, pair: BodyPair) -> PairState:
         """At home, and of excused pairs, by the touch band of a check; elsewhere without one: what
         is moved is moved until it is free."""
         at_home = pair not in self._known and all(self.offsets[i] == ORIGIN for i in pair)
@@ -185,9 +189,9 @@ class Crowd:
             found = examine(replace(strict, asked=asked), Plan())
             objected = is_objected(found, self.settings.fail_on)
             if not objected and found.relation != "indeterminate":
-                return Opinion("free", excused=is_overlap_excused(found))
-            return opinion_of(strict, found)
-        return opinion_of(strict, examine(strict, Plan()))
+                return PairState("free", excused=is_overlap_excused(found))
+            return state_of(strict, found)
+        return state_of(strict, examine(strict, Plan()))
 
 
 def translated(body: Body, offset: Vector) -> Body:
