@@ -22,7 +22,7 @@ from satcheck.scene.format.placement import KEYS as PLACEMENT_KEYS
 from satcheck.scene.format.placement import placement
 from satcheck.scene.format.problems import Problems, Wrong
 from satcheck.scene.format.rule_keys import read_rule
-from satcheck.scene.format.table import Table
+from satcheck.scene.format.table import Table, read_bodies
 from satcheck.scene.format.text import Parsed
 from satcheck.scene.format.values import boolean, known_unit, list_of, shown, text
 from satcheck.scene.motion import Motion
@@ -41,10 +41,7 @@ _texts = list_of("texts", text)
 
 def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
     """Raises SceneFileError with all that is wrong in the file."""
-    problems = Problems()
-    if parsed.repeated_keys:
-        for keys in parsed.positions.duplicates():
-            problems.add(keys, Wrong("a second value for this key"))
+    problems = parsed.problems()
     scene = _Reader(parsed, problems, allow_outside).read()
     problems.raise_any(parsed.path, lambda: parsed.positions)
     return scene
@@ -62,7 +59,7 @@ class _Reader:
         if "bodies" not in top:
             top.wrong('"bodies" is missing')
         units = top.read("units", text, None)
-        bodies = self._bodies(top)
+        bodies = read_bodies(top, self._body)
         are_sound = not self._problems
         ignored = frozenset(top.read("ignore_within_groups", _texts, []))
         for key in ("$schema", "description"):  # for others, and still texts
@@ -81,17 +78,6 @@ class _Reader:
                 *unknown_groups(ignored, bodies, self._parsed.path),
             ),
         )
-
-    def _bodies(self, top: Table) -> tuple[BodyEntry, ...]:
-        bodies = []
-        ids: set[str] = set()
-        for table in top.tables("bodies"):
-            body = self._body(table)
-            if body.id and body.id in ids:
-                table.wrong(f"a second body {shown(body.id)}", "id", code="duplicate-id")
-            ids.add(body.id)
-            bodies.append(body)
-        return tuple(bodies)
 
     def _body(self, table: Table) -> BodyEntry:
         table.only(_BODY_KEYS)

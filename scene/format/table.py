@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from satcheck.scene.format.positions import Keys
+from satcheck.scene.format.entries import BodyEntry
 from satcheck.scene.format.problems import Problems, Wrong
 from satcheck.scene.format.values import Reader, shown
 from satcheck.scene.words import meant
+
+if TYPE_CHECKING:
+    from satcheck.scene.format.positions import Keys
 
 T = TypeVar("T")
 D = TypeVar("D")
@@ -79,3 +82,15 @@ class Table:
                 yield Table(value, keys, self._problems)
             else:
                 self._problems.add(keys, Wrong(f"a table expected, not {shown(value)}"))
+
+
+def read_bodies(top: Table, read: Callable[[Table], BodyEntry]) -> tuple[BodyEntry, ...]:
+    """The bodies of a scene; a second one of the same id is wrong."""
+    bodies, ids = [], set()
+    for table in top.tables("bodies"):
+        body = read(table)
+        if body.id and body.id in ids:
+            table.wrong(f"a second body {shown(body.id)}", "id", code="duplicate-id")
+        ids.add(body.id)
+        bodies.append(body)
+    return tuple(bodies)

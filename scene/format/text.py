@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from satcheck.scene.errors import SceneFileError
+from satcheck.scene.format.problems import Problems, Wrong
 from satcheck.scene.loading.regular_file import read_whole
 
 if TYPE_CHECKING:
@@ -40,6 +41,13 @@ class Parsed:
         from satcheck.scene.format.positions import Positions
 
         return Positions(self.text, toml=is_toml(self.location))
+
+    def problems(self) -> Problems:
+        """A second value for a key is one already."""
+        problems = Problems()
+        for keys in self.positions.duplicates() if self.repeated_keys else ():
+            problems.add(keys, Wrong("a second value for this key"))
+        return problems
 
 
 def is_toml(location: Path) -> bool:
