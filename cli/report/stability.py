@@ -29,21 +29,21 @@ _QUESTIONS: dict[Family, str] = {
 _COLOURS = {"same": "green", "within": "green", "beyond": "bold red", "undecided": "bold magenta"}
 
 
-def render(found: Stability, page: Page, *, explain: bool) -> str:
+def render(result: Stability, page: Page, *, explain: bool) -> str:
     """The whole text, final newline included."""
     console = Canvas(page)
-    console.print(f"{found.a} against {found.b}: {answer_line(found.asked)}")
-    if found.in_band:
-        band = f"the tolerance {number(found.band)}, and stability uses none"
+    console.print(f"{result.a} against {result.b}: {answer_line(result.answer)}")
+    if result.in_band:
+        band = f"the tolerance {number(result.band)}, and stability uses none"
         console.print(f"A plain check says touching: that is within {band}.")
-    console.print(_families(found, unicode=page.unicode))
-    for family in found.families:
+    console.print(_families(result, unicode=page.unicode))
+    for family in result.families:
         for sample in family.samples:
             if explain or sample.comparison.judgement in ("beyond", "undecided"):
                 console.print(f"  {_sample_line(family, sample)}")
         if family.skipped:
             console.print(f"  {_QUESTIONS[family.family]}: not asked, {family.skipped}")
-    console.print(_summary(found))
+    console.print(_summary(result))
     return console.text()
 
 
@@ -52,16 +52,16 @@ def answer_line(answer: Answer) -> str:
     parts: list[str] = [answer.relation]
     if answer.reason:
         parts.append(answer.reason)
-    if answer.gap is not None and answer.relation == "separated":
-        parts.append(f"gap {number(answer.gap)}")
-    if answer.depth is not None:
-        parts.append(f"depth {bounds(*answer.depth)}")
+    if answer.distance is not None and answer.relation == "separated":
+        parts.append(f"gap {number(answer.distance)}")
+    if answer.depth_bounds is not None:
+        parts.append(f"depth {bounds(*answer.depth_bounds)}")
     if answer.mtv is not None:
         parts.append(f"move A by {vector(answer.mtv)}")
     return ", ".join(parts)
 
 
-def _families(found: Stability, *, unicode: bool) -> Table:
+def _families(result: Stability, *, unicode: bool) -> Table:
     table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
     table.add_column("asked again")
     table.add_column("samples", justify="right")
@@ -69,7 +69,7 @@ def _families(found: Stability, *, unicode: bool) -> Table:
     table.add_column("changed by", justify="right")
     table.add_column("may be", justify="right")
     table.add_column("verdict")
-    for family in found.families:
+    for family in result.families:
         if family.samples:
             judgement = family.judgement or ""
             table.add_row(
@@ -95,18 +95,18 @@ def _small(length: float) -> str:
 
 
 def _sample_line(family: FamilyResult, sample: Sample) -> str:
-    found = sample.comparison
+    comparison = sample.comparison
     line = f"{_QUESTIONS[family.family]}, {sample.how}: {answer_line(sample.answer)}"
-    if not found.beyond:
-        return f"{line} ({found.judgement})"
-    change = f" by {_small(found.change)}" if found.change else ""
-    return f"{line} ({' and '.join(found.beyond)} changed{change}, beyond the bound)"
+    if not comparison.beyond:
+        return f"{line} ({comparison.judgement})"
+    change = f" by {_small(comparison.change)}" if comparison.change else ""
+    return f"{line} ({' and '.join(comparison.beyond)} changed{change}, beyond the bound)"
 
 
-def _summary(found: Stability) -> str:
-    asked = f"Asked in {counted(found.asked_ways, 'other way')} (seed {found.seed})"
-    beyond = sum(s.comparison.judgement == "beyond" for f in found.families for s in f.samples)
-    unknown = sum(s.comparison.judgement == "undecided" for f in found.families for s in f.samples)
+def _summary(result: Stability) -> str:
+    asked = f"Asked in {counted(result.sample_count, 'other way')} (seed {result.seed})"
+    beyond = sum(s.comparison.judgement == "beyond" for f in result.families for s in f.samples)
+    unknown = sum(s.comparison.judgement == "undecided" for f in result.families for s in f.samples)
     if beyond:
         return f"{asked}: {counted(beyond, 'answer')} changed beyond the bound."
     if unknown:

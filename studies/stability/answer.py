@@ -8,11 +8,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.bodies.triangles import crossing_depth
 from satcheck.audit.check import check
 from satcheck.audit.report.report import (
     OVERLAPS,
@@ -24,6 +20,7 @@ from satcheck.audit.report.report import (
     Witness,
 )
 from satcheck.scene import Body, Scene
+from satcheck.studies.pair import Bodies, pair_of
 from satcheck.studies.stability.variant import Rows, Variant
 
 MIRRORED: dict[Relation, Relation] = {"contains": "inside", "inside": "contains"}
@@ -33,17 +30,17 @@ NESTED = frozenset({"contains", "inside"})
 class Answer(Struct, frozen=True):
     """relation: the exact one; indeterminate, with a reason, where it is not proven.
 
-    gap: of bodies that do not overlap. depth: proven bounds, of overlapping ones. hold: however the
-    surfaces are moved, by less than this together, the relation stays, except that an overlap whose
-    surfaces cross may become nested. largest: the largest coordinate of the world meshes. convex:
-    both bodies are; None where it was not needed. Lengths in the units of the files.
+    distance: of bodies that do not overlap. depth_bounds: proven, of bodies that do. hold: the
+    relation stays while the surfaces are moved by less than this, together; but an overlap whose
+    surfaces cross may become a nesting. largest: the largest coordinate of the world meshes.
+    convex: both bodies are; None where it was not needed. Lengths in the units of the files.
     """
 
     relation: Relation
     largest: float
     convex: bool | None = None
-    gap: float | None = None
-    depth: tuple[float, float] | None = None
+    distance: float | None = None
+    depth_bounds: tuple[float, float] | None = None
     mtv: Vector | None = None
     normal: Vector | None = None
     witness: Witness | None = None
@@ -54,9 +51,10 @@ class Answer(Struct, frozen=True):
     @property
     def signed(self) -> tuple[float, float] | None:
         """Bounds of the signed distance: > 0 a gap, < 0 an overlap."""
-        if self.gap is not None:
-            return self.gap, self.gap
-        return None if self.depth is None else (-self.depth[1], -self.depth[0])
+        if self.distance is not None:
+            return self.distance, self.distance
+        bounds = self.depth_bounds
+        return None if bounds is None else (-bounds[1], -bounds[0])
 
 
 def ask(variant: Variant, settings: Settings) -> Answer:
@@ -78,18 +76,18 @@ def _largest_coordinate(body: Body) -> float:
     return max(abs(c) for corner in body.world_mesh().bounds for c in corner)
 
 
-def _answer(report: Report, bodies: tuple[Body, Body], largest: float) -> Answer:
+def _answer(report: Report, bodies: Bodies, largest: float) -> Answer:
     (finding,) = report.findings
     relation = finding.exact_relation
     if finding.relation == "indeterminate" or relation is None:
         return Answer("indeterminate", largest, reason=finding.reason or "not proven")
-    known = [one.convex for one in report.bodies]
+    convex = [body.convex for body in report.bodies]
     return Answer(
         relation,
         largest,
-        convex=None if None in known else all(known),
-        gap=finding.distance,
-        depth=finding.depth_bounds,
+        convex=None if None in convex else all(convex),
+        distance=finding.distance,
+        depth_bounds=finding.depth_bounds,
         mtv=finding.mtv,
         normal=finding.normal,
         witness=finding.witness,
@@ -98,52 +96,43 @@ def _answer(report: Report, bodies: tuple[Body, Body], largest: float) -> Answer
     )
 
 
-def _hold(relation: Relation, finding: Finding, bodies: tuple[Body, Body]) -> float:
+def _hold(relation: Relation, finding: Finding, bodies: Bodies) -> float:
     """Surfaces apart stay apart until they have come that far; two triangles that cross go on
     crossing until they have been drawn that far, as any two convex sets."""
     if relation == "separated":
         return finding.distance or 0.0
     if relation not in OVERLAPS:
         return 0.0
-    pair = _pair(bodies)
+    pair = pair_of(bodies, Settings())
+    a, b = pair.a.surface(), pair.b.surface()
     if relation in NESTED:
-        return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance
-    found = core.mesh_relation(pair.a.surface(), pair.b.surface())
-    if found.triangle_a < 0 or found.triangle_b < 0:
+        return core.mesh_distance(a, b).distance
+    crossing = core.mesh_relation(a, b)
+    if crossing.triangle_a < 0 or crossing.triangle_b < 0:
         return 0.0
-    return crossing_depth(pair, (found.triangle_a, found.triangle_b))
-
-
-def touch_band(bodies: tuple[Body, Body]) -> float:
-    """Of a plain check of the two."""
-    return _pair(bodies).tolerance
-
-
-def _pair(bodies: tuple[Body, Body]) -> Pair:
-    settings = Settings()
-    a, b = (PlacedBody(one, SharedMesh(one.file, settings)) for one in bodies)
-    return Pair(a, b, settings, asked_by(settings))
+    return core.crossing_depth(a, b, crossing.triangle_a, crossing.triangle_b)
 
 
 def _taken_back(answer: Answer, variant: Variant) -> Answer:
+    """In the frame, the unit and the order of the pair as given."""
     by = 1.0 / variant.scale  # a power of two: exact
     sign = -1.0 if variant.swapped else 1.0
-    depth, witness = answer.depth, answer.witness
-    if witness is not None:
-        a, b = _scaled(witness.a, by), _scaled(witness.b, by)
-        witness = Witness(b, a) if variant.swapped else Witness(a, b)
-    return Answer(
-        MIRRORED.get(answer.relation, answer.relation) if variant.swapped else answer.relation,
-        answer.largest * by,
-        convex=answer.convex,
-        gap=None if answer.gap is None else answer.gap * by,
-        depth=None if depth is None else (depth[0] * by, depth[1] * by),
+    relation, witness = answer.relation, answer.witness
+    points = None if witness is None else [_scaled(point, by) for point in (witness.a, witness.b)]
+    if variant.swapped:
+        relation = MIRRORED.get(relation, relation)
+        points = points and points[::-1]
+    bounds = answer.depth_bounds
+    return replace(
+        answer,
+        relation=relation,
+        largest=answer.largest * by,
+        distance=None if answer.distance is None else answer.distance * by,
+        depth_bounds=None if bounds is None else (bounds[0] * by, bounds[1] * by),
         mtv=_turned_back(answer.mtv, variant.turn, sign * by),
         normal=_turned_back(answer.normal, variant.turn, sign),
-        witness=witness,
+        witness=None if points is None else Witness(*points),
         hold=answer.hold * by,
-        quality=answer.quality,
-        reason=answer.reason,
     )
 
 

@@ -16,86 +16,79 @@ from msgspec import Struct
 
 from satcheck.audit.report.report import OVERLAPS
 from satcheck.studies.stability.answer import NESTED, Answer
-from satcheck.studies.stability.bounds import rounding_of_figures
-from satcheck.studies.stability.variant import Variant
+from satcheck.studies.stability.variant import Variant, rounding_of_figures
 
 Judgement = Literal["same", "within", "beyond", "undecided"]
-# Not part of the answer: how it was come by.
+# Not what a variant must keep, but what a comparison needs to know.
 UNCOMPARED = frozenset({"largest", "convex", "reason", "hold"})
 
 
 class Comparison(Struct, frozen=True):
-    """relation_changed: and may, where the judgement is within. change: of the signed distance, in
-    units of the files, None where one answer has no figure. bound: how much of it was allowed.
-    beyond: what changed that must not have."""
+    """change: of the signed distance, in units of the files; None where one answer has none.
+    bound: the largest change that the variant allows. beyond: what changed although it must not."""
 
     judgement: Judgement
-    relation_changed: bool
     change: float | None
     bound: float
     beyond: tuple[str, ...] = ()
 
 
-def compare(asked: Answer, seen: Answer, variant: Variant) -> Comparison:
-    changed = asked.relation != seen.relation
-    if "indeterminate" in (asked.relation, seen.relation):
-        return Comparison("undecided", changed, None, 0.0)
+def compare(given: Answer, varied: Answer, variant: Variant) -> Comparison:
+    changed = given.relation != varied.relation
+    if "indeterminate" in (given.relation, varied.relation):
+        return Comparison("undecided", None, 0.0)
     if variant.identical:
-        return _must_be_equal(asked, seen)
+        return _must_be_equal(given, varied)
     displacement = variant.displacement / variant.scale
-    rounding = rounding_of_figures(asked.largest) + rounding_of_figures(seen.largest)
+    rounding = rounding_of_figures(given.largest) + rounding_of_figures(varied.largest)
     bound = displacement + rounding
     beyond = []
-    if changed and not (displacement and _may_change(asked, seen, bound)):
+    if changed and not (displacement and _may_change(given, varied, bound)):
         beyond.append("relation")
-    change = _change(asked, seen)
-    if change is not None and change > bound and not _may_jump(asked, seen, displacement):
-        beyond.append("depth" if asked.relation in OVERLAPS else "distance")
+    change = _change(given, varied)
+    if change is not None and change > bound and not _may_jump(given, varied, displacement):
+        beyond.append("depth" if given.relation in OVERLAPS else "distance")
     same = not changed and not change
     judgement: Judgement = "beyond" if beyond else "same" if same else "within"
-    return Comparison(judgement, changed, change, bound, tuple(beyond))
+    return Comparison(judgement, change, bound, tuple(beyond))
 
 
-def _must_be_equal(asked: Answer, seen: Answer) -> Comparison:
+def _must_be_equal(given: Answer, varied: Answer) -> Comparison:
     beyond = tuple(
-        name
+        name.removesuffix("_bounds")
         for name in Answer.__struct_fields__
-        if name not in UNCOMPARED and getattr(asked, name) != getattr(seen, name)
+        if name not in UNCOMPARED and getattr(given, name) != getattr(varied, name)
     )
-    change = 0.0 if asked.signed == seen.signed else _change(asked, seen)
-    changed = "relation" in beyond
-    return Comparison("beyond" if beyond else "same", changed, change, 0.0, beyond)
+    change = 0.0 if given.signed == varied.signed else _change(given, varied)
+    return Comparison("beyond" if beyond else "same", change, 0.0, beyond)
 
 
-def _change(asked: Answer, seen: Answer) -> float | None:
+def _change(given: Answer, varied: Answer) -> float | None:
     """How much the signed distance changed for sure: the figures of convex pairs, and gaps, by
     their difference, proven intervals by what lies between them."""
-    one, other = asked.signed, seen.signed
-    if one is None or other is None:
+    before, after = given.signed, varied.signed
+    if before is None or after is None:
         return None
-    if asked.convex and seen.convex:
-        return abs(one[0] - other[0])
-    return max(one[0] - other[1], other[0] - one[1], 0.0)
+    if given.convex and varied.convex:
+        return abs(before[0] - after[0])
+    return max(before[0] - after[1], after[0] - before[1], 0.0)
 
 
-def _may_change(asked: Answer, seen: Answer, bound: float) -> bool:
+def _may_change(given: Answer, varied: Answer, bound: float) -> bool:
     """Whether surfaces that moved by so little can have made one relation the other."""
-    both_overlap = asked.relation in OVERLAPS and seen.relation in OVERLAPS
-    holding = [one.hold for one in (asked, seen) if not (both_overlap and _crosses(one))]
-    if any(hold > bound for hold in holding):
-        return False
-    if not asked.convex or both_overlap:
+    both_overlap = given.relation in OVERLAPS and varied.relation in OVERLAPS
+    for answer in (given, varied):
+        crosses = answer.relation not in NESTED
+        if answer.hold > bound and not (both_overlap and crosses):
+            return False
+    if not given.convex or both_overlap:
         return True
-    change = _change(asked, seen)
+    change = _change(given, varied)
     return change is None or change <= bound
 
 
-def _crosses(answer: Answer) -> bool:
-    return answer.relation not in NESTED
-
-
-def _may_jump(asked: Answer, seen: Answer, displacement: float) -> bool:
-    in_contact = "touching" in (asked.relation, seen.relation) or (
-        (asked.relation in OVERLAPS) != (seen.relation in OVERLAPS)
+def _may_jump(given: Answer, varied: Answer, displacement: float) -> bool:
+    in_contact = "touching" in (given.relation, varied.relation) or (
+        (given.relation in OVERLAPS) != (varied.relation in OVERLAPS)
     )
-    return displacement > 0 and not asked.convex and in_contact
+    return displacement > 0 and not given.convex and in_contact

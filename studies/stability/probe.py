@@ -2,41 +2,19 @@
 
 from __future__ import annotations
 
-import zlib
-from collections.abc import Callable, Iterator, Sequence
-
-import numpy as np
-from numpy.random import Generator
+from collections.abc import Sequence
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import Progress
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.other_unit import require_in_range
-from satcheck.studies.stability.answer import ask, touch_band
+from satcheck.studies.pair import pair_of
+from satcheck.studies.stability.answer import ask
 from satcheck.studies.stability.comparison import compare
-from satcheck.studies.stability.meshings import noisy, reordered, retessellated
-from satcheck.studies.stability.placements import in_motion, reaxed, scaled, swapped, translated
 from satcheck.studies.stability.result import FamilyResult, Sample, Stability
 from satcheck.studies.stability.variant import FAMILIES, Family, Question, Variant, body
-
-Make = Callable[[Question, int, Generator], Iterator[Variant]]
-
-_MAKERS: dict[Family, Make] = {
-    "scale": scaled,
-    "order": reordered,
-    "axes": reaxed,
-    "swap": swapped,
-    "translation": translated,
-    "retessellation": retessellated,
-    "motion": in_motion,
-    "noise": noisy,
-}
-_NOTHING_TO_ASK: dict[Family, str] = {
-    "scale": "no power of two leaves the coordinates within the numeric range",
-    "translation": "no translation was found that adds to every coordinate exactly",
-    "retessellation": "no edge was found that could be split or turned",
-}
+from satcheck.studies.stability.variants import NO_VARIANTS, variants
 
 
 def probe(
@@ -55,22 +33,22 @@ def probe(
     """
     settings = settings or Settings()
     question = _question(scene)
-    as_asked = Variant("scale", "as asked", body("a", question.a), body("b", question.b))
-    asked = ask(as_asked, settings)
+    given = Variant("scale", "as given", body("a", question.a), body("b", question.b))
+    answer = ask(given, settings)
     done, total = 1, 1 + samples * len(families) - (samples - 1) * ("swap" in families)
     results = []
     for family in families:
-        found = []
-        for variant in _MAKERS[family](question, samples, _generator(seed, family)):
-            answer = ask(variant, settings)
-            found.append(Sample(variant.how, answer, compare(asked, answer, variant)))
+        asked = []
+        for variant in variants(family, question, samples, seed):
+            varied = ask(variant, settings)
+            asked.append(Sample(variant.how, varied, compare(answer, varied, variant)))
             done += 1
             if progress is not None:
                 progress(done, total)
-        skipped = None if found else _NOTHING_TO_ASK.get(family)
-        results.append(FamilyResult(family, tuple(found), skipped))
-    band = touch_band((as_asked.a, as_asked.b))
-    return Stability(question.a.path, question.b.path, seed, asked, tuple(results), band)
+        skipped = None if asked else NO_VARIANTS.get(family)
+        results.append(FamilyResult(family, tuple(asked), skipped))
+    band = pair_of((given.a, given.b), Settings()).tolerance
+    return Stability(question.a.path, question.b.path, seed, answer, tuple(results), band)
 
 
 def _question(scene: Scene) -> Question:
@@ -82,8 +60,3 @@ def _question(scene: Scene) -> Question:
     scene.require_one_unit()
     a, b = (body.file for body in scene.bodies)
     return Question(a, b)
-
-
-def _generator(seed: int, family: Family) -> Generator:
-    """Of its own for each family, so that the questions of one do not depend on the others."""
-    return np.random.default_rng([seed, zlib.crc32(family.encode())])

@@ -12,13 +12,13 @@ from satcheck.studies.stability.comparison import compare
 from satcheck.studies.stability.variant import Variant, body
 from tests.audit.shapes import scene_of, unit_box
 
-APART = Answer("separated", 1.0, convex=True, gap=0.5, hold=0.5, quality="exact")
-BARELY = replace(APART, gap=1e-12, hold=1e-12)
-TOUCHING = Answer("touching", 1.0, convex=True, gap=0.0, quality="exact")
-DEEP = Answer("penetrating", 1.0, convex=True, depth=(0.5, 0.5), quality="exact")
-GRAZING = replace(DEEP, depth=(1e-12, 1e-12))
-NESTED = Answer("contains", 1.0, convex=True, depth=(0.5, 0.5), hold=1e-12, quality="exact")
-WIDE = Answer("penetrating", 1.0, convex=False, depth=(0.4, 0.6), quality="bounded")
+APART = Answer("separated", 1.0, convex=True, distance=0.5, hold=0.5, quality="exact")
+BARELY = replace(APART, distance=1e-12, hold=1e-12)
+TOUCHING = Answer("touching", 1.0, convex=True, distance=0.0, quality="exact")
+DEEP = Answer("penetrating", 1.0, convex=True, depth_bounds=(0.5, 0.5), quality="exact")
+GRAZING = replace(DEEP, depth_bounds=(1e-12, 1e-12))
+NESTED = Answer("contains", 1.0, convex=True, depth_bounds=(0.5, 0.5), hold=1e-12, quality="exact")
+WIDE = Answer("penetrating", 1.0, convex=False, depth_bounds=(0.4, 0.6), quality="bounded")
 UNKNOWN = Answer("indeterminate", 1.0, reason="not proven")
 
 
@@ -36,9 +36,9 @@ def judged(
     ("asked", "seen", "displacement", "expected"),
     [
         (APART, APART, 0.0, "same"),
-        (APART, replace(APART, gap=0.5 + 1e-15), 0.0, "within"),
-        (APART, replace(APART, gap=0.5 + 1e-9), 0.0, "beyond"),
-        (APART, replace(APART, gap=0.5 + 1e-9), 1e-8, "within"),
+        (APART, replace(APART, distance=0.5 + 1e-15), 0.0, "within"),
+        (APART, replace(APART, distance=0.5 + 1e-9), 0.0, "beyond"),
+        (APART, replace(APART, distance=0.5 + 1e-9), 1e-8, "within"),
         (APART, TOUCHING, 1e-8, "beyond"),
         (BARELY, TOUCHING, 1e-8, "within"),
         (BARELY, TOUCHING, 0.0, "beyond"),
@@ -49,8 +49,8 @@ def judged(
         (DEEP, NESTED, 1e-8, "within"),
         (DEEP, replace(NESTED, hold=0.1), 1e-8, "beyond"),
         (DEEP, NESTED, 0.0, "beyond"),
-        (WIDE, replace(WIDE, depth=(0.5, 0.9)), 0.0, "same"),
-        (WIDE, replace(WIDE, depth=(0.7, 0.9)), 0.0, "beyond"),
+        (WIDE, replace(WIDE, depth_bounds=(0.5, 0.9)), 0.0, "same"),
+        (WIDE, replace(WIDE, depth_bounds=(0.7, 0.9)), 0.0, "beyond"),
         (replace(TOUCHING, convex=False), WIDE, 1e-8, "within"),
         (replace(TOUCHING, convex=False), WIDE, 0.0, "beyond"),
         (WIDE, replace(TOUCHING, convex=False), 1e-8, "within"),
@@ -67,7 +67,8 @@ def test_judgement(
 
 
 @pytest.mark.parametrize(
-    "change", [{"mtv": (1.0, 0.0, 0.0)}, {"depth": (0.5, 0.5 + 2**-52)}, {"quality": "bounded"}]
+    "change",
+    [{"mtv": (1.0, 0.0, 0.0)}, {"depth_bounds": (0.5, 0.5 + 2**-52)}, {"quality": "bounded"}],
 )
 def test_identical_is_meant_to_the_bit(change: dict[str, object], tmp_path: Path) -> None:
     assert judged(tmp_path, DEEP, DEEP, identical=True) == "same"

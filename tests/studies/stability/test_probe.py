@@ -36,7 +36,7 @@ PAIRS = {
 def test_no_answer_changes_beyond_its_bound(name: str, tmp_path: Path) -> None:
     a, b, relation = PAIRS[name]
     found = probe(scene_of(tmp_path, a=a, b=b), samples=3, settings=NO_DEPTH)
-    assert found.asked.relation == relation
+    assert found.answer.relation == relation
     assert found.verdict == "stable", found.to_dict()
     assert [family.family for family in found.families] == list(FAMILIES)
     for family in found.families:
@@ -51,10 +51,10 @@ def test_depths_stay_too(tmp_path: Path) -> None:
     scene = scene_of(tmp_path, a=bracket(), b=moved(unit_box(), 4.5, 1.5, 1.0))
     found = probe(scene, samples=1, settings=settings)
     assert found.verdict == "stable", found.to_dict()
-    assert found.asked.depth is not None
-    assert found.asked.depth[0] <= 0.5 <= found.asked.depth[1]
+    assert found.answer.depth_bounds is not None
+    assert found.answer.depth_bounds[0] <= 0.5 <= found.answer.depth_bounds[1]
     order = next(family for family in found.families if family.family == "order")
-    assert order.samples[0].answer.depth == found.asked.depth
+    assert order.samples[0].answer.depth_bounds == found.answer.depth_bounds
 
 
 def test_a_contact_may_open_or_close(tmp_path: Path) -> None:
@@ -113,7 +113,7 @@ def test_progress_reaches_its_total(tmp_path: Path) -> None:
     told: list[tuple[int, int]] = []
     scene = scene_of(tmp_path, a=unit_box(), b=unit_box(3.0))
     found = probe(scene, samples=2, progress=lambda done, total: told.append((done, total)))
-    assert told[-1] == (found.asked_ways + 1, found.asked_ways + 1)
+    assert told[-1] == (found.sample_count + 1, found.sample_count + 1)
 
 
 def test_only_two_mesh_files_in_place_are_a_pair(tmp_path: Path) -> None:
@@ -134,5 +134,5 @@ def test_two_names_of_one_file_are_a_pair(tmp_path: Path) -> None:
     scene_of(tmp_path, a=unit_box(0.1))
     scene = load_scene([tmp_path / "a.obj", tmp_path / "a.obj"])
     found = probe(scene, samples=1, families=("scale", "order", "axes", "swap", "motion"))
-    assert found.asked.relation == "coincident"
+    assert found.answer.relation == "coincident"
     assert found.verdict == "stable", found.to_dict()

@@ -8,11 +8,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from satcheck.studies.stability.bounds import stretch
-from satcheck.studies.stability.meshings import noisy, reordered, retessellated
-from satcheck.studies.stability.placements import in_motion, reaxed, scaled, translated
 from satcheck.studies.stability.retessellation import retessellate
-from satcheck.studies.stability.variant import IDENTITY, Question
+from satcheck.studies.stability.variant import IDENTITY, Question, stretch
+from satcheck.studies.stability.variants import (
+    in_motion,
+    noisy,
+    reaxed,
+    reordered,
+    retessellated,
+    scaled,
+    translated,
+)
 from tests.audit.shapes import bracket, scene_of, unit_box
 
 U = 2.0**-53

@@ -1,18 +1,32 @@
-"""Variants that place the same meshes elsewhere: scaled, turned, moved, or A for B."""
+"""The families of variants: the pair placed elsewhere, or its solids stored in another way."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import zlib
+from collections.abc import Callable, Iterator
 from itertools import permutations, product
 
 import numpy as np
 from numpy.random import Generator
 
 from satcheck.audit.report.report import Vector
+from satcheck.core import Mesh
 from satcheck.core.transform import of_quaternion
-from satcheck.studies.stability.bounds import rounded_once, stretch
-from satcheck.studies.stability.variant import Points, Question, Rows, Variant, body
+from satcheck.scene import Body, MeshFile
+from satcheck.scene.shape_file import remeshed
+from satcheck.studies.stability.retessellation import retessellate
+from satcheck.studies.stability.variant import (
+    Family,
+    Points,
+    Question,
+    Rows,
+    Variant,
+    body,
+    one_ulp,
+    rounded_once,
+    stretch,
+)
 
 # Powers of two up to this, either way, as far as the coordinates stay within the numeric range.
 MOST_EXPONENT = 40
@@ -21,6 +35,9 @@ ROOM_EXPONENTS = 4
 
 # How far down from the size of the pair a translation is looked for that adds without rounding.
 TRANSLATION_EXPONENTS = 48
+
+# Edges split and diagonals turned in each mesh of a sample.
+STEPS = 12
 
 
 def scaled(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
@@ -140,3 +157,101 @@ def _rotation(rng: Generator) -> Rows:
     """Uniform: K. Shoemake, "Uniform Random Rotations" (1992), by a normal 4-vector."""
     m = of_quaternion(*rng.normal(size=4).tolist())
     return (m[0], m[1], m[2]), (m[3], m[4], m[5]), (m[6], m[7], m[8])
+
+
+def reordered(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """Vertices, faces and the first corner of each face in another order: the same bits."""
+    for number in range(1, samples + 1):
+        a, b = (_shuffled(file.mesh, rng) for file in question.files)
+        yield Variant(
+            "order",
+            f"sample {number}",
+            _body("a", question.a, a),
+            _body("b", question.b, b),
+            identical=True,
+        )
+
+
+def _shuffled(mesh: Mesh, rng: Generator) -> Mesh:
+    order = rng.permutation(mesh.vertex_count)
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    triangles = place[mesh.triangles][rng.permutation(mesh.triangle_count)]
+    first = rng.integers(0, 3, (len(triangles), 1))
+    corners = np.take_along_axis(triangles, (first + np.arange(3)) % 3, axis=1)
+    return Mesh(mesh.vertices[order], np.ascontiguousarray(corners))
+
+
+def retessellated(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """Edges split at their middle, diagonals of flat quads turned: the same solid, unless a middle
+    had to be rounded."""
+    for _ in range(samples):
+        found = [retessellate(file.mesh, STEPS, rng) for file in question.files]
+        if not any(one.turned or one.split for one in found):
+            return
+        moved = sum(
+            rounded_once(float(np.abs(file.mesh.vertices).max()))
+            for file, one in zip(question.files, found, strict=True)
+            if one.rounded
+        )
+        a, b = (one.mesh for one in found)
+        yield Variant(
+            "retessellation",
+            f"{sum(one.split for one in found)} edges split, "
+            f"{sum(one.turned for one in found)} diagonals turned",
+            _body("a", question.a, a),
+            _body("b", question.b, b),
+            displacement=moved,
+        )
+
+
+def noisy(question: Question, samples: int, rng: Generator) -> Iterator[Variant]:
+    """Each coordinate stays or goes to one of its two neighbours; 0 stays."""
+    for number in range(1, samples + 1):
+        a, b = (
+            Mesh(_with_noise(file.mesh.vertices, rng), file.mesh.triangles)
+            for file in question.files
+        )
+        yield Variant(
+            "noise",
+            f"sample {number}",
+            _body("a", question.a, a),
+            _body("b", question.b, b),
+            displacement=sum(one_ulp(float(np.abs(mesh.vertices).max())) for mesh in (a, b)),
+        )
+
+
+def _with_noise(vertices: Points, rng: Generator) -> Points:
+    towards = rng.choice([-np.inf, 0.0, np.inf], vertices.shape)
+    moved = np.nextafter(vertices, towards)
+    return np.where((towards == 0) | (vertices == 0), vertices, moved)
+
+
+def _body(id_: str, file: MeshFile, mesh: Mesh) -> Body:
+    return body(id_, remeshed(file, mesh))
+
+
+Make = Callable[[Question, int, Generator], Iterator[Variant]]
+_MAKERS: dict[Family, Make] = {
+    "scale": scaled,
+    "order": reordered,
+    "axes": reaxed,
+    "swap": swapped,
+    "translation": translated,
+    "retessellation": retessellated,
+    "motion": in_motion,
+    "noise": noisy,
+}
+# Why a family can have no variants.
+NO_VARIANTS: dict[Family, str] = {
+    "scale": "no power of two leaves the coordinates within the numeric range",
+    "translation": "no translation was found that adds to every coordinate exactly",
+    "retessellation": "no edge was found that could be split or turned",
+}
+
+
+def variants(family: Family, question: Question, samples: int, seed: int) -> Iterator[Variant]:
+    """At most `samples`. Each family has random numbers of its own, so that the variants of one do
+    not depend on the others."""
+    rng = np.random.default_rng([seed, zlib.crc32(family.encode())])
+    return _MAKERS[family](question, samples, rng)

@@ -1,0 +1,22 @@
+"""A pair of bodies with nothing known from before, as a check makes it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.asked.settings import Settings
+from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.scene import Body
+
+if TYPE_CHECKING:
+    from satcheck.core.overlap_volume import VolumeMeter
+
+Bodies = tuple[Body, Body]
+
+
+def pair_of(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) -> Pair:
+    cache = BodyCache()
+    a, b = (cache.place(body, settings, None) for body in bodies)
+    return Pair(a, b, settings, asked_by(settings), meter)
