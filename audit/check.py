@@ -11,13 +11,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.asked.effects import effects_of
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Asked, Planner
 from satcheck.audit.asked.settings import LISTED_PAIRS, Settings
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.doubtful_sizes import doubtful_sizes
-from satcheck.audit.finding import apart_by_boxes, examine, indeterminate
+from satcheck.audit.finding import Examined, apart_by_boxes, examine, indeterminate
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.ladder.climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import PairQueue, Steps
@@ -45,7 +45,7 @@ DEFAULT_SETTINGS = Settings()
 Progress = Callable[[int, int], None]
 
 
-class Examined(Struct, frozen=True):
+class CheckedPair(Struct, frozen=True):
     finding: Finding
     asked: Asked
     issues: tuple[Issue, ...] = ()
@@ -174,8 +174,8 @@ def _examine_all(
     movers: Movers | None,
     queue: PairQueue,
     progress: Progress | None,
-) -> list[Examined]:
-    done: dict[int, Examined] = {}
+) -> list[CheckedPair]:
+    done: dict[int, CheckedPair] = {}
     settings = planner.settings
     asked = [planner.asked(i, j) for i, j in close]
     with ExitStack() as stack:
@@ -202,7 +202,7 @@ def _examine_all(
     return [done[k] for k in range(len(pairs))]
 
 
-def _asked_and_found(one: Examined) -> tuple[Asked, Finding]:
+def _asked_and_found(one: CheckedPair) -> tuple[Asked, Finding]:
     return (one.asked if one.finding.motion is None else one.asked.swept()), one.finding
 
 
@@ -218,53 +218,57 @@ def _peers(settings: Settings) -> Peers:
     return Peers(seconds=settings.cross_check_seconds, megabytes=settings.cross_check_megabytes)
 
 
-def _examine(pair: Pair, climb: Climb | None = None) -> Examined:
+def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     """One pair, come what may: a failure here must not take the other pairs with it."""
-    plan = Plan()
+    trace = Trace()
     try:
-        finding = examine(pair, plan, climb)
+        examined = examine(pair, trace, climb)
         if pair.paths is not None:
             from satcheck.audit.motion.verdict import with_sweep
 
-            finding = with_sweep(finding, pair, pair.paths, plan)
+            examined = with_sweep(examined, pair, pair.paths, trace)
+        finding = examined.finding
         if pair.asked.wants("certificate"):
-            finding = _with_certificate(pair, finding)
-        return Examined(finding, pair.asked, tuple(plan.issues))
+            finding = _with_certificate(pair, examined)
+        return CheckedPair(finding, pair.asked, tuple(trace.issues))
     except Exception as error:  # noqa: BLE001 the one place where a run survives its own faults
         import traceback
 
         reason = f"internal error: {type(error).__name__}: {error}"
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
-        finding = indeterminate(pair.a.id, pair.b.id, reason, plan)
-        return Examined(finding, pair.asked, (*plan.issues, issue), traceback.format_exc())
+        finding = indeterminate(pair.a.id, pair.b.id, reason, trace)
+        return CheckedPair(finding, pair.asked, (*trace.issues, issue), traceback.format_exc())
 
 
-def _with_certificate(pair: Pair, finding: Finding) -> Finding:
+def _with_certificate(pair: Pair, examined: Examined) -> Finding:
     """The finding with its evidence, or with a stage that says why there is none."""
     from satcheck.audit.certify import certified
 
-    plan = Plan()
+    trace, finding = Trace(), examined.finding
     if finding.motion is not None:
-        plan.record("certificate", "none", "a sweep of moving bodies leaves no evidence")
-        return replace(finding, plan=(*finding.plan, *plan.stages))
+        trace.record("certificate", "none", "a sweep of moving bodies leaves no evidence")
+        return replace(finding, plan=(*finding.plan, *trace.stages))
     try:
-        found = certified(pair, finding)
+        found = certified(pair, examined)
     except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
         found = f"internal error: {type(error).__name__}: {error}"
     if isinstance(found, str):
-        plan.record("certificate", "none", found)
-        return replace(finding, plan=(*finding.plan, *plan.stages))
-    plan.record("certificate", found["relation"]["kind"], "accepted by the checker")
-    return replace(finding, certificate=found, plan=(*finding.plan, *plan.stages))
+        trace.record("certificate", "none", found)
+        return replace(finding, plan=(*finding.plan, *trace.stages))
+    trace.record("certificate", found["relation"]["kind"], "accepted by the checker")
+    return replace(finding, certificate=found, plan=(*finding.plan, *trace.stages))
 
 
 def _findings(
-    bodies: PlacedBodies, close: list[tuple[int, int]], examined: list[Examined], planner: Planner
+    bodies: PlacedBodies,
+    close: list[tuple[int, int]],
+    examined: list[CheckedPair],
+    planner: Planner,
 ) -> list[Finding]:
     found = {pair: one.finding for pair, one in zip(close, examined, strict=True)}
     for i, j, reason in bodies.undecidable_pairs():
-        found[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Plan())
+        found[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Trace())
     settings = planner.settings
     total, allowed = bodies.book.count()
     listed = settings.list_pruned
@@ -272,6 +276,8 @@ def _findings(
         for i, j in bodies.book.asked_pairs():
             if (i, j) not in found:
                 pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.asked(i, j))
-                finding = apart_by_boxes(pair)
-                found[i, j] = _with_certificate(pair, finding) if settings.certificate else finding
+                apart = apart_by_boxes(pair)
+                found[i, j] = (
+                    _with_certificate(pair, apart) if settings.certificate else apart.finding
+                )
     return [found[pair] for pair in sorted(found)]

@@ -14,9 +14,9 @@ from typing import Literal
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS
 from satcheck.core.errors import SatcheckError
 from satcheck.core.peers import Peers
@@ -36,42 +36,42 @@ class Opinion(Struct, frozen=True):
     ours: str = ""
 
 
-def say(pair: Pair, contact: Contact, peers: Peers, plan: Plan) -> str | None:
+def say(pair: Pair, verdict: Verdict, peers: Peers, trace: Trace) -> str | None:
     """Records one stage a peer. A disagreement is a warning, and is returned in words."""
-    if not contact.proven:
-        plan.record(CROSS_CHECK, NO_ANSWER, "the relation is not proven: nothing to hold against")
+    if not verdict.proven:
+        trace.record(CROSS_CHECK, NO_ANSWER, "the relation is not proven: nothing to hold against")
         return None
     against = []
-    for opinion in (_by_fcl(pair, contact, peers), _by_manifold(pair, contact, peers)):
-        plan.record(CROSS_CHECK, opinion.standing, f"{opinion.peer}: {opinion.theirs}")
+    for opinion in (_by_fcl(pair, verdict, peers), _by_manifold(pair, verdict, peers)):
+        trace.record(CROSS_CHECK, opinion.standing, f"{opinion.peer}: {opinion.theirs}")
         if opinion.standing == "disagrees":
             said = f"{opinion.peer} says {opinion.theirs}, satcheck {opinion.ours}"
             against.append(said)
-            message = f"{pair.a.id} and {pair.b.id}: {said} ({contact.relation})"
-            plan.complain(DISAGREEMENT, None, message)
+            message = f"{pair.a.id} and {pair.b.id}: {said} ({verdict.relation})"
+            trace.complain(DISAGREEMENT, None, message)
     return f"disputed: {', '.join(against)}" if against else None
 
 
-def _by_fcl(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
+def _by_fcl(pair: Pair, verdict: Verdict, peers: Peers) -> Opinion:
     name = "python-fcl"
-    if not _tells_whether_surfaces_meet(pair, contact):
+    if not _tells_whether_surfaces_meet(pair, verdict):
         return Opinion(name, "no answer", "not asked: the surfaces touch without crossing")
     try:
         theirs = peers.surfaces_meet(pair.a.mesh, pair.b.mesh)
     except SatcheckError as error:
         return Opinion(name, "no answer", error.message)
-    ours = contact.relation == "penetrating"
+    ours = verdict.relation == "penetrating"
     return _compared(name, theirs, ours, ("surfaces that meet", "surfaces that are apart"))
 
 
-def _tells_whether_surfaces_meet(pair: Pair, contact: Contact) -> bool:
+def _tells_whether_surfaces_meet(pair: Pair, verdict: Verdict) -> bool:
     """A body within another one may still touch faces inside its material."""
-    if contact.relation in ("contains", "inside"):
+    if verdict.relation in ("contains", "inside"):
         return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance > 0
-    return contact.relation in ("separated", "penetrating")
+    return verdict.relation in ("separated", "penetrating")
 
 
-def _by_manifold(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
+def _by_manifold(pair: Pair, verdict: Verdict, peers: Peers) -> Opinion:
     name = "manifold3d"
     if not pair.both_solid:
         return Opinion(name, "no answer", "not asked: a mesh is no solid")
@@ -85,7 +85,7 @@ def _by_manifold(pair: Pair, contact: Contact, peers: Peers) -> Opinion:
         return Opinion(name, "no answer", error.message)
     if 0 < abs(common.volume) <= common.error:
         return Opinion(name, "no answer", "a common volume within its tolerance")
-    overlap, ours = common.volume > 0, contact.relation in OVERLAPS
+    overlap, ours = common.volume > 0, verdict.relation in OVERLAPS
     return _compared(name, overlap, ours, ("a common volume", "no common volume"))
 
 

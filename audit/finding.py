@@ -7,27 +7,39 @@ no gap, so it keeps none.
 from __future__ import annotations
 
 import hashlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from satcheck.audit.asked.plan import Plan
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck.audit.answer import Answer
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.figures.gap import Gap, compare_convex, measure_gap
-from satcheck.audit.figures.touch_band import Band, band_of, estimate_is_within, touch_band
+from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.figures.depth import Depth, measure_depth
+from satcheck.audit.figures.gap import Gap, measure_gap
+from satcheck.audit.figures.touch_band import Band, band_of, touch_band
+from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.around import open_pieces_around
-from satcheck.audit.ladder.ladder import Contact, boxes_apart, settle
+from satcheck.audit.ladder.ladder import boxes_verdict, settle
 from satcheck.audit.report.contact_report import Contacts
 from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
-from satcheck.audit.severity import disputed, judged
+from satcheck.audit.severity import Judgement, disputed, judged
 from satcheck.audit.tolerances import EXACT_WIDTH
 
 if TYPE_CHECKING:
-    from satcheck.audit.figures.depth import Depth
-    from satcheck.audit.figures.touch_band import Side
-    from satcheck.core import Climb, PairResult
-    from satcheck.core.curved.signed import Signed
+    from satcheck.core import Climb
 
 ID_DIGITS = 12
 OPEN_BAND = "undecided: whether that is within the tolerance"
+
+
+class Examined(Struct, frozen=True):
+    """A finding, and what it follows from. answer: None where the relation stays open."""
+
+    finding: Finding
+    verdict: Verdict
+    answer: Answer | None = None
 
 
 def finding_id(a: str, b: str) -> str:
@@ -36,102 +48,97 @@ def finding_id(a: str, b: str) -> str:
     return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
 
 
-def examine(pair: Pair, plan: Plan, climb: Climb | None = None) -> Finding:
-    """Everything asked about one pair. Warnings go to the plan. climb: where it has been made."""
-    contact = settle(pair, plan, climb)
-    if contact.relation == "indeterminate":
-        return indeterminate(pair.a.id, pair.b.id, contact.reason or "undecided", plan)
-    if contact.relation in ("separated", "touching"):
-        surrounded = open_pieces_around(pair)
-        if surrounded is not None:
-            return indeterminate(pair.a.id, pair.b.id, surrounded, plan)
-    gap: tuple[float, float, bool | None] = (0.0, 0.0, None)
-    if contact.relation in OVERLAPS:
-        overlap = _overlapping(pair, contact, plan)
-        if overlap is None:
-            reason = f"undecided: rounding hides whether the overlap is within {pair.tolerance:.9g}"
-            return indeterminate(pair.a.id, pair.b.id, reason, plan)
-        known = overlap
-        gap = (0.0, pair.farther, None)
+def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
+    """Everything asked about one pair. Warnings go to the trace. climb: where it has been made."""
+    verdict = settle(pair, trace, climb)
+    reason = _why_open(pair, verdict)
+    if reason is not None:
+        return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
+    if verdict.relation in OVERLAPS:
+        answer = _overlapping(pair, verdict, trace)
     else:
-        measured = measure_gap(pair, contact, plan)
-        if pair.closer:
-            from satcheck.audit.figures.curve_error import gap_of_curves
-
-            measured = gap_of_curves(pair, measured)
-        gap = measured.lower, measured.upper, measured.kept
-        known = _apart(pair, contact, measured)
-    contradiction = _add_extras(known, pair, contact, plan)
-    found = judged(known, pair, gap, overlaps=contact.overlaps)
+        answer = _apart(pair, verdict, trace)
+    if answer is None:
+        reason = f"undecided: rounding hides whether the overlap is within {pair.tolerance:.9g}"
+        return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
+    answer = _with_extras(answer, pair, verdict, trace)
+    contradiction = _contradiction(pair, verdict, trace)
+    judgement = judged(answer, pair, overlaps=verdict.overlaps)
     if contradiction is not None:
-        found = disputed(found, contradiction)
-    known["reason"] = known["reason"] or found.reason
-    known["rule"], known["severity"], known["undecided"] = (
-        found.rule,
-        found.severity,
-        found.undecided,
+        judgement = disputed(judgement, contradiction)
+    return Examined(_finding(pair, answer, judgement, trace), verdict, answer)
+
+
+def apart_by_boxes(pair: Pair) -> Examined:
+    """A pair that the broad phase settled."""
+    trace = Trace()
+    verdict = boxes_verdict(pair, trace)
+    if verdict is None:
+        raise RuntimeError(f"the broad phase dropped {pair.a.id} and {pair.b.id}")
+    answer = Answer(
+        "separated",
+        "separated",
+        "exact",
+        volume=NOTHING if pair.asked.wants("volume") else None,
+        contacts=Contacts() if pair.asked.wants("contacts") else None,
     )
-    return _finding(pair.a.id, pair.b.id, plan, known)
+    return Examined(_finding(pair, answer, Judgement("none"), trace), verdict, answer)
 
 
-def _add_extras(known: dict[str, Any], pair: Pair, contact: Contact, plan: Plan) -> str | None:
-    """Adds what only some ask for; returns what another library says against the relation."""
+def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
+    return Finding(
+        id=finding_id(a, b),
+        a=a,
+        b=b,
+        severity="warning",
+        undecided="relation",
+        relation="indeterminate",
+        reason=reason,
+        plan=tuple(trace.stages),
+    )
+
+
+def _why_open(pair: Pair, verdict: Verdict) -> str | None:
+    """None: it is known how the bodies relate."""
+    if verdict.relation == "indeterminate":
+        return verdict.reason or "undecided"
+    if verdict.relation in ("separated", "touching"):
+        return open_pieces_around(pair)
+    return None
+
+
+def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
+    """With what only some ask for."""
     if pair.curved:
         from satcheck.audit.figures.curved import without_meshes
 
-        known["reason"] = without_meshes(known["reason"], pair, plan)
-        return None
+        reason = without_meshes(answer.reason, pair, trace)
+        return answer if reason is answer.reason else replace(answer, reason=reason)
     asked = pair.asked.by
     if "volume" in asked:
-        from satcheck.audit.figures.volume import common_volume
-
-        volume = common_volume(pair, contact, plan)
-        known["volume"], known["volume_error"] = volume.volume, volume.error
-        known["reason"] = known["reason"] or volume.refusal
+        volume = common_volume(pair, verdict, trace)
+        answer = replace(answer, volume=volume, reason=answer.reason or volume.refusal)
     if "contacts" in asked:
         from satcheck.audit.figures.contacts import find_contacts
 
-        known["contacts"] = find_contacts(pair, contact, plan)
-    if pair.peers is None:
+        answer = replace(answer, contacts=find_contacts(pair, verdict, trace))
+    return answer
+
+
+def _contradiction(pair: Pair, verdict: Verdict, trace: Trace) -> str | None:
+    """What another library says against the relation."""
+    if pair.peers is None or pair.curved:
         return None
     from satcheck.audit.cross_check import say
 
-    return say(pair, contact, pair.peers, plan)
+    return say(pair, verdict, pair.peers, trace)
 
 
-def apart_by_boxes(pair: Pair) -> Finding:
-    """The finding of a pair that the broad phase settled."""
-    plan = Plan()
-    if not boxes_apart(pair, plan) > pair.asked_gap:
-        raise RuntimeError(f"the broad phase dropped {pair.a.id} and {pair.b.id}")
-    known = {
-        "relation": "separated",
-        "severity": "none",
-        "exact_relation": "separated",
-        "quality": "exact",
-        "tolerance": pair.tolerance,
-        "contacts": Contacts() if pair.asked.wants("contacts") else None,
-        "volume": 0.0 if pair.asked.wants("volume") else None,
-        "volume_error": 0.0 if pair.asked.wants("volume") else None,
-    }
-    return _finding(pair.a.id, pair.b.id, plan, known)
-
-
-def indeterminate(a: str, b: str, reason: str, plan: Plan) -> Finding:
-    known = {
-        "relation": "indeterminate",
-        "severity": "warning",
-        "undecided": "relation",
-        "reason": reason,
-    }
-    return _finding(a, b, plan, known)
-
-
-def _weakness(pair: Pair, contact: Contact) -> str | None:
+def _weakness(pair: Pair, verdict: Verdict) -> str | None:
     """What the answer leaves out; the relation of hulls that are apart leaves out nothing."""
-    if contact.reason is not None:
-        return contact.reason
-    if not contact.proven:
+    if verdict.reason is not None:
+        return verdict.reason
+    if not verdict.proven:
         return _unproven(pair) if not pair.may("exact") else "a degenerate contact was sampled"
     return None
 
@@ -140,62 +147,39 @@ def _unproven(pair: Pair) -> str:
     return f"not proven at --accuracy {pair.settings.accuracy}"
 
 
-def _overlapping(pair: Pair, contact: Contact, plan: Plan) -> dict[str, Any] | None:
+def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | None:
     """None: rounding hides whether the overlap is within the tolerance."""
-    if contact.convex is not None:
-        # No triangles are needed to see an overlap within the touch band.
-        band = Band(_side(pair, contact.convex))
-    elif pair.may("exact"):
-        band = touch_band(pair, contact, plan)
-    else:
-        band = Band("within" if estimate_is_within(pair, plan) else "open")
-    guess = band.side == "within" and not contact.proven
-    depth = None if guess else _depth(pair, contact, band.move, plan)
+    band = touch_band(pair, verdict, trace)
+    guess = band.side == "within" and not verdict.proven
+    depth = None if guess else _depth(pair, verdict, band.move, trace)
     if depth is not None and band.side in ("open", "hidden"):
         band = _band_of_depth(pair, depth) or band
     if band.side == "hidden":
         return None
-    is_open = pair.curved and contact.convex is not None and band.side == "open"
-    relation: Relation = "touching" if band.side == "within" else contact.relation
-    proven = shown = contact.proven
-    reason = _weakness(pair, contact) or (OPEN_BAND if is_open else None)
+    is_open = pair.curved and verdict.signed_distance is not None and band.side == "open"
+    relation: Relation = "touching" if band.side == "within" else verdict.relation
+    proven = shown = verdict.proven
+    reason = _weakness(pair, verdict) or (OPEN_BAND if is_open else None)
     if pair.closer:
         from satcheck.audit.figures import curve_error
 
-        depth = depth and curve_error.depth_of_curves(pair, contact, depth, plan)
-        shown = proven and curve_error.overlap_of_curves(pair, contact)
+        depth = depth and curve_error.depth_of_curves(pair, verdict, depth, trace)
+        shown = proven and curve_error.overlap_of_curves(pair, verdict)
         in_band = relation == "touching" and pair.tolerance >= pair.closer
-        if not (shown or in_band) and curve_error.is_hidden(pair, contact, depth):
+        if not (shown or in_band) and curve_error.is_hidden(pair, verdict, depth):
             proven, reason = False, reason or _within_curves(pair)
-    return {
-        "relation": relation,
-        "exact_relation": contact.relation if shown else None,
-        "quality": _depth_quality(depth, proven=proven),
-        "tolerance": pair.tolerance,
-        "reason": reason,
-        **({} if depth is None else _depth_figures(depth)),
-    }
+    return Answer(
+        relation,
+        verdict.relation if shown else None,
+        _depth_quality(depth, proven=proven),
+        reason,
+        band=band,
+        depth=depth,
+    )
 
 
-def _depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Depth | None:
-    if not pair.asked.wants("depth"):
-        return None
-    from satcheck.audit.figures.depth import measure_depth
-
-    return measure_depth(pair, contact, move, plan)
-
-
-def _side(pair: Pair, found: PairResult | Signed) -> Side:
-    """Whether two convex bodies overlap by no more than the tolerance."""
-    if pair.tolerance == 0:
-        return "deeper"
-    least, most = -(found.upper or 0.0), -(found.lower or 0.0)
-    if most <= pair.tolerance:
-        return "within"
-    side = -1 if least > pair.tolerance else compare_convex(pair, -pair.tolerance)
-    if side is None:
-        return "open"
-    return "within" if side >= 0 else "deeper"
+def _depth(pair: Pair, verdict: Verdict, move: Vector | None, trace: Trace) -> Depth | None:
+    return measure_depth(pair, verdict, move, trace) if pair.asked.wants("depth") else None
 
 
 def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
@@ -203,18 +187,6 @@ def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
     if not depth.escape.verified or depth.lower > pair.tolerance:
         return None
     return band_of(pair, depth.escape.mtv)
-
-
-def _depth_figures(depth: Depth) -> dict[str, Any]:
-    return {
-        "depth": depth.upper,
-        "depth_bounds": (depth.lower, depth.upper),
-        "normal": depth.normal,
-        "mtv": depth.escape.mtv,
-        "mtv_moves": "a",
-        "mtv_verified": depth.escape.verified,
-        "witness": depth.witness,
-    }
 
 
 def _depth_quality(depth: Depth | None, *, proven: bool) -> Quality:
@@ -225,12 +197,17 @@ def _depth_quality(depth: Depth | None, *, proven: bool) -> Quality:
     return "bounded"
 
 
-def _apart(pair: Pair, contact: Contact, gap: Gap) -> dict[str, Any]:
-    relation, proven, reason = contact.relation, contact.proven, _weakness(pair, contact)
+def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
+    gap = measure_gap(pair, verdict, trace)
+    if pair.closer:
+        from satcheck.audit.figures.curve_error import gap_of_curves
+
+        gap = gap_of_curves(pair, gap)
+    relation, proven, reason = verdict.relation, verdict.proven, _weakness(pair, verdict)
     if gap.within:
         relation = "touching"
         # The band is proven, whichever side of a touch the bodies are on.
-        proven = proven or _overlaps_within(contact, pair.tolerance)
+        proven = proven or _overlaps_within(verdict, pair.tolerance)
     elif relation == "separated":
         guess = gap.kept is None and gap.distance is None
         if gap.kept is False or guess:
@@ -239,34 +216,28 @@ def _apart(pair: Pair, contact: Contact, gap: Gap) -> dict[str, Any]:
             reason = reason or OPEN_BAND
         if guess:
             proven, reason = False, _open_gap(pair)
-    shown = contact.proven
+    shown = verdict.proven
     if pair.closer and gap.lower == 0:  # the curves may meet
         shown = False
         if pair.tolerance < pair.closer:
             proven, reason = False, reason or _within_curves(pair)
-    figures: dict[str, Any] = {}
-    if pair.asked.clearance is not None and gap.distance is not None:
-        figures = {"distance": gap.distance, "normal": gap.normal, "witness": gap.witness}
-        if pair.closer:
-            figures["distance_bounds"] = (gap.lower, gap.upper)
-    at_best: Quality = "bounded" if "distance_bounds" in figures else "exact"
-    return {
-        "relation": relation,
-        "exact_relation": contact.relation if shown else None,
-        "quality": at_best if proven else "estimate",
-        "tolerance": pair.tolerance,
-        "reason": reason,
-        **figures,
-    }
+    at_best: Quality = "bounded" if pair.closer and _is_shown(pair, gap) else "exact"
+    quality = at_best if proven else "estimate"
+    return Answer(relation, verdict.relation if shown else None, quality, reason, gap=gap)
+
+
+def _is_shown(pair: Pair, gap: Gap) -> bool:
+    """Whether the figure goes into the finding."""
+    return pair.asked.clearance is not None and gap.distance is not None
 
 
 def _within_curves(pair: Pair) -> str:
     return f"undecided: the curves may be {pair.closer:.3g} off their polygons"
 
 
-def _overlaps_within(contact: Contact, tolerance: float) -> bool:
+def _overlaps_within(verdict: Verdict, tolerance: float) -> bool:
     """Whether two convex bodies are proven to overlap by no more than that, if they do."""
-    lower = None if contact.convex is None else contact.convex.lower
+    lower = None if verdict.signed_distance is None else verdict.signed_distance.lower
     return lower is not None and lower >= -tolerance
 
 
@@ -276,8 +247,33 @@ def _open_gap(pair: Pair) -> str:
     return "the gap may be less: what fills a hole may be nearer than the surface"
 
 
-def _finding(a: str, b: str, plan: Plan, known: dict[str, Any]) -> Finding:
-    """known: its other fields."""
-    known["id"], known["a"], known["b"] = finding_id(a, b), a, b
-    known["plan"] = tuple(plan.stages)
-    return Finding(**known)
+def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> Finding:
+    depth, volume = answer.depth, answer.volume
+    gap = answer.gap if answer.gap is not None and _is_shown(pair, answer.gap) else None
+    figure = gap if depth is None else depth  # a pair has one of them at most
+    return Finding(
+        id=finding_id(pair.a.id, pair.b.id),
+        a=pair.a.id,
+        b=pair.b.id,
+        rule=judgement.rule,
+        severity=judgement.severity,
+        undecided=judgement.undecided,
+        relation=answer.relation,
+        exact_relation=answer.exact_relation,
+        tolerance=pair.tolerance,
+        distance=None if gap is None else gap.distance,
+        distance_bounds=(gap.lower, gap.upper) if gap is not None and pair.closer else None,
+        depth=None if depth is None else depth.upper,
+        depth_bounds=None if depth is None else (depth.lower, depth.upper),
+        quality=answer.quality,
+        normal=None if figure is None else figure.normal,
+        mtv=None if depth is None else depth.escape.mtv,
+        mtv_moves=None if depth is None else "a",
+        mtv_verified=None if depth is None else depth.escape.verified,
+        witness=None if figure is None else figure.witness,
+        volume=None if volume is None else volume.volume,
+        volume_error=None if volume is None else volume.error,
+        contacts=answer.contacts,
+        reason=answer.reason or judgement.reason,
+        plan=tuple(trace.stages),
+    )

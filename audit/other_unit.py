@@ -22,7 +22,7 @@ from satcheck.core.shapes import values_of
 from satcheck.scene import Scene
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
-# The first stage of each plan.
+# The first stage of each trace.
 STAGE = "unit"
 # What states lengths in a certificate; all else are directions, weights and numbers of vertices.
 POINTS_OF_CERTIFICATES = frozenset({"both", "a_alone", "b_alone", "move", "point"})

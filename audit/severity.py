@@ -7,17 +7,20 @@ warning at least, whatever they say.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from math import inf
-from typing import Any
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.asked.planner import Asked
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Relation, Severity, Undecided
-from satcheck.audit.tolerances import EXACT_WIDTH, is_within
+from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
+from satcheck.audit.tolerances import is_within, keeps
+
+if TYPE_CHECKING:
+    from satcheck.audit.answer import Answer
 
 CLEARANCE_RULE = "clearance"
 
@@ -39,14 +42,6 @@ class Judgement(Struct, frozen=True):
 _OVERLAP, _TOUCH, _NOTHING = Judgement("error"), Judgement("note"), Judgement("none")
 
 
-def keeps(clearance: float, least: float, most: float) -> bool | None:
-    """Whether a gap between these bounds keeps the clearance; None: not decided. Figures are
-    rounded: bounds that hold a clearance less than that below their ends keep it."""
-    if most < clearance:
-        return False
-    return True if least >= clearance * (1 - EXACT_WIDTH) else None
-
-
 def of_clearance(
     asked: Asked, least: float, most: float, kept: bool | None = None
 ) -> Judgement | None:
@@ -65,33 +60,25 @@ def of_clearance(
     return None if kept else Judgement("error", rule)
 
 
-def judged(
-    known: Mapping[str, Any],
-    pair: Pair,
-    gap: tuple[float, float, bool | None],
-    *,
-    overlaps: bool = False,
-) -> Judgement:
-    """Of a finding, by what is known of it: its fields by name.
-
-    gap: proven bounds of the distance of bodies without a common interior, and whether it keeps the
-    clearance. overlaps: an overlap is proven, even if the relation is not. A relation that is not
+def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
+    """overlaps: an overlap is proven, even if the relation is not. A relation that is not
     proven does not pass, and an overlap that is not proven does not fail, unless --accuracy or
     --allow-open asks for less.
     """
-    found = by_rule(_found(known, pair.asked, gap), pair.asked)
+    judgement = by_rule(_judged(answer, pair), pair.asked)
     settings = pair.settings
-    if known["quality"] != "estimate" or settings.accuracy != "exact" or settings.allow_open:
-        return found
-    if known["relation"] in OVERLAPS and overlaps:
-        is_proven = not found.passes or known.get("mtv_verified") is True
-        return found if is_proven else _warned(found, "relation")
-    if known["relation"] in OVERLAPS:  # or a gap within these bounds
-        close = of_clearance(pair.asked, *gap)
+    if answer.quality != "estimate" or settings.accuracy != "exact" or settings.allow_open:
+        return judgement
+    if answer.relation in OVERLAPS and overlaps:
+        verified = answer.depth is not None and answer.depth.escape.verified
+        is_proven = verified or not judgement.passes
+        return judgement if is_proven else _warned(judgement, "relation")
+    if answer.relation in OVERLAPS:  # or a gap that may keep no clearance
+        close = of_clearance(pair.asked, 0.0, pair.farther)
         if close is not None and close.severity == "error":
             return _warned(by_rule(close, pair.asked), "relation")
-        return _warned(replace(found, severity="warning"), "relation")
-    return _warned(found, "relation") if found.passes else found
+        return _warned(replace(judgement, severity="warning"), "relation")
+    return _warned(judgement, "relation") if judgement.passes else judgement
 
 
 def by_rule(found: Judgement, asked: Asked) -> Judgement:
@@ -102,15 +89,17 @@ def by_rule(found: Judgement, asked: Asked) -> Judgement:
     return replace(found, severity=severity, rule=asked.rule("severity"))
 
 
-def _found(
-    known: Mapping[str, Any], asked: Asked, gap: tuple[float, float, bool | None]
-) -> Judgement:
-    relation: Relation = known["relation"]
-    if relation in OVERLAPS:
-        return _limited(known, asked) if asked.limited else _OVERLAP
-    if relation == "near":
+def _judged(answer: Answer, pair: Pair) -> Judgement:
+    asked, gap = pair.asked, answer.gap
+    if answer.relation in OVERLAPS:
+        return _limited(answer, asked) if asked.limited else _OVERLAP
+    if answer.relation == "near":
         return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
-    return of_clearance(asked, *gap) or (_TOUCH if relation == "touching" else _NOTHING)
+    if gap is None:  # an overlap within the touch band
+        close = of_clearance(asked, 0.0, pair.farther)
+    else:
+        close = of_clearance(asked, gap.lower, gap.upper, gap.kept)
+    return close or (_TOUCH if answer.relation == "touching" else _NOTHING)
 
 
 def disputed(found: Judgement, reason: str) -> Judgement:
@@ -128,9 +117,9 @@ def _is_at_least(found: Judgement, severity: Severity) -> bool:
     return SEVERITIES.index(found.severity) <= SEVERITIES.index(severity)
 
 
-def _limited(known: Mapping[str, Any], asked: Asked) -> Judgement:
+def _limited(answer: Answer, asked: Asked) -> Judgement:
     """Within all limits, beyond one, or undecided."""
-    limits = list(_limits(known, asked))
+    limits = list(_limits(answer, asked))
     for limit in limits:
         if limit.kept is False:
             return Judgement("error", limit.rule)
@@ -166,15 +155,16 @@ class _Limit(Struct, frozen=True):
         return f"{known}, and the {figure} is between {self.least:.6g} and {self.greatest:.6g}"
 
 
-def _limits(known: Mapping[str, Any], asked: Asked) -> Iterator[_Limit]:
+def _limits(answer: Answer, asked: Asked) -> Iterator[_Limit]:
     if asked.max_depth is not None:
-        least, greatest = known.get("depth_bounds") or (None, None)
+        depth = answer.depth
+        least, greatest = (None, None) if depth is None else (depth.lower, depth.upper)
         yield _Limit(asked.rule("max_depth") or "", "max_depth", asked.max_depth, least, greatest)
     if asked.max_volume is not None:
         least = greatest = None
-        volume, error = known.get("volume"), known.get("volume_error")
-        if volume is not None and error is not None:
-            least, greatest = volume - error, volume + error
+        found = answer.volume
+        if found is not None and found.volume is not None and found.error is not None:
+            least, greatest = found.volume - found.error, found.volume + found.error
         yield _Limit(
             asked.rule("max_volume") or "", "max_volume", asked.max_volume, least, greatest
         )

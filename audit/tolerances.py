@@ -27,3 +27,11 @@ def is_within(limit: float, least: float, greatest: float) -> bool | None:
     if greatest <= limit * (1 + EXACT_WIDTH):
         return True
     return False if least > limit else None
+
+
+def keeps(clearance: float, least: float, most: float) -> bool | None:
+    """Whether a gap between these bounds keeps the clearance; None: not decided. Figures are
+    rounded: bounds that hold a clearance less than that below their ends keep it."""
+    if most < clearance:
+        return False
+    return True if least >= clearance * (1 - EXACT_WIDTH) else None

@@ -25,8 +25,8 @@ from typing import Any
 
 from satcheck import core
 from satcheck.audit import Settings
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
@@ -77,7 +77,7 @@ def pair_of(entry: dict[str, Any], folder: Path, settings: Settings) -> Pair | N
         return None
     a, b = (PlacedBody(body, SharedMesh(body.file, settings)) for body in scene.bodies)
     pair = Pair(a, b, settings, asked_by(settings))
-    if pair.both_convex or settle(pair, Plan()).relation not in OVERLAPS:
+    if pair.both_convex or settle(pair, Trace()).relation not in OVERLAPS:
         return None
     return pair
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
@@ -32,13 +32,13 @@ class Covering(Struct, frozen=True):
     missing: float
 
 
-def decomposition(body: PlacedBody, plan: Plan) -> Decomposition | None:
+def decomposition(body: PlacedBody, trace: Trace) -> Decomposition | None:
     """The convex parts of the body's file, in file coordinates; None, and a warning, on failure."""
     from satcheck.decompose import DecompositionError
 
     found = body.shared.decomposition()
     if isinstance(found, DecompositionError):
-        plan.complain(found.code, body.id, f"no convex parts: {found.message}")
+        trace.complain(found.code, body.id, f"no convex parts: {found.message}")
         return None
     return found
 
@@ -56,20 +56,20 @@ def split_together(pair: Pair) -> None:
     side_by_side(lambda shared: shared.decomposition(), waiting, len(waiting))
 
 
-def inner_parts(body: PlacedBody, plan: Plan) -> list[Part]:
+def inner_parts(body: PlacedBody, trace: Trace) -> list[Part]:
     """Parts proven to lie inside the body's mesh, up to the rounding of the pose; may be empty."""
     if body.convex:
         return [Part(body.hull_shape(), body.bounds)]
-    found = decomposition(body, plan)
+    found = decomposition(body, trace)
     return (
         [] if found is None else [_placed(part, body) for part in found.inner if part is not None]
     )
 
 
-def covering(body: PlacedBody, plan: Plan) -> Covering | None:
+def covering(body: PlacedBody, trace: Trace) -> Covering | None:
     if body.convex:
         return Covering([Part(body.hull_shape(), body.bounds)], 0.0, 0.0)
-    found = decomposition(body, plan)
+    found = decomposition(body, trace)
     if found is None:
         return None
     stretch = body.largest_stretch

@@ -12,7 +12,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
-from satcheck.audit.report.report import OVERLAPS, Finding, plain
+from satcheck.audit.finding import Examined
+from satcheck.audit.report.report import OVERLAPS, plain
 from satcheck.core.conventions import axis_across
 from satcheck.verify import Rejected
 from satcheck.verify.distances import check_distance
@@ -26,8 +27,9 @@ Json = dict[str, Any]
 SURFACES: Json = {"kind": "surfaces"}
 
 
-def certified(pair: Pair, finding: Finding) -> Json | str:
+def certified(pair: Pair, examined: Examined) -> Json | str:
     """A certificate that the checker accepts, or why there is none."""
+    finding = examined.finding
     if finding.exact_relation is None:
         return "the relation is not proven"
     a, b = pair.a.checked(), pair.b.checked()
@@ -46,7 +48,7 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
 
         certificate = make(pair, finding)
     else:
-        certificate = _Maker(pair, finding).make()
+        certificate = _Maker(pair, examined).make()
     if isinstance(certificate, str):
         return certificate
     try:
@@ -57,8 +59,8 @@ def certified(pair: Pair, finding: Finding) -> Json | str:
 
 
 class _Maker:
-    def __init__(self, pair: Pair, finding: Finding) -> None:
-        self.pair, self.finding = pair, finding
+    def __init__(self, pair: Pair, examined: Examined) -> None:
+        self.pair, self.examined, self.finding = pair, examined, examined.finding
         a, b = pair.a.checked(), pair.b.checked()
         if a.world is None or b.world is None:
             raise AssertionError("a placed body has a world mesh")
@@ -69,7 +71,7 @@ class _Maker:
         self.error = curve_error(a, b)
         self.across = None if plane is None else axis_across(plane)
         if self.across is not None:
-            relation = str(finding.exact_relation)
+            relation = str(self.finding.exact_relation)
             self.ends = pair_of(a, b, *reaching(relation, a.world, b.world, self.across))
 
     def make(self) -> Json | str:
@@ -108,18 +110,32 @@ class _Maker:
             proof = {"kind": "same"} if exact == "coincident" else SURFACES
             both = overlaps.inside_both(placed) if solids else None
             return proof if both is None else {**proof, "both": both}
-        hint = self._hint()
+        found = self._hulls_overlap() if solids == 2 else None
+        if found is not None:
+            return found
+        hint = self._crossing()
         if solids == 2:
-            found = self._hulls_overlap() or overlaps.overlap(placed, hint, across=self.across)
-        else:
-            found = overlaps.sheet_overlap(placed, hint) if solids else None
+            found = overlaps.overlap(placed, hint, across=self.across)
+        elif solids:
+            found = overlaps.sheet_overlap(placed, hint)
         return found or overlaps.crossing(placed, hint)
 
-    def _hint(self) -> tuple[int, int] | None:
+    def _crossing(self) -> tuple[int, int] | None:
+        """Triangles that meet. A lower rung may have settled the pair without any."""
+        climb = self.examined.verdict.climb
+        if climb is not None and climb.triangles is not None:
+            return climb.crossing
         found = core.mesh_relation(self.pair.a.surface(), self.pair.b.surface())
         if found.triangle_a < 0 or found.triangle_b < 0:
             return None
         return found.triangle_a, found.triangle_b
+
+    def _hulls(self) -> core.PairResult:
+        """How the hulls of the bodies are apart; a lower rung may have settled the pair."""
+        climb = self.examined.verdict.climb
+        if climb is not None and climb.hulls is not None:
+            return climb.hulls
+        return core.check_pair(self.pair.a.hull_shape(), self.pair.b.hull_shape(), query="distance")
 
     def _axes(self) -> Iterator[Any]:
         """Candidates for a separating axis, from A to B, the simplest first."""
@@ -128,11 +144,9 @@ class _Maker:
                 yield [side if k == axis else 0 for k in range(3)]
         if self.finding.normal is not None:
             yield list(self.finding.normal)
-        found = core.check_pair(
-            self.pair.a.hull_shape(), self.pair.b.hull_shape(), query="distance"
-        )
-        if found.normal is not None:
-            yield list(found.normal)
+        normal = self._hulls().normal
+        if normal is not None:
+            yield list(normal)
 
     def _apart(self) -> Json:
         """A separation of the hulls as wide as asked about, or the surfaces themselves."""
@@ -145,8 +159,7 @@ class _Maker:
             n = vector(axis)
             if any(n) and exceeds(gap_along(placed.a, placed.b, n), n, asked):
                 return {"kind": "axis", "axis": axis}
-        found = core.check_pair(self.pair.a.hull_shape(), self.pair.b.hull_shape(), query="overlap")
-        if found.outcome != "separated":
+        if self._hulls().outcome != "separated":
             return SURFACES
         nearest = nearest_point(placed)
         n = nearest.point
@@ -171,7 +184,7 @@ class _Maker:
                     "axis": _text(shortened(outside.axis)),
                     "contact": _on_hulls(nearest.weights),
                 }
-        contact = overlaps.boundary_contact(placed, self._hint())
+        contact = overlaps.boundary_contact(placed, self._crossing())
         return None if contact is None else {**SURFACES, "contact": contact}
 
     def _hulls_overlap(self) -> Json | None:
@@ -234,8 +247,7 @@ class _Maker:
 
     def _distance(self) -> Json:
         """Points next to each other, where few triangles could be nearer than these."""
-        found = core.mesh_distance(self.pair.a.surface(), self.pair.b.surface())
-        ends = overlaps.nearest_points(self.placed, found.triangle_a, found.triangle_b)
+        ends = self._nearest()
         rounding = rounding_of(self.a, self.b)
         try:
             check_distance(plain(self.finding), {"distance": ends}, self.placed, rounding)
@@ -249,8 +261,7 @@ class _Maker:
         if finding.exact_relation == "separated":
             if self.placed.convex:
                 return {"gap": _on_hulls(nearest_point(self.placed).weights)}
-            found = core.mesh_distance(self.pair.a.surface(), self.pair.b.surface())
-            return {"gap": overlaps.nearest_points(self.placed, found.triangle_a, found.triangle_b)}
+            return {"gap": self._nearest()}
         if finding.exact_relation in OVERLAPS and not (
             finding.mtv_verified
             and finding.depth is not None
@@ -260,15 +271,19 @@ class _Maker:
                 found_ = expanded(self.placed, Fraction(self.pair.tolerance) * 2)
                 if found_ is not None:
                     return {"band": {"axis": _text(shortened(found_.axis))}}
-            from satcheck.audit.asked.plan import Plan
-            from satcheck.audit.figures.touch_band import touch_band
-            from satcheck.audit.ladder.ladder import Contact
-
-            contact = Contact(finding.exact_relation, True, crossing=self._hint())
-            move = touch_band(self.pair, contact, Plan()).move
+            answer = self.examined.answer
+            move = None if answer is None or answer.band is None else answer.band.move
             if move is not None:
                 return {"band": {"move": list(move), "free": self._free(move)}}
         return {}
+
+    def _nearest(self) -> Json:
+        """Points next to each other, on the nearest triangles."""
+        climb = self.examined.verdict.climb
+        near = None if climb is None else climb.gap
+        if near is None or near.triangle_a < 0:
+            near = core.mesh_distance(self.pair.a.surface(), self.pair.b.surface())
+        return overlaps.nearest_points(self.placed, near.triangle_a, near.triangle_b)
 
 
 def _text(v: Any) -> list[str]:

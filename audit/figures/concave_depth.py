@@ -13,14 +13,14 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import crossing_depth
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.depth import Depth, frees_boxes
 from satcheck.audit.figures.verify import Escape, verified_escape
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
-from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.conventions import axis_across
@@ -33,20 +33,20 @@ WORK_PER_SECOND = 400_000_000
 NARROWER = 8
 
 
-def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
+def concave_depth(pair: Pair, verdict: Verdict, trace: Trace) -> Depth:
     """The depth of an overlapping pair of which the hulls do not say everything: the largest lower
     and the least upper bound of all that was tried, beside the shortest verified translation."""
     hulls = way_out_of_hulls(pair)
-    plan.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
-    lower, upper = _cheap_lower_bound(pair, contact, plan), hulls.upper
+    trace.record("depth", "upper bound", f"at most {hulls.upper:.6g} by the {hulls.by}")
+    lower, upper = _cheap_lower_bound(pair, verdict, trace), hulls.upper
     ways = [(hulls.length, hulls.normal)]
     if pair.may("exact"):
-        lower, upper, way_out = _searched(pair, lower, upper, plan)
+        lower, upper, way_out = _searched(pair, lower, upper, trace)
         if way_out is not None:
             ways.insert(0, _length_and_normal(way_out))
-    elif contact.proven and pair.may("parts"):
-        lower = max(lower, depth_of_parts(pair, plan))
-    escape, normal = _shortest_escape(pair, ways, plan)
+    elif verdict.proven and pair.may("parts"):
+        lower = max(lower, depth_of_parts(pair, trace))
+    escape, normal = _shortest_escape(pair, ways, trace)
     if frees_boxes(pair, hulls.length, hulls.normal):
         upper = min(upper, hulls.length)
     upper = min(upper, escape.bound)
@@ -54,7 +54,7 @@ def concave_depth(pair: Pair, contact: Contact, plan: Plan) -> Depth:
 
 
 def _shortest_escape(
-    pair: Pair, ways: list[tuple[float, Vector]], plan: Plan
+    pair: Pair, ways: list[tuple[float, Vector]], trace: Trace
 ) -> tuple[Escape, Vector]:
     """The shortest of these ways out once verified, and its normal. ways: lengths and normals, the
     shortest first. The next is tried only if verification made the best one longer than it."""
@@ -62,7 +62,7 @@ def _shortest_escape(
     for length, normal in ways:
         if shortest is not None and shortest[0].bound <= length:
             break
-        escape = verified_escape(pair, length, normal, plan)
+        escape = verified_escape(pair, length, normal, trace)
         if shortest is None or escape.bound < shortest[0].bound:
             shortest = escape, normal
     if shortest is None:
@@ -71,18 +71,18 @@ def _shortest_escape(
 
 
 def _searched(
-    pair: Pair, lower: float, upper: float, plan: Plan
+    pair: Pair, lower: float, upper: float, trace: Trace
 ) -> tuple[float, float, Vector | None]:
     """Bounds and a way out that are narrow enough, also to decide a limit of the depth, as far as
     the budget goes."""
     work, width = _budget(pair), pair.settings.depth_width
-    found = search(pair, lower, upper, plan)
+    found = search(pair, lower, upper, trace)
     way_out, upper = found.way_out, min(upper, found.bound)
     while found.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, found):
         width, work = width / NARROWER, work - found.work
         if work <= 0:
             break
-        found = search(pair, found.lower, found.upper, plan, width=width, work=work)
+        found = search(pair, found.lower, found.upper, trace, width=width, work=work)
         way_out, upper = found.way_out or way_out, min(upper, found.bound)
     return max(lower, found.lower), upper, way_out
 
@@ -100,7 +100,7 @@ def search(
     pair: Pair,
     lower: float,
     upper: float,
-    plan: Plan,
+    trace: Trace,
     *,
     width: float | None = None,
     work: int | None = None,
@@ -117,7 +117,7 @@ def search(
         across=-1 if (plane := pair.settings.planar) is None else axis_across(plane),
     )
     reason = "" if found.stop == "narrow" else "; the budget ended the search"
-    plan.record(
+    trace.record(
         "search",
         "narrow" if found.stop == "narrow" else "budget spent",
         f"from {found.lower:.6g} to {found.upper:.6g} by {found.boxes} boxes of translations, "
@@ -126,24 +126,24 @@ def search(
     return found
 
 
-def _cheap_lower_bound(pair: Pair, contact: Contact, plan: Plan) -> float:
-    if not contact.proven:
+def _cheap_lower_bound(pair: Pair, verdict: Verdict, trace: Trace) -> float:
+    if not verdict.proven:
         return 0.0
-    gap = gap_around(pair, contact)
+    gap = gap_around(pair, verdict)
     if gap > 0:
-        plan.record("depth", "lower bound", f"at least {gap:.6g} by the gap around the inner body")
-    return max(gap, crossing_depth(pair, contact.crossing))
+        trace.record("depth", "lower bound", f"at least {gap:.6g} by the gap around the inner body")
+    return max(gap, crossing_depth(pair, verdict.crossing))
 
 
-def depth_by_move(pair: Pair, contact: Contact, move: Vector, plan: Plan) -> Depth:
+def depth_by_move(pair: Pair, verdict: Verdict, move: Vector, trace: Trace) -> Depth:
     """The depth of a pair that a verified translation of A within the touch band frees.
 
     A wide tolerance must not make the figures coarser: a shorter move is then searched, as without
     a band. Within the input precision there is nothing to refine.
     """
     if pair.asked.tolerance is None:
-        return depth_of_move(pair, move, crossing_depth(pair, contact.crossing))
-    depth = concave_depth(pair, contact, plan)
+        return depth_of_move(pair, move, crossing_depth(pair, verdict.crossing))
+    depth = concave_depth(pair, verdict, trace)
     if depth.escape.verified and depth.upper <= math.hypot(*move):
         return depth
     return depth_of_move(pair, move, depth.lower)

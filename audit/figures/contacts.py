@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from typing import Protocol, TypeVar
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
 
 # Pairs of triangles that may meet: a report about more is nothing that anybody could use. Each
@@ -27,19 +27,19 @@ class Counted(Protocol):
 T = TypeVar("T", bound=Counted)
 
 
-def find_contacts(pair: Pair, contact: Contact, plan: Plan) -> Contacts | None:
+def find_contacts(pair: Pair, verdict: Verdict, trace: Trace) -> Contacts | None:
     """Where the triangles of the pair meet, exactly and whatever the touch band; None: too many."""
-    if contact.proven and contact.relation in APART:
+    if verdict.proven and verdict.relation in APART:
         return Contacts()
     found = core.surface_intersection(pair.a.surface(), pair.b.surface(), MAX_TRIANGLE_PAIRS)
     if not found.complete:
         reason = f"more than {MAX_TRIANGLE_PAIRS:,} pairs of triangles meet"
-        plan.record("contacts", "too many", reason)
-        plan.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {reason}")
+        trace.record("contacts", "too many", reason)
+        trace.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {reason}")
         return None
     contacts = _listed(found, pair.settings.contact_points)
     totals = contacts.totals
-    plan.record(
+    trace.record(
         "contacts",
         "found" if totals.triangle_pairs else "none",
         f"{totals.triangle_pairs} triangle pairs: {totals.curves} curves, "

@@ -21,17 +21,17 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.depth import Depth
 from satcheck.audit.figures.gap import Gap
 from satcheck.audit.figures.verify import Escape, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.ladder.in_plane import wall_gap
-from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Vector
-from satcheck.audit.severity import keeps
+from satcheck.audit.tolerances import keeps
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import axes_of
 from satcheck.core.tolerances import rounding_pad
@@ -54,9 +54,9 @@ def gap_of_curves(pair: Pair, gap: Gap) -> Gap:
     return replace(gap, lower=lower, upper=upper, kept=kept)
 
 
-def depth_of_curves(pair: Pair, contact: Contact, depth: Depth, plan: Plan) -> Depth:
+def depth_of_curves(pair: Pair, verdict: Verdict, depth: Depth, trace: Trace) -> Depth:
     """The depth of the bodies, from that of their polygons."""
-    convex = contact.convex is not None
+    convex = verdict.signed_distance is not None
     pad = rounding_pad(pair.largest_coordinate)
     lower = depth.lower
     if pair.farther:
@@ -70,12 +70,14 @@ def depth_of_curves(pair: Pair, contact: Contact, depth: Depth, plan: Plan) -> D
         bounds.append(hulls.upper + pair.closer + pad)
     found = _way_out(pair, ways, pad) if pair.may("hull") else None
     if found is None:
-        plan.record("verify", "failed", f"no move leaves a gap of {pair.closer:.3g} for the curves")
+        trace.record(
+            "verify", "failed", f"no move leaves a gap of {pair.closer:.3g} for the curves"
+        )
         length, normal = ways[-1]
         escape = Escape(_along(normal, length + pair.closer), False, math.inf)
     else:
         escape, normal = found
-        plan.record("verify", "separated", f"A moved past its curves, by {pair.closer:.3g} more")
+        trace.record("verify", "separated", f"A moved past its curves, by {pair.closer:.3g} more")
     upper = max(min(*bounds, escape.bound), lower)
     return Depth(lower, upper, normal, escape)
 
@@ -136,31 +138,32 @@ def _leaves_gap(pair: Pair, move: Vector, pad: float) -> bool:
     return gap.distance - pad >= pair.closer
 
 
-def overlap_of_curves(pair: Pair, contact: Contact) -> bool:
+def overlap_of_curves(pair: Pair, verdict: Verdict) -> bool:
     """Whether the bodies are shown to overlap in the way in which their polygons do."""
     assert pair.settings.planar is not None
-    if contact.relation in ("contains", "inside"):
+    if verdict.relation in ("contains", "inside"):
         outer, inner = pair.a, pair.b
-        if contact.relation == "inside":
+        if verdict.relation == "inside":
             outer, inner = inner, outer
         gap = wall_gap(outer, inner, pair.settings.planar)
         return gap > pair.closer + rounding_pad(pair.largest_coordinate)
-    if contact.relation != "penetrating":
+    if verdict.relation != "penetrating":
         return False
-    if pair.farther and (contact.convex is None or _is_shallow(pair, contact.convex)):
+    signed = verdict.signed_distance
+    if pair.farther and (signed is None or _is_shallow(pair, signed)):
         return False
     return _sticks_out(pair, pair.a, pair.b) and _sticks_out(pair, pair.b, pair.a)
 
 
-def is_hidden(pair: Pair, contact: Contact, depth: Depth | None) -> bool:
+def is_hidden(pair: Pair, verdict: Verdict, depth: Depth | None) -> bool:
     """Whether the polygons overlap, and it is not shown that the curves do. depth: of the curves,
     where it is known."""
     if not pair.farther or (depth is not None and depth.lower > 0):
         return False
-    if contact.convex is not None:
-        return _is_shallow(pair, contact.convex)
+    if verdict.signed_distance is not None:
+        return _is_shallow(pair, verdict.signed_distance)
     middle, size = _common_box(pair)
-    return not _depth_by_point(pair, contact.point or middle, size / 4) > 0
+    return not _depth_by_point(pair, verdict.point or middle, size / 4) > 0
 
 
 def _common_box(pair: Pair) -> tuple[Vector, float]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.figures.concave_depth import depth_of_move
@@ -22,20 +22,20 @@ from satcheck.core.tolerances import rounding_pad
 from satcheck.scene.shape_file import remeshed
 
 
-def sandwiched_depth(pair: Pair, move: Vector | None, plan: Plan) -> Depth:
+def sandwiched_depth(pair: Pair, move: Vector | None, trace: Trace) -> Depth:
     """move: a translation of A within the touch band that is known to free it."""
     inner, outer = _depth_with(pair, around=False), _depth_with(pair, around=True)
     if outer is None:
         raise AssertionError("what is known to overlap a shape overlaps the mesh around it")
     lower = 0.0 if inner is None else max(min(inner.lower, outer.upper) - _sticks_out(pair), 0.0)
-    plan.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
+    trace.record("depth", "bounded", "between a mesh inside the curved shape and one around it")
     if move is None and None in (pair.a.curved, pair.b.curved):
         move = move_off(pair.a, pair.b, outer.upper, rounding_pad(pair.largest_coordinate))
     if move is not None:
-        plan.record("verify", "separated", "the shape, moved by the MTV")
+        trace.record("verify", "separated", "the shape, moved by the MTV")
         return depth_of_move(pair, move, lower)
     verified = "separated" if outer.escape.verified else "failed"
-    plan.record("verify", verified, "the mesh around the shape, moved by the MTV")
+    trace.record("verify", verified, "the mesh around the shape, moved by the MTV")
     return Depth(lower, outer.upper, outer.normal, outer.escape)
 
 
@@ -46,9 +46,9 @@ def _depth_with(pair: Pair, *, around: bool) -> Depth | None:
         settings = replace(settings, accuracy="aabb")
     a, b = _as_mesh(pair, pair.a, around), _as_mesh(pair, pair.b, around)
     meshes = replace(pair, a=a, b=b, settings=settings)
-    plan = Plan()
-    contact = settle(meshes, plan)
-    return measure_depth(meshes, contact, None, plan) if contact.relation in OVERLAPS else None
+    trace = Trace()
+    verdict = settle(meshes, trace)
+    return measure_depth(meshes, verdict, None, trace) if verdict.relation in OVERLAPS else None
 
 
 def _sticks_out(pair: Pair) -> float:
@@ -81,12 +81,12 @@ def _scaled(mesh: Mesh, by: float) -> Mesh:
     )
 
 
-def without_meshes(reason: str | None, pair: Pair, plan: Plan) -> str | None:
+def without_meshes(reason: str | None, pair: Pair, trace: Trace) -> str | None:
     """The reason of a finding; it names the figures that are computed on meshes alone, and so are
     not available for a curved shape."""
     missing = [effect for effect in ON_TRIANGLES if pair.asked.wants(effect)]
     for effect in missing:
-        plan.record(effect, NOT_AVAILABLE, "a curved shape has no triangles")
+        trace.record(effect, NOT_AVAILABLE, "a curved shape has no triangles")
     if missing:
         return reason or f"{' and '.join(missing)}: not available for curved shapes"
     return reason

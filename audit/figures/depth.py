@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.verify import Escape, verified_escape
 from satcheck.audit.report.report import Vector, Witness
 
 if TYPE_CHECKING:
-    from satcheck.audit.ladder.ladder import Contact
+    from satcheck.audit.bodies.verdict import Verdict
     from satcheck.core.curved.signed import Signed
 
 
@@ -33,29 +33,29 @@ class Depth(Struct, frozen=True):
     witness: Witness | None = None
 
 
-def measure_depth(pair: Pair, contact: Contact, move: Vector | None, plan: Plan) -> Depth:
+def measure_depth(pair: Pair, verdict: Verdict, move: Vector | None, trace: Trace) -> Depth:
     """The depth of an overlapping pair: exact for convex ones, an interval for the others.
 
     move: a translation of A within the touch band that is known to free it.
     """
-    if contact.convex is not None:
-        return _convex_depth(pair, contact.convex, plan)
+    if verdict.signed_distance is not None:
+        return _convex_depth(pair, verdict.signed_distance, trace)
     if pair.curved:
         from satcheck.audit.figures.curved import sandwiched_depth
 
-        return sandwiched_depth(pair, move, plan)
+        return sandwiched_depth(pair, move, trace)
     from satcheck.audit.figures.concave_depth import concave_depth, depth_by_move
 
     if move is not None:
-        return depth_by_move(pair, contact, move, plan)
-    return concave_depth(pair, contact, plan)
+        return depth_by_move(pair, verdict, move, trace)
+    return concave_depth(pair, verdict, trace)
 
 
-def _convex_depth(pair: Pair, result: core.PairResult | Signed, plan: Plan) -> Depth:
+def _convex_depth(pair: Pair, result: core.PairResult | Signed, trace: Trace) -> Depth:
     if result.distance is None or result.normal is None:
         raise AssertionError("a penetrating pair has a signed distance and a normal")
     value = max(-result.distance, 0.0)
-    escape = verified_escape(pair, value, result.normal, plan)
+    escape = verified_escape(pair, value, result.normal, trace)
     lower = value if result.upper is None else min(max(0.0, -result.upper), value)
     upper = escape.bound if result.lower is None else -result.lower
     if pair.curved:

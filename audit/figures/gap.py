@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.report.report import Vector, Witness
-from satcheck.audit.severity import keeps
+from satcheck.audit.tolerances import keeps
 from satcheck.core.tolerances import rounding_pad
 
 if TYPE_CHECKING:
@@ -42,36 +42,31 @@ class Gap(Struct, frozen=True):
     witness: Witness | None = None
 
 
-def measure_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
+def measure_gap(pair: Pair, verdict: Verdict, trace: Trace) -> Gap:
     """The distance of a separated or touching pair, as far as the clearance or the band asks."""
-    if contact.convex is not None:
+    if verdict.signed_distance is not None:
         if pair.asked.wants("distance"):
-            plan.record("distance", "measured", "with the hulls")
-        return _convex_gap(pair, contact.convex)
-    if contact.relation == "touching":
-        witness = contact.point and Witness(contact.point, contact.point)
+            trace.record("distance", "measured", "with the hulls")
+        return _convex_gap(pair, verdict.signed_distance)
+    if verdict.relation == "touching":
+        witness = verdict.point and Witness(verdict.point, verdict.point)
         return Gap(0.0, 0.0, True, not pair.asked.clearance, 0.0, None, witness)
-    if pair.curved and contact.relation == "separated" and pair.may("hull"):
-        return _at_least(pair, contact.gap_lower)
-    settled = contact.gap_lower > pair.asked_gap or pair.asked_gap == 0
-    if settled or not pair.may("exact"):
-        return _at_least(pair, contact.gap_lower)
-    return _surface_gap(pair, contact, plan)
+    climb = verdict.climb
+    if climb is None or climb.gap is None:
+        return _at_least(pair, verdict.gap_lower)
+    return _surface_gap(pair, climb, climb.gap, trace)
 
 
-def _surface_gap(pair: Pair, contact: Contact, plan: Plan) -> Gap:
+def _surface_gap(pair: Pair, climb: core.Climb, found: core.MeshDistance, trace: Trace) -> Gap:
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
     asked = pair.wants_distance
     stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
-    assert contact.climb is not None
-    assert contact.climb.gap is not None
-    found, cost = contact.climb.gap, contact.climb.band_nanoseconds
-    of_holes = contact.climb.gap_of_holes
+    cost, of_holes = climb.band_nanoseconds, climb.gap_of_holes
     if math.isinf(found.distance):
-        plan.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
+        trace.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
         beyond = math.nextafter(limit, math.inf)
         return _at_least(pair, beyond if of_holes is None else of_holes)
-    plan.add(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}", cost)
+    trace.add(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}", cost)
     rounding = rounding_pad(pair.largest_coordinate)
     nearest = found.distance if of_holes is None else of_holes
     lower, upper = max(nearest - rounding, 0.0), found.distance + rounding

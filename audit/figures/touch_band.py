@@ -11,22 +11,24 @@ the depth is.
 from __future__ import annotations
 
 import math
-from time import perf_counter_ns
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.triangles import crossing_depth
+from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.figures.gap import compare_convex
 from satcheck.audit.figures.verify import FREE, relation_after
-from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.vectors import scaled
 from satcheck.core.tolerances import UNIT_ROUNDOFF, rounding_pad
+
+if TYPE_CHECKING:
+    from satcheck.core.curved.signed import Signed
 
 # A way out that exceeds the tolerance by no more than this factor is tried again as long as that.
 LITTLE_LONGER = 1 + EXACT_WIDTH
@@ -36,7 +38,7 @@ TO_ROUNDING = 1 + 16 * UNIT_ROUNDOFF
 NARROW_BAND = 1 / 64
 
 
-def estimate_is_within(pair: Pair, plan: Plan) -> bool:
+def estimate_is_within(pair: Pair, trace: Trace) -> bool:
     """Whether the shapes that a capped ladder ends with overlap by no more than the tolerance.
 
     The bodies inside them then overlap by no more than that; how far apart they are stays open.
@@ -44,7 +46,7 @@ def estimate_is_within(pair: Pair, plan: Plan) -> bool:
     out = way_out_of_hulls(pair)
     within = out.upper <= pair.tolerance
     if within:
-        plan.record("touch-band", "within", f"{_band(pair)}: the {out.by} overlap by no more")
+        trace.record("touch-band", "within", f"{_band(pair)}: the {out.by} overlap by no more")
     return within
 
 
@@ -52,32 +54,53 @@ Side = Literal["open", "within", "deeper", "hidden"]
 
 
 class Band(Struct, frozen=True):
-    """Whether an overlap is within the tolerance. side: as of core.WayWithin. move: a translation
+    """Whether an overlap is within the tolerance. side: as of core.Climb.band. move: a translation
     of A, at most the tolerance long, after which it is free; None: none was found."""
 
     side: Side
     move: Vector | None = None
 
 
-def touch_band(pair: Pair, contact: Contact, plan: Plan) -> Band:
-    """For an overlap that the triangles decided."""
+def touch_band(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
+    """For an overlap."""
+    if verdict.signed_distance is not None:  # no triangles are needed
+        return Band(_side_of_convex(pair, verdict, verdict.signed_distance))
+    if not pair.may("exact"):
+        return Band("within" if estimate_is_within(pair, trace) else "open")
     if pair.tolerance == 0:
         return Band("deeper")
     if pair.curved:
-        move = _move_off_mesh(pair, plan)
+        move = _move_off_mesh(pair, trace)
         return Band("open" if move is None else "within", move)
-    lower, cost = _least_depth(pair, contact)
-    if lower > pair.tolerance:
-        plan.add("touch-band", "deeper", f"{_band(pair)}: at least {lower:.3g} deep", cost)
+    if verdict.climb is None:
+        raise AssertionError("the core settles what two meshes are")
+    return _band_of_meshes(pair, verdict.climb, trace)
+
+
+def _side_of_convex(pair: Pair, verdict: Verdict, signed: core.PairResult | Signed) -> Side:
+    """The core knows that of meshes."""
+    if verdict.climb is not None:
+        return verdict.climb.band or "open"
+    least, most = -(signed.upper or 0.0), -(signed.lower or 0.0)
+    if pair.tolerance == 0 or least > pair.tolerance:
+        return "deeper"
+    if most <= pair.tolerance:
+        return "within"
+    sign = compare_convex(pair, -pair.tolerance)
+    if sign is None:
+        return "open"
+    return "within" if sign >= 0 else "deeper"
+
+
+def _band_of_meshes(pair: Pair, climb: core.Climb, trace: Trace) -> Band:
+    """What the core found, and where that leaves the band open, what a search finds."""
+    cost = climb.band_nanoseconds
+    if climb.band == "deeper":
+        trace.add("touch-band", "deeper", f"{_band(pair)}: at least {climb.deepest:.3g} deep", cost)
         return Band("deeper")
-    found, spent = _way_within(pair, contact)
-    if found.side == "deeper":
-        detail = f"{_band(pair)}: at least {found.deepest:.3g} deep"
-        plan.add("touch-band", "deeper", detail, cost + spent)
-        return Band("deeper")
-    band = Band(found.side, found.move)
+    band = Band(climb.band or "open", climb.way_out)
     if band.side != "within":
-        band = _searched(pair, lower, plan) or band
+        band = _searched(pair, climb.least_depth or 0.0, trace) or band
     if band.move is not None:
         result, detail = "within", f"{math.hypot(*band.move):.3g} frees A"
     elif band.side == "within":
@@ -86,40 +109,20 @@ def touch_band(pair: Pair, contact: Contact, plan: Plan) -> Band:
         result, detail = "undecided", "a move as long as it, to rounding, frees A"
     else:
         result, detail = "not found", "no move within it frees A"
-    plan.add("touch-band", result, f"{_band(pair)}: {detail}", cost + spent)
+    trace.add("touch-band", result, f"{_band(pair)}: {detail}", cost)
     return band
 
 
-def _move_off_mesh(pair: Pair, plan: Plan) -> Vector | None:
+def _move_off_mesh(pair: Pair, trace: Trace) -> Vector | None:
     """For a curved shape and a mesh."""
     from satcheck.core.curved.freeing import move_off
 
     move = move_off(pair.a, pair.b, pair.tolerance, rounding_pad(pair.largest_coordinate))
     if move is None:
-        plan.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
+        trace.record("touch-band", "not found", f"{_band(pair)}: no move within it frees A")
     else:
-        plan.record("touch-band", "within", f"{_band(pair)}: {math.hypot(*move):.3g} frees A")
+        trace.record("touch-band", "within", f"{_band(pair)}: {math.hypot(*move):.3g} frees A")
     return move
-
-
-def _least_depth(pair: Pair, contact: Contact) -> tuple[float, int]:
-    """What proves a depth at once, and what the climb has spent on the band."""
-    found = contact.climb
-    least = None if found is None else found.least_depth
-    if found is not None and least is not None:
-        return least, found.band_nanoseconds
-    return max(crossing_depth(pair, contact.crossing), gap_around(pair, contact)), 0
-
-
-def _way_within(pair: Pair, contact: Contact) -> tuple[core.WayWithin, int]:
-    """And what finding it cost that the climb has not spent."""
-    known = None if contact.climb is None else contact.climb.way_within
-    if known is not None:
-        return known, 0
-    start = perf_counter_ns()
-    geometries = pair.a.geometry, pair.b.geometry
-    found = core.find_way_within(*geometries, pair.tolerance, contact.crossing)
-    return found, perf_counter_ns() - start
 
 
 def _band(pair: Pair) -> str:
@@ -127,7 +130,7 @@ def _band(pair: Pair) -> str:
     return f"tolerance {pair.tolerance:.3g}, {source}"
 
 
-def _searched(pair: Pair, lower: float, plan: Plan) -> Band | None:
+def _searched(pair: Pair, lower: float, trace: Trace) -> Band | None:
     """By the search for the depth, with or without a depth asked for; None: it found nothing, or
     was not tried: in a narrow band the way off the triangles was sought."""
     hulls = way_out_of_hulls(pair)
@@ -135,7 +138,7 @@ def _searched(pair: Pair, lower: float, plan: Plan) -> Band | None:
         return None
     from satcheck.audit.figures.concave_depth import search
 
-    found = search(pair, lower, hulls.upper, plan).way_out
+    found = search(pair, lower, hulls.upper, trace).way_out
     return None if found is None else band_of(pair, found)
 
 

@@ -7,7 +7,7 @@ import math
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import LENGTHENING_ULPS
@@ -28,7 +28,7 @@ class Escape(Struct, frozen=True):
     bound: float
 
 
-def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Escape:
+def verified_escape(pair: Pair, length: float, normal: Vector, trace: Trace) -> Escape:
     """The shortest accepted translation along -normal, at least `length` long.
 
     The nominal length is tried only where adding it to A's coordinates rounds nothing; elsewhere a
@@ -36,7 +36,7 @@ def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Es
     nominal length comes back unverified when the ladder is capped below the hulls or nothing helps.
     """
     if not pair.may("hull"):
-        plan.record("verify", "not asked", "the capped ladder has nothing to verify with")
+        trace.record("verify", "not asked", "the capped ladder has nothing to verify with")
         return Escape(_along(normal, length), False, math.inf)
     ulp = 2 * UNIT_ROUNDOFF * (pair.largest_coordinate + length)
     steps = (0, *LENGTHENING_ULPS) if adds_exactly(pair, length, normal) else LENGTHENING_ULPS
@@ -45,10 +45,10 @@ def verified_escape(pair: Pair, length: float, normal: Vector, plan: Plan) -> Es
         relation = relation_after(pair, mtv)
         if relation in FREE:
             longer = f", lengthened by {step} units in the last place" if step else ""
-            plan.record("verify", relation, f"A moved by its MTV{longer}")
+            trace.record("verify", relation, f"A moved by its MTV{longer}")
             return Escape(mtv, True, length if step == 0 else length + (step + 2) * ulp)
     most = f"{LENGTHENING_ULPS[-1]} units in the last place"
-    plan.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
+    trace.record("verify", "failed", f"still not free when the MTV is lengthened by {most}")
     return Escape(_along(normal, length), False, math.inf)
 
 

@@ -6,10 +6,10 @@ import math
 
 from msgspec import Struct
 
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.tolerances import VOLUME_ROUNDOFFS, is_within
 from satcheck.core.errors import SatcheckError
 from satcheck.core.tolerances import UNIT_ROUNDOFF
@@ -26,23 +26,23 @@ class CommonVolume(Struct, frozen=True):
 NOTHING = CommonVolume(0.0, 0.0)
 
 
-def common_volume(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
+def common_volume(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
     """Of the exact relation, whatever the touch band: a relation that says it all costs nothing."""
-    nothing = contact.proven and contact.relation in ("separated", "touching")
-    if nothing and (pair.both_solid or contact.gap_lower > 0):
+    nothing = verdict.proven and verdict.relation in ("separated", "touching")
+    if nothing and (pair.both_solid or verdict.gap_lower > 0):
         return NOTHING
     if not pair.may("exact"):
         refusal = f"found on triangles: not at --accuracy {pair.settings.accuracy}"
-        plan.record("volume", "not measured", refusal)
+        trace.record("volume", "not measured", refusal)
         return CommonVolume(refusal=f"no volume: {refusal}")
     try:
         for body in (pair.a, pair.b):
             _require_measurable(body)
-        return _measured(pair, contact, plan)
+        return _measured(pair, verdict, trace)
     except SatcheckError as refused:
-        plan.record("volume", "refused", refused.message)
+        trace.record("volume", "refused", refused.message)
         where = "" if refused.body else f"{pair.a.id} and {pair.b.id}: "
-        plan.complain(refused.code, refused.body, where + refused.message)
+        trace.complain(refused.code, refused.body, where + refused.message)
         return CommonVolume(refusal=f"no volume: {refused}")
 
 
@@ -57,38 +57,38 @@ def _require_measurable(body: PlacedBody) -> None:
         )
 
 
-def _measured(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
-    found = _estimated(pair, contact, plan)
+def _measured(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
+    found = _estimated(pair, verdict, trace)
     limit = pair.asked.max_volume
     if limit is None or found.volume is None or found.error is None:
         return found
     if is_within(limit, found.volume - found.error, found.volume + found.error) is not None:
         return found
-    return _exact(pair, plan) or found
+    return _exact(pair, trace) or found
 
 
-def _estimated(pair: Pair, contact: Contact, plan: Plan) -> CommonVolume:
-    inner = {"contains": pair.b, "inside": pair.a, "coincident": pair.a}.get(contact.relation)
+def _estimated(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
+    inner = {"contains": pair.b, "inside": pair.a, "coincident": pair.a}.get(verdict.relation)
     if inner is not None:
         found = _own_volume(inner)
-        plan.record("volume", "of the mesh", f"{inner.id} lies within the other")
+        trace.record("volume", "of the mesh", f"{inner.id} lies within the other")
         return found
     assert pair.meter is not None
     common = pair.meter.measure(pair.a.mesh, pair.b.mesh)
     detail = f"by manifold3d in a child process, off by about {common.error:.1g} at most"
-    plan.record("volume", "measured", detail)
+    trace.record("volume", "measured", detail)
     return CommonVolume(max(common.volume, 0.0), common.error)
 
 
-def _exact(pair: Pair, plan: Plan) -> CommonVolume | None:
+def _exact(pair: Pair, trace: Trace) -> CommonVolume | None:
     """Where an estimate leaves a limit open. None where that is too much work."""
     from satcheck.core.exact_volume import exact_common_volume
 
     exact = exact_common_volume(pair.a.mesh, pair.b.mesh)
     if exact is None:
-        plan.record("volume", "no answer", "too many triangles for rational numbers")
+        trace.record("volume", "no answer", "too many triangles for rational numbers")
         return None
-    plan.record("volume", "exact", "in rational numbers, as the estimate leaves the limit open")
+    trace.record("volume", "exact", "in rational numbers, as the estimate leaves the limit open")
     volume = float(exact)
     return CommonVolume(volume, 0.0 if exact == volume else math.ulp(volume))
 

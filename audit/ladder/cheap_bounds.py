@@ -7,7 +7,7 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.bodies.boxes import box_escape
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.report.report import Vector
 
 
@@ -37,9 +37,9 @@ def way_out_of_hulls(pair: Pair) -> WayOut:
     return WayOut(-found.distance, -found.lower, found.normal, "hulls of the whole meshes")
 
 
-def gap_around(pair: Pair, contact: Contact) -> float:
+def gap_around(pair: Pair, verdict: Verdict) -> float:
     """A lower bound of the depth of nested bodies: the inner one stays inside at least until the
     surfaces meet. 0.0 for other pairs."""
-    if contact.relation not in ("contains", "inside"):
+    if verdict.relation not in ("contains", "inside"):
         return 0.0
     return core.nested_depth(pair.a.geometry, pair.b.geometry)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.core.curved.exact.pair import proven, unit
 from satcheck.core.curved.freeing import sides
 from satcheck.core.curved.in_mesh import InMesh, relate
@@ -14,7 +14,7 @@ from satcheck.core.curved.signed import Signed, convex_pair
 from satcheck.core.curved.triangles import Nearest, against_triangles
 
 if TYPE_CHECKING:
-    from satcheck.audit.asked.plan import Plan
+    from satcheck.audit.asked.trace import Trace
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.bodies.placed_body import PlacedBody
     from satcheck.audit.report.report import Relation
@@ -36,26 +36,26 @@ _PROVES = {
 }
 
 
-def settle_curved(pair: Pair, plan: Plan) -> Contact:
+def settle_curved(pair: Pair, trace: Trace) -> Verdict:
     """The relation, once the boxes of the bodies were found too close to settle it."""
     if is_convex(pair.a) and is_convex(pair.b):
-        return _settle_convex(pair, plan)
-    return _settle_mesh(pair, plan)
+        return _settle_convex(pair, trace)
+    return _settle_mesh(pair, trace)
 
 
-def _settle_convex(pair: Pair, plan: Plan) -> Contact:
+def _settle_convex(pair: Pair, trace: Trace) -> Verdict:
     signed = convex_pair(pair.a, pair.b)
     if signed is None:
-        plan.record(STAGE, "undecided", OPEN_BOUNDS)
-        return Contact("indeterminate", False, reason=f"undecided: {OPEN_BOUNDS}")
-    plan.record(STAGE, signed.outcome, "convex shapes")
+        trace.record(STAGE, "undecided", OPEN_BOUNDS)
+        return Verdict("indeterminate", False, reason=f"undecided: {OPEN_BOUNDS}")
+    trace.record(STAGE, signed.outcome, "convex shapes")
     if not signed.exact:
         signed, proof = proven(pair.a, pair.b, signed)
-        plan.record(PROOF, signed.outcome if signed.exact else "undecided", _words(proof))
+        trace.record(PROOF, signed.outcome if signed.exact else "undecided", _words(proof))
     if signed.outcome != "penetrating":
         reason = None if signed.exact else CLOSE_CONTACT
-        return Contact(signed.outcome, signed.exact, max(signed.lower, 0.0), signed, reason=reason)  # type: ignore[arg-type]
-    return _nested(pair, signed, plan)
+        return Verdict(signed.outcome, signed.exact, max(signed.lower, 0.0), signed, reason=reason)  # type: ignore[arg-type]
+    return _nested(pair, signed, trace)
 
 
 def _words(proof: Proof | None) -> str:
@@ -65,47 +65,47 @@ def _words(proof: Proof | None) -> str:
     return f"the axis ({axis}) {_PROVES[proof.outcome]}"
 
 
-def _nested(pair: Pair, signed: Signed, plan: Plan) -> Contact:
+def _nested(pair: Pair, signed: Signed, trace: Trace) -> Verdict:
     """Of convex bodies that overlap: whether one holds the other."""
     nested = nesting(pair.a, pair.b)
     if nested.exact:
         known = None not in (nested.a_holds_b, nested.b_holds_a)
-        plan.record(PROOF, "known" if known else "undecided", "which holds which")
+        trace.record(PROOF, "known" if known else "undecided", "which holds which")
     relation: Relation = "contains" if nested.a_holds_b else "penetrating"
     if nested.b_holds_a and not nested.a_holds_b:
         relation = "inside"
     if relation != "penetrating":
-        plan.record("containment", relation, "one shape holds the other")
+        trace.record("containment", relation, "one shape holds the other")
     reason = None if nested.known else TOO_CLOSE
-    return Contact(relation, nested.known, 0.0, signed, reason=reason, overlaps=True)
+    return Verdict(relation, nested.known, 0.0, signed, reason=reason, overlaps=True)
 
 
-def _settle_mesh(pair: Pair, plan: Plan) -> Contact:
+def _settle_mesh(pair: Pair, trace: Trace) -> Verdict:
     curved, mesh, sign = sides(pair.a, pair.b)
     seen = against_triangles(curved, mesh.mesh, pair.asked_gap)
     if seen.refined:
         detail = f"{seen.refined} triangles that bounds leave open"
-        plan.record(PROOF, seen.nearest.outcome if seen.nearest else "undecided", detail)
+        trace.record(PROOF, seen.nearest.outcome if seen.nearest else "undecided", detail)
     result = relate(curved, mesh, seen, pair.asked_gap)
     if result.relation == "undecided":
         reason = _open(result, pair.b if sign > 0 else pair.a, seen)
-        plan.record(STAGE, "undecided", reason)
-        return Contact("indeterminate", False, reason=f"undecided: {reason}")
+        trace.record(STAGE, "undecided", reason)
+        return Verdict("indeterminate", False, reason=f"undecided: {reason}")
     relation: Relation = result.relation
     if sign < 0:
         relation = _SWAPPED.get(relation, relation)
-    plan.record(STAGE, relation, _detail(result, seen))
-    return _contact(relation, result, sign)
+    trace.record(STAGE, relation, _detail(result, seen))
+    return _verdict(relation, result, sign)
 
 
-def _contact(relation: Relation, result: InMesh, sign: float) -> Contact:
+def _verdict(relation: Relation, result: InMesh, sign: float) -> Verdict:
     if relation in ("separated", "touching"):
         signed = result.signed if sign > 0 or result.signed is None else result.signed.swapped()
         reason = None if result.proven else CLOSE_CONTACT
-        return Contact(relation, result.proven, result.gap_lower, signed, reason=reason)
+        return Verdict(relation, result.proven, result.gap_lower, signed, reason=reason)
     reason = None if result.proven else TOO_CLOSE
     overlaps = bool(result.crossed) or not result.proven
-    return Contact(relation, result.proven, reason=reason, overlaps=overlaps)
+    return Verdict(relation, result.proven, reason=reason, overlaps=overlaps)
 
 
 def _detail(result: InMesh, seen: Nearest) -> str:

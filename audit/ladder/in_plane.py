@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
@@ -15,21 +15,21 @@ from satcheck.audit.report.report import OVERLAPS, Relation
 from satcheck.core.conventions import Plane, axes_of, axis_across
 
 if TYPE_CHECKING:
-    from satcheck.audit.ladder.ladder import Contact
+    from satcheck.audit.bodies.verdict import Verdict
 
 
-def refine_nesting(pair: Pair, contact: Contact, plane: Plane, plan: Plan) -> Contact:
+def refine_nesting(pair: Pair, verdict: Verdict, plane: Plane, trace: Trace) -> Verdict:
     """`contains`, `inside` and `coincident` as the outlines are.
 
     The prisms themselves end at different heights, which no outline has: one made to reach beyond
     the other says whether it holds it, two of one height whether they are the same.
     """
-    if contact.relation not in OVERLAPS:
-        return contact
+    if verdict.relation not in OVERLAPS:
+        return verdict
     relation = _nesting(pair.a, pair.b, plane)
     if relation != "penetrating":
-        plan.record("containment", relation, "the outlines, as prisms of heights that suit")
-    return replace(contact, relation=relation)
+        trace.record("containment", relation, "the outlines, as prisms of heights that suit")
+    return replace(verdict, relation=relation)
 
 
 def _nesting(a: PlacedBody, b: PlacedBody, plane: Plane) -> Relation:

@@ -8,23 +8,23 @@ convex parts of the meshes (satcheck.decompose), each proven to lie inside its m
 from __future__ import annotations
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import box_escape, largest_coordinate
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.parts import Part, inner_parts, split_together
 from satcheck.core.tolerances import rounding_pad
 
 
-def depth_of_parts(pair: Pair, plan: Plan) -> float:
+def depth_of_parts(pair: Pair, trace: Trace) -> float:
     """A proven lower bound of the depth, world units, by the inner parts of the bodies."""
     split_together(pair)
-    bodies = [inner_parts(body, plan) for body in (pair.a, pair.b)]
+    bodies = [inner_parts(body, trace) for body in (pair.a, pair.b)]
     counts = f"{len(bodies[0])} and {len(bodies[1])} inner parts"
     if not (bodies[0] and bodies[1]):
-        plan.record("parts", "failed", counts)
+        trace.record("parts", "failed", counts)
         return 0.0
     deepest = deepest_pair(bodies[0], bodies[1])
-    plan.record("parts", "lower bound", f"at least {deepest:.6g} by {counts}")
+    trace.record("parts", "lower bound", f"at least {deepest:.6g} by {counts}")
     return deepest
 
 

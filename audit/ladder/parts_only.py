@@ -9,42 +9,42 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import largest_coordinate
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.parts import Covering, covering, inner_parts, split_together
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.ladder.inner_bodies import deepest_pair
-from satcheck.audit.ladder.ladder import Contact
 from satcheck.audit.report.report import Relation
 from satcheck.core.tolerances import rounding_pad
 
 
-def settle_by_parts(pair: Pair, plan: Plan) -> Contact:
+def settle_by_parts(pair: Pair, trace: Trace) -> Verdict:
     """Proven where the measured error of the parts allows it; else "penetrating" or "separated",
     as the parts say, unproven."""
     if not pair.both_solid:
-        plan.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
-        return Contact("penetrating", False)
+        trace.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
+        return Verdict("penetrating", False)
     if any(body.shared.has_sheets() for body in (pair.a, pair.b)):
-        plan.record("parts", "not asked", "a sheet has no inside to fill, and parts leave it out")
-        return Contact("penetrating", False)
+        trace.record("parts", "not asked", "a sheet has no inside to fill, and parts leave it out")
+        return Verdict("penetrating", False)
     split_together(pair)
-    covers = [covering(body, plan) for body in (pair.a, pair.b)]
+    covers = [covering(body, trace) for body in (pair.a, pair.b)]
     if covers[0] is None or covers[1] is None:
-        plan.record("parts", "failed", "see the issues")
-        return Contact("penetrating", False)
+        trace.record("parts", "failed", "see the issues")
+        return Verdict("penetrating", False)
     gap = _gap(covers[0], covers[1])
     proven_gap = gap - covers[0].missing - covers[1].missing
     count = f"{len(covers[0].parts)} and {len(covers[1].parts)} parts"
     if proven_gap > 0:
-        plan.record("parts", "separated", f"{count}, apart by more than their error")
-        return Contact("separated", True, proven_gap)
-    if deepest_pair(inner_parts(pair.a, plan), inner_parts(pair.b, plan)) > 0:
-        plan.record("parts", "penetrating", f"{count}, of which two inside the meshes overlap")
-        return Contact("penetrating", True)
+        trace.record("parts", "separated", f"{count}, apart by more than their error")
+        return Verdict("separated", True, proven_gap)
+    if deepest_pair(inner_parts(pair.a, trace), inner_parts(pair.b, trace)) > 0:
+        trace.record("parts", "penetrating", f"{count}, of which two inside the meshes overlap")
+        return Verdict("penetrating", True)
     relation: Relation = "separated" if gap > 0 else "penetrating"
-    plan.record("parts", relation, f"{count}, within their error")
-    return Contact(relation, False)
+    trace.record("parts", relation, f"{count}, within their error")
+    return Verdict(relation, False)
 
 
 def _gap(a: Covering, b: Covering) -> float:

@@ -9,8 +9,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import ALWAYS, Asked
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
@@ -136,7 +136,7 @@ class MovingPair:
 
     def found_at(self, t: float) -> Finding:
         """How the bodies relate at t: exactly, for their poses rounded to float64."""
-        return examine(self.placed(t), Plan())
+        return examine(self.placed(t), Trace()).finding
 
     def _shapes(
         self,

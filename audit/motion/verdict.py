@@ -6,9 +6,10 @@ import math
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Asked
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair, Paths
+from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.report.motion_report import Sweep
 from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
@@ -16,16 +17,17 @@ from satcheck.audit.severity import Judgement, by_rule, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
 
 
-def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Finding:
-    """The finding with the sweep of the pair, its stage in the plan, and a severity that counts
+def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Examined:
+    """The finding with the sweep of the pair, its stage in the trace, and a severity that counts
     both."""
+    finding = examined.finding
     found = sweep(pair, paths.a, paths.b)
-    plan.record("sweep", found.relation, _detail(found))
+    trace.record("sweep", found.relation, _detail(found))
     judged = by_rule(_judged(found, pair), pair.asked)
     graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
     relation = _worse(finding.relation, found.relation)
     undecided = relation == "indeterminate"
-    return replace(
+    swept = replace(
         finding,
         relation=relation,
         placed_relation=finding.relation,
@@ -35,8 +37,9 @@ def with_sweep(finding: Finding, pair: Pair, paths: Paths, plan: Plan) -> Findin
         rule=judged.rule if graver else finding.rule,
         undecided=finding.undecided or judged.undecided,
         reason=finding.reason or judged.reason or (found.reason if undecided else None),
-        plan=tuple(plan.stages),
+        plan=tuple(trace.stages),
     )
+    return replace(examined, finding=swept)
 
 
 def _quality(finding: Finding, found: Sweep, *, undecided: bool) -> Quality | None:

@@ -16,13 +16,13 @@ from itertools import pairwise
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import ALWAYS
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
 from satcheck.audit.report.report import OVERLAPS
-from satcheck.audit.severity import keeps
+from satcheck.audit.tolerances import keeps
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
 # An interval whose least bound is below this share of the best figure is halved in any case.
@@ -130,7 +130,7 @@ def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     placed = pair.placed(t)
     asked = replace(placed.asked, by={**placed.asked.by, "depth": ALWAYS})
     settings = replace(placed.settings, depth_budget=budget)
-    finding = examine(replace(placed, settings=settings, asked=asked), Plan())
+    finding = examine(replace(placed, settings=settings, asked=asked), Trace()).finding
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0
     return finding.depth_bounds

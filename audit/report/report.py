@@ -46,7 +46,7 @@ Effect = Literal[
 ]
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
-# The stage of a plan in which other libraries say "agrees", "disagrees" or "no answer".
+# The stage of a trace in which other libraries say "agrees", "disagrees" or "no answer".
 CROSS_CHECK = "cross-check"
 NO_ANSWER = "no answer"
 # The result of an effect that is found on triangles, of a pair with a curved shape.
@@ -155,7 +155,7 @@ class BodyReport(Struct, frozen=True, kw_only=True):
 
 
 class Stage(Struct, frozen=True):
-    """One step of a pair's plan: what ran, what it found, what it cost, why it settled nothing.
+    """One step of the trace of a pair: what ran, its result, its cost, why it settled nothing.
 
     microseconds: left out of a document without timings.
     """

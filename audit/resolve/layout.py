@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import Planner
 from satcheck.audit.asked.settings import Settings
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
@@ -186,12 +186,12 @@ class Layout:
         strict = self.pair(pair)
         if at_home or pair in self._excused:
             asked = self._planner.asked(*self._members(pair))
-            found = examine(replace(strict, asked=asked), Plan())
+            found = examine(replace(strict, asked=asked), Trace()).finding
             objected = is_objected(found, self.settings.fail_on)
             if not objected and found.relation != "indeterminate":
                 return PairState("free", excused=is_overlap_excused(found))
             return state_of(strict, found)
-        return state_of(strict, examine(strict, Plan()))
+        return state_of(strict, examine(strict, Trace()).finding)
 
 
 def translated(body: Body, offset: Vector) -> Body:

@@ -9,8 +9,8 @@ from typing import Literal
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.settings import FailOn
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import examine
@@ -86,7 +86,7 @@ def separation(pair: Pair) -> tuple[Vector, float] | None:
     if found.outcome in ("separated", "touching") and found.normal is not None:
         return scaled(found.normal, -1.0), max(found.lower or 0.0, 0.0)
     if pair.asked.limited:
-        way = examine(pair, Plan()).mtv
+        way = examine(pair, Trace()).finding.mtv
         if way is not None and any(way):
             return unit(way), -math.hypot(*way)
     near = core.mesh_distance(pair.a.surface(), pair.b.surface())

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.finding import examine
 from satcheck.audit.report.report import Vector
@@ -69,7 +69,7 @@ def _wall_of_contact(layout: Layout, pair: BodyPair) -> Wall | None:
     if not any(there):
         return None
     back = layout.pair_after(pair, scaled(there, -STEP_BACK))
-    way = examine(back, Plan()).mtv
+    way = examine(back, Trace()).finding.mtv
     if way is not None and any(way):
         normal, gap = unit(way), -math.hypot(*way)
     else:

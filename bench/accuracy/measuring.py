@@ -28,7 +28,7 @@ from satcheck.studies.tradeoff import RUNGS, Budget, Row, measure_pair
 SECONDS_PER_MICROSECOND = 1e-6
 PARTS = [rung for rung in RUNGS if rung.threshold is not None]
 UNITS = "m"  # of files that state none: samples pair them with GLB files
-# What is not in the plan of the pair: files into bodies, bodies into the world, findings into JSON.
+# What the trace of a pair lacks: files into bodies, bodies into the world, findings into JSON.
 READING, PLACING, WRITING = "reading", "placing", "writing"
 
 

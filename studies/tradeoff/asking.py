@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.asked.settings import Settings
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.finding import examine
-from satcheck.audit.ladder.ladder import Contact, settle
 from satcheck.audit.report.report import Finding
 from satcheck.core.errors import SatcheckError
 from satcheck.core.tolerances import rounding_pad
@@ -34,7 +34,7 @@ Rooms = tuple[float | None, float | None]
 class Asked(Struct, frozen=True):
     """The answer of a ladder.
 
-    contact: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
+    verdict: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
     can make of a length here. seconds: from the meshes in memory to the finding, hulls and
     hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
     so long, on all threads and in child processes together; None: not known. ended: the rung at
@@ -45,7 +45,7 @@ class Asked(Struct, frozen=True):
     """
 
     finding: Finding
-    contact: Contact
+    verdict: Verdict
     pad: float
     seconds: float
     cpu: float | None
@@ -102,13 +102,14 @@ def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
 def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[Asked, Pair]:
     """children: some are at work."""
     clock, start = CpuClock(), perf_counter()
-    pair, plan = _pair(bodies, settings), Plan()
-    finding = examine(pair, plan)
+    pair = _pair(bodies, settings)
+    examined = examine(pair, Trace())
+    finding = examined.finding
     seconds, cpu = perf_counter() - start, clock.seconds(children=children)
     stages, ended = {stage.stage for stage in finding.plan}, picked(finding).rung
     asked = Asked(
         finding=finding,
-        contact=settle(pair, Plan()),
+        verdict=examined.verdict,
         pad=rounding_pad(pair.largest_coordinate),
         seconds=seconds,
         cpu=cpu,
@@ -150,7 +151,7 @@ def _volume(pair: Pair) -> tuple[float, float] | str:
 
     if pair.curved:
         return "a curved shape has no triangles"
-    found = common_volume(pair, Contact("penetrating", False), Plan())
+    found = common_volume(pair, Verdict("penetrating", False), Trace())
     if found.volume is None or found.error is None:
         return found.refusal or "no volume"
     return found.volume, found.error

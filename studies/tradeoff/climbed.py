@@ -1,4 +1,4 @@
-"""Where a climb ended, and what each rung on the way said: read from the plan of a finding."""
+"""Where a climb ended, and what each rung on the way said: read from the trace of a finding."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from satcheck.audit.report.report import Finding
 from satcheck.studies.tradeoff.figure import is_of_bodies
 from satcheck.studies.tradeoff.result import Picked
 
-# Stages of a plan that are rungs, and how they are called here.
+# Stages of a trace that are rungs, and how they are called here.
 STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
 STAGES |= {"curved-exact": "hull", "parts": "parts", "triangles": "exact"}
 # What a stage records that had nothing to add to the one below.

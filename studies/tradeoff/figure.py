@@ -9,7 +9,7 @@ import math
 
 from msgspec import Struct
 
-from satcheck.audit.ladder.ladder import Contact
+from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.report.report import OVERLAPS, Finding, Relation
 
 
@@ -63,22 +63,23 @@ def is_of_bodies(finding: Finding) -> bool:
     return finding.undecided not in ("relation", "inside")
 
 
-def figure_of(finding: Finding, contact: Contact) -> Figure | None:
-    """contact: of the same ladder, for what it proves and nobody asked to report. None: no figure
+def figure_of(finding: Finding, verdict: Verdict) -> Figure | None:
+    """verdict: of the same ladder, for what it proves and nobody asked to report. None: no figure
     of the bodies; how far their surfaces are apart says nothing of one that may lie inside."""
     if not is_of_bodies(finding):
         return None
     if finding.depth_bounds is not None:
         low, high = finding.depth_bounds
         # An overlap that is not proven may be a gap, of any width.
-        return Figure(-high + 0.0, -high + 0.0, -low + 0.0 if contact.proven else None)
-    if contact.convex is not None and contact.convex.distance is not None:
-        return Figure(contact.convex.distance, contact.convex.lower, contact.convex.upper)
+        return Figure(-high + 0.0, -high + 0.0, -low + 0.0 if verdict.proven else None)
+    signed = verdict.signed_distance
+    if signed is not None and signed.distance is not None:
+        return Figure(signed.distance, signed.lower, signed.upper)
     if finding.distance is not None:
         return Figure(finding.distance, finding.distance, finding.distance)
-    if contact.relation == "separated":
-        return Figure(contact.gap_lower, contact.gap_lower if contact.proven else None, None)
-    if contact.relation == "touching":
+    if verdict.relation == "separated":
+        return Figure(verdict.gap_lower, verdict.gap_lower if verdict.proven else None, None)
+    if verdict.relation == "touching":
         return Figure(0.0, 0.0, 0.0)
     band = finding.tolerance
     return None if finding.relation != "touching" or band is None else Figure(0.0, -band, None)

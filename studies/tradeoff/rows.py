@@ -17,7 +17,7 @@ def truth_by(exact: Gauge) -> Truth:
     answer = exact.answer
     if not isinstance(answer, Asked):
         return Truth(None, None, 0.0, f"the exact rung was not run: {exact.reason}")
-    return truth_of(answer.finding, figure_of(answer.finding, answer.contact), answer.pad)
+    return truth_of(answer.finding, figure_of(answer.finding, answer.verdict), answer.pad)
 
 
 def row_of(gauge: Gauge, truth: Truth, own: Rooms) -> Row:
@@ -40,7 +40,7 @@ def row_of(gauge: Gauge, truth: Truth, own: Rooms) -> Row:
     relation = plain(finding.relation)
     known = is_of_bodies(finding) and relation != "indeterminate"
     overlap = relation in OVERLAPS if known else None
-    figure = figure_of(finding, answer.contact)
+    figure = figure_of(finding, answer.verdict)
     return replace(
         row,
         overlap=overlap,

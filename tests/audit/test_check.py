@@ -186,10 +186,10 @@ def test_progress_counts_every_pair(tmp_path):
 def test_a_failing_pair_does_not_take_the_others_with_it(tmp_path, monkeypatch):
     original = check.__globals__["examine"]
 
-    def failing(pair, plan, climb):
+    def failing(pair, trace, climb):
         if pair.a.id == "b1":
             raise ZeroDivisionError("made up")
-        return original(pair, plan, climb)
+        return original(pair, trace, climb)
 
     monkeypatch.setitem(check.__globals__, "examine", failing)
     report = check(row(tmp_path, 4))

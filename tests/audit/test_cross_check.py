@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.asked.plan import Plan
 from satcheck.audit.asked.planner import asked_by
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.cross_check import DISAGREEMENT, say
@@ -52,12 +52,12 @@ def pair_of(folder: Path, *meshes: Mesh) -> Pair:
     return Pair(a, b, settings, asked_by(settings))
 
 
-def standings(pair: Pair, peers: Peers) -> tuple[list[str], Plan]:
-    plan = Plan()
-    contact = settle(pair, plan)
-    first = len(plan.stages)
-    say(pair, contact, peers, plan)
-    return [stage.result for stage in plan.stages[first:]], plan
+def standings(pair: Pair, peers: Peers) -> tuple[list[str], Trace]:
+    trace = Trace()
+    verdict = settle(pair, trace)
+    first = len(trace.stages)
+    say(pair, verdict, peers, trace)
+    return [stage.result for stage in trace.stages[first:]], trace
 
 
 @pytest.mark.parametrize(
@@ -72,16 +72,16 @@ def standings(pair: Pair, peers: Peers) -> tuple[list[str], Plan]:
 )
 def test_the_libraries_agree(tmp_path: Path, a: Mesh, b: Mesh, expected: list[str]) -> None:
     with Peers(seconds=60, megabytes=4096) as peers:
-        found, plan = standings(pair_of(tmp_path, a, b), peers)
-    assert (found, plan.issues) == (expected, [])
+        found, trace = standings(pair_of(tmp_path, a, b), peers)
+    assert (found, trace.issues) == (expected, [])
 
 
 def test_a_lie_is_a_warning_of_its_own(tmp_path: Path) -> None:
     with Liar() as peers:
-        found, plan = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
+        found, trace = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
     assert found == ["disagrees", "disagrees"]
-    assert {(issue.code, issue.severity) for issue in plan.issues} == {(DISAGREEMENT, "warning")}
-    assert "python-fcl says surfaces that are apart" in plan.issues[0].message
+    assert {(issue.code, issue.severity) for issue in trace.issues} == {(DISAGREEMENT, "warning")}
+    assert "python-fcl says surfaces that are apart" in trace.issues[0].message
 
 
 @pytest.mark.parametrize(
@@ -113,8 +113,8 @@ def test_an_opinion_that_cannot_be_had_is_no_agreement(tmp_path: Path) -> None:
 
 def test_a_peer_that_dies_gives_no_answer(tmp_path: Path) -> None:
     with Peers(seconds=60, megabytes=4096, fcl_server="satcheck.no_such_module") as peers:
-        found, plan = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
-    assert (found, plan.issues) == (["no answer", "agrees"], [])
+        found, trace = standings(pair_of(tmp_path, L_SHAPE.mesh(), CROSSING), peers)
+    assert (found, trace.issues) == (["no answer", "agrees"], [])
 
 
 def test_the_report_counts_the_answers() -> None:

@@ -124,10 +124,10 @@ def test_never_is_not_said_of_what_overlaps_as_placed(tmp_path, monkeypatch):
 
 
 def test_an_internal_error_in_a_random_pose_is_told(monkeypatch):
-    def fails(pair, plan, climb=None):
+    def fails(pair, trace, climb=None):
         if not pair.asked.wants("depth"):
             raise RuntimeError("boom")
-        return examine(pair, plan, climb)
+        return examine(pair, trace, climb)
 
     monkeypatch.setattr(sys.modules["satcheck.audit.check"], "examine", fails)
     found = suggest(ARM, poses=POSES[:2], seed=0)

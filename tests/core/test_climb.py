@@ -66,6 +66,7 @@ def test_rungs_say_what_they_say_alone() -> None:
     seen = {"hulls": 0, "triangles": 0, "boxes": 0}
     for (a, b, *_), found in zip(pairs, climbed(pairs), strict=True):
         relation = core.mesh_relation(a.surface(), b.surface())
+        assert (found.relation, found.settled, found.proven) == (relation.relation, True, True)
         if found.triangles is not None:
             seen["triangles"] += 1
             assert found.triangles.relation == relation.relation
@@ -76,7 +77,8 @@ def test_rungs_say_what_they_say_alone() -> None:
         else:
             seen["hulls"] += 1
             shapes = a.hull_shape(), b.hull_shape()
-            alone = core.check_pair(*shapes, query="depth" if found.both_convex else "distance")
+            convex = found.signed_distance is not None
+            alone = core.check_pair(*shapes, query="depth" if convex else "distance")
             assert found.hulls is not None
             assert (found.hulls.outcome, found.hulls.distance) == (alone.outcome, alone.distance)
     assert min(seen.values()) > 10
@@ -103,6 +105,40 @@ def test_threads_change_nothing(threads: int) -> None:
         ]
 
     assert said(core.climb_all(pairs, threads=threads)) == said(core.climb_all(pairs, threads=1))
+
+
+def test_a_capped_climb_settles_nothing_that_it_cannot_prove() -> None:
+    shared = core.Geometry(TWO_BOXES, True)
+    body = core.PlacedGeometry(shared, None, TWO_BOXES.bounds, 0.0)
+    within_notch = boxes(((-0.5, 0.5, -0.5), (0.5, 1.5, 0.5)))
+    other = core.PlacedGeometry(core.Geometry(within_notch, True), None, within_notch.bounds, 0.0)
+    request = (body, other, 0.0, 0.0, False)
+    capped, whole = core.climb(request, last="hull"), core.climb(request)
+    assert (capped.relation, capped.settled, capped.proven) == ("penetrating", False, False)
+    assert (whole.relation, whole.settled, whole.proven) == ("separated", True, True)
+
+
+def test_boxes_closer_than_asked_leave_the_pair_to_the_next_rung() -> None:
+    a = core.PlacedGeometry(core.Geometry(CUBE, True), None, CUBE.bounds, 0.0)
+    beside = boxes(((1.5, -1, -1), (3, 1, 1)))
+    b = core.PlacedGeometry(core.Geometry(beside, True), None, beside.bounds, 0.0)
+    near = core.climb((a, b, 1.0, 0.0, False), last="aabb")
+    assert (near.relation, near.settled, near.proven) == ("separated", False, True)
+    assert near.gap_lower == near.box_gap > 0
+    far = core.climb((a, b, 0.25, 0.0, False))
+    assert (far.relation, far.settled, far.gap_lower) == ("separated", True, far.box_gap)
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "band"), [(0.0, "deeper"), (0.25, "deeper"), (0.5, "within")]
+)
+def test_the_touch_band_of_two_convex_bodies_is_exact(tolerance: float, band: str) -> None:
+    cube = core.Geometry(CUBE, True)
+    a = core.PlacedGeometry(cube, None, CUBE.bounds, 0.0)
+    into = boxes(((0.5, -0.75, -0.75), (3, 0.75, 0.75)))
+    b = core.PlacedGeometry(core.Geometry(into, True), None, into.bounds, 0.0)
+    climb = core.climb((a, b, tolerance, tolerance, False))
+    assert (climb.relation, climb.band) == ("penetrating", band)
 
 
 def test_the_last_rung_ends_the_climb() -> None:

@@ -8,6 +8,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
 #include <future>
 #include <stdexcept>
 #include <string>
@@ -94,11 +95,6 @@ const T* if_known(const std::optional<T>& value) {
   return value ? &*value : nullptr;
 }
 
-template <class T>
-std::optional<const char*> word(const std::optional<T>& value) {
-  return value ? std::optional(name_of(*value)) : std::nullopt;
-}
-
 // The Python text of a word that is written in the source: one for all uses.
 PyObject* known_word(const char* word) {
   static auto* const known = new std::unordered_map<const void*, PyObject*>;
@@ -120,51 +116,66 @@ nb::list stages(const Climb& climb, nb::handle make) {
   return made;
 }
 
-void bind_found(nb::module_& m) {
-  nb::class_<WayWithin>(m, "WayWithin", R"(Whether an overlap is within the touch band.
+std::optional<const char*> band_word(const std::optional<BandSide>& band) {
+  constexpr const char* names[] = {"open", "within", "deeper", "hidden"};
+  return band ? std::optional(names[static_cast<int>(*band)]) : std::nullopt;
+}
 
-side: "within" or "deeper", proven; "hidden" where rounding alone leaves it open; "open". move: a translation of A within
-it, seen to free it; None: none was found. deepest: a proven lower bound of the depth, by the triangles in the way.)")
-      .def_prop_ro("move",
-                   [](const WayWithin& w) {
-                     return w.move ? std::optional(Corner{w.move->x, w.move->y, w.move->z}) : std::nullopt;
-                   })
-      .def_prop_ro("side",
-                   [](const WayWithin& w) {
-                     switch (w.side) {
-                       case BandSide::within: return "within";
-                       case BandSide::deeper: return "deeper";
-                       case BandSide::hidden: return "hidden";
-                       default: return "open";
-                     }
-                   })
-      .def_ro("deepest", &WayWithin::deepest);
-  nb::class_<Climb>(m, "Climb", R"(What each rung of the ladder found about a pair; None where the climb did not get so far.
+std::optional<Corner> corner(const std::optional<Vec3>& point) {
+  return point ? std::optional(Corner{point->x, point->y, point->z}) : std::nullopt;
+}
 
+std::optional<std::pair<std::uint32_t, std::uint32_t>> crossing_of(const Climb& climb) {
+  if (!climb.triangles) return {};
+  const std::uint32_t a = climb.triangles->triangle_a, b = climb.triangles->triangle_b;
+  if (a == kNoTriangle || b == kNoTriangle) return {};
+  return std::pair(a, b);
+}
+
+double deepest(const Climb& climb) {
+  return std::fmax(climb.least_depth.value_or(0), climb.way_within ? climb.way_within->deepest : 0);
+}
+
+void bind_result(nb::module_& m) {
+  nb::class_<Climb>(m, "Climb", R"(The verdict of the ladder on a pair, and what its rungs found; None where the climb did not get so far.
+
+relation      of the bodies, without a touch band; "indeterminate" where `hole` leaves it open.
+settled       a rung answered what was asked. Else a rung above the last one may say more: the bodies are apart by
+              gap_lower, but not beyond what was asked about, or overlap as far as is known.
+proven        the relation is. gap_lower: a proven lower bound of the distance, 0.0 where none is known.
+signed_distance  of two convex bodies, by their hulls: it says everything about them.
+crossing      indices of one triangle of each body that meet. point: a common point, rounded.
+band          of a settled overlap, whether it is within the touch band: "within" or "deeper", proven; "hidden" where
+              rounding alone leaves it open; "open". The last two leave a search to do.
+least_depth   of an overlap that triangles decided, where the touch band is not 0: a proven lower bound of its depth.
+deepest       the greatest such bound that was met. way_out: a translation of A within the band that was seen to free it.
+gap           of surfaces apart. gap_of_holes: what fills a hole may be as near as this, and nearer than gap.
 box_gap       a proven lower bound of the gap of the world boxes, 0.0 where they meet.
 boxes         oriented boxes: "apart" by more than was asked about, "meet", why they say no more than the world boxes
-              ("sheared", "unturned"), or "". box_feature: "face-a", "face-b" or "edge-edge" where they are apart.
-both_convex   and then hulls is the depth of the pair; else the distance where hulls are apart, or the overlap.
-nesting       the relation of two convex bodies that overlap and whose world boxes nest.
+              ("sheared", "unturned"), or "".
+hulls         the depth of two convex bodies; else the distance where hulls are apart, or the overlap.
 triangles     the relation of the meshes.
-least_depth   of an overlap that triangles decided, where the touch band is not 0: a proven lower bound of its depth.
-way_within    out of the touch band, of such an overlap that least_depth leaves open.
-proven_gap    a proven lower bound of the distance by boxes and hulls, 0.0 where they know none.
-gap           of surfaces apart. gap_of_holes: what fills a hole may be as near as this, and nearer than gap.
 band_nanoseconds  what the touch band or the gap took. stages() says what the rungs did.)")
-      .def_ro("box_gap", &Climb::box_gap)
-      .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); })
-      .def_prop_ro("box_feature", [](const Climb& c) { return name_of(c.box_feature); })
-      .def_ro("both_convex", &Climb::both_convex)
-      .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal)
-      .def_prop_ro("nesting", [](const Climb& c) { return word(c.nesting); })
-      .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); },
-                   nb::rv_policy::reference_internal)
+      .def_prop_ro("relation",
+                   [](const Climb& c) { return hole_in_the_way(c) ? "indeterminate" : name_of(c.verdict.relation); })
+      .def_prop_ro("settled", [](const Climb& c) { return c.verdict.settled; })
+      .def_prop_ro("proven", [](const Climb& c) { return c.verdict.proven; })
+      .def_prop_ro("gap_lower", [](const Climb& c) { return c.verdict.gap; })
+      .def_prop_ro("signed_distance", &signed_distance, nb::rv_policy::reference_internal)
+      .def_prop_ro("crossing", &crossing_of)
+      .def_prop_ro("point", [](const Climb& c) { return c.triangles ? corner(c.triangles->point) : std::nullopt; })
+      .def_prop_ro("hole", &hole_in_the_way, nb::rv_policy::reference_internal)
+      .def_prop_ro("band", [](const Climb& c) { return band_word(c.verdict.band); })
       .def_ro("least_depth", &Climb::least_depth)
-      .def_prop_ro("way_within", [](const Climb& c) { return if_known(c.way_within); }, nb::rv_policy::reference_internal)
+      .def_prop_ro("deepest", &deepest)
+      .def_prop_ro("way_out", [](const Climb& c) { return c.way_within ? corner(c.way_within->move) : std::nullopt; })
       .def_prop_ro("gap", [](const Climb& c) { return if_known(c.gap); }, nb::rv_policy::reference_internal)
       .def_ro("gap_of_holes", &Climb::gap_of_holes)
-      .def_prop_ro("proven_gap", &proven_gap)
+      .def_ro("box_gap", &Climb::box_gap)
+      .def_prop_ro("boxes", [](const Climb& c) { return name_of(c.boxes); })
+      .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal)
+      .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); },
+                   nb::rv_policy::reference_internal)
       .def("stages", &stages, "make"_a, R"(What the rungs that ran found, in words: make(rung, result, microseconds, detail) of each.)")
       .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });
 }
@@ -181,38 +192,38 @@ class Climbing {
     };
     // Deferred too where the system grants no thread.
     const auto when = threads == 1 ? std::launch::deferred : std::launch::async | std::launch::deferred;
-    found_ = std::async(when, climb);
+    results_ = std::async(when, climb);
   }
 
-  nb::list found() {
-    if (!found_.valid()) throw std::invalid_argument("what was found has been taken");
-    std::vector<std::optional<Climb>> found;
+  nb::list results() {
+    if (!results_.valid()) throw std::invalid_argument("the results have been taken");
+    std::vector<std::optional<Climb>> results;
     {
       const nb::gil_scoped_release release;
-      found = found_.get();
+      results = results_.get();
     }
     nb::list climbs;
-    for (std::optional<Climb>& one : found) climbs.append(one ? nb::cast(std::move(*one)) : nb::none());
+    for (std::optional<Climb>& climb : results) climbs.append(climb ? nb::cast(std::move(*climb)) : nb::none());
     return climbs;
   }
 
  private:
   nb::list pairs_;  // keeps the bodies
-  std::future<std::vector<std::optional<Climb>>> found_;
+  std::future<std::vector<std::optional<Climb>>> results_;
 };
 
 }  // namespace
 
 void bind_climb(nb::module_& m) {
   bind_geometry(m);
-  bind_found(m);
+  bind_result(m);
   nb::class_<Climbing>(m, "Climbing", "Pairs on their way up the ladder; while they climb, the caller can do something else.")
       .def(nb::init<nb::list, const std::string&, unsigned, bool>(), "pairs"_a, "last"_a = "triangles", "threads"_a = 0,
            "alone"_a = false, "As climb_all; on one thread a batch climbs when its result is taken.")
-      .def("found", &Climbing::found, "Waits, and hands over once.");
+      .def("results", &Climbing::results, "Waits, and hands over once.");
   m.def("climb_all",
         [](nb::list pairs, const std::string& last, unsigned threads, bool alone) {
-          return Climbing(std::move(pairs), last, threads, alone).found();
+          return Climbing(std::move(pairs), last, threads, alone).results();
         },
         "pairs"_a, "last"_a = "triangles", "threads"_a = 0, "alone"_a = false,
         R"(Each pair (a, b, asked_gap, tolerance, wants_distance) up the ladder, on `threads` threads (0: one a core).
@@ -239,22 +250,6 @@ no other will ask for anything of its bodies.)");
         "a"_a, "b"_a, "triangle_a"_a, "triangle_b"_a, ReleaseGil(),
         R"(A proven lower bound of the depth of two surfaces from one pair of triangles that cross; 0.0 where the bodies do
 not end on all of both.)");
-  m.def("find_way_within",
-        [](PlacedGeometry& a, PlacedGeometry& b, double tolerance,
-           const std::optional<std::pair<std::size_t, std::size_t>>& crossing) {
-          std::optional<ContactPair> start;
-          if (crossing) {
-            const auto& [of_a, of_b] = *crossing;
-            if (of_a >= a.shared().mesh()->triangles.size() || of_b >= b.shared().mesh()->triangles.size()) {
-              throw std::out_of_range("no such triangle");
-            }
-            start = {static_cast<std::uint32_t>(of_a), static_cast<std::uint32_t>(of_b)};
-          }
-          return find_way_within(a, b, tolerance, start);
-        },
-        "a"_a, "b"_a, "tolerance"_a, "crossing"_a.none(), ReleaseGil(),
-        R"(A way out of an overlap that is no longer than the tolerance: that of the hulls, or one off the triangles of
-`crossing`, a pair that meets, and off those that are then in the way, by a third of the tolerance at a time.)");
   m.def("nested_depth", &nested_depth, "a"_a, "b"_a, ReleaseGil(),
         "A proven lower bound of the depth of nested bodies: the inner one stays inside until the surfaces meet.");
 }

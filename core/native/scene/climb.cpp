@@ -54,21 +54,26 @@ class Climber {
   Climber(const ClimbRequest& asked, Rung first, Rung last) : q_(asked), first_(first), last_(last) {}
 
   Climb take() {
-    const bool apart = timed(kBoxes, [&] {
-      found_.box_gap = box_gap(q_.a->bounds(), q_.b->bounds());
-      return found_.box_gap > q_.asked_gap;
-    });
-    if (takes(Rung::aabb) && apart) return found_;
-    if (takes(Rung::obb) && timed(kOriented, [&] { return oriented_boxes_settle(); })) return found_;
-    if (takes(Rung::hull) && hulls_settle()) {
-      if (hulls_leave_gap_open()) timed(kBand, [&] { return measure_gap(); });
-      return found_;
-    }
-    if (takes(Rung::triangles)) triangles();
+    climb_rungs();
+    found_.verdict = verdict_of(q_, found_);
     return found_;
   }
 
  private:
+  void climb_rungs() {
+    const bool apart = timed(kBoxes, [&] {
+      found_.box_gap = box_gap(q_.a->bounds(), q_.b->bounds());
+      return found_.box_gap > q_.asked_gap;
+    });
+    if (takes(Rung::aabb) && apart) return;
+    if (takes(Rung::obb) && timed(kOriented, [&] { return oriented_boxes_settle(); })) return;
+    if (takes(Rung::hull) && hulls_settle()) {
+      if (hulls_leave_gap_open()) timed(kBand, [&] { return measure_gap(); });
+      return;
+    }
+    if (takes(Rung::triangles)) triangles();
+  }
+
   bool takes(Rung rung) const { return first_ <= rung && rung <= last_; }
 
   template <class Step>
@@ -157,7 +162,7 @@ class Climber {
   // Hulls can be closer than a gap that is asked about.
   bool hulls_leave_gap_open() const {
     if (found_.both_convex || last_ != Rung::triangles) return false;
-    return !(proven_gap(found_) > q_.asked_gap);
+    return !(gap_of_hulls(found_) > q_.asked_gap);
   }
 
   bool boxes_nest() const {
@@ -229,11 +234,6 @@ class Climber {
 };
 
 }  // namespace
-
-double proven_gap(const Climb& climb) {
-  const double by_hulls = climb.hulls && climb.hulls->has_distance ? climb.hulls->lower : 0.0;
-  return std::fmax(by_hulls, climb.box_gap);
-}
 
 Climb climb(const ClimbRequest& request, Rung first, Rung last) { return Climber(request, first, last).take(); }
 

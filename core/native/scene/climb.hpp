@@ -1,7 +1,7 @@
 // The ladder: each rung settles what it can prove about a pair and leaves the rest to the next.
 //
 // aabb -> obb -> hull -> triangles. A rung that proves the bodies apart by more than was asked about ends the climb.
-// After the triangles comes the touch band, all of it that needs no search.
+// After the triangles comes the touch band, all of it that needs no search. What the rungs found makes the verdict.
 #pragma once
 
 #include <vector>
@@ -10,6 +10,7 @@
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "scene/geometry.hpp"
+#include "scene/verdict.hpp"
 #include "scene/way_within.hpp"
 
 namespace satcheck {
@@ -35,6 +36,7 @@ enum Clock : std::size_t { kBoxes, kOriented, kHulls, kNesting, kTriangles, kBan
 
 // What each rung found, and what it cost; nothing where the climb did not get so far.
 struct Climb {
+  Verdict verdict;
   double box_gap = 0;  // a proven lower bound of the gap of the world boxes
   BoxOutcome boxes = BoxOutcome::not_asked;
   Feature box_feature = Feature::none;
@@ -48,9 +50,6 @@ struct Climb {
   std::optional<double> gap_of_holes;  // what fills a hole may be as near as this, and nearer than `gap`
   std::array<std::int64_t, kBand + 1> nanoseconds{};
 };
-
-// A proven lower bound of the distance by boxes and hulls; 0 where they know none.
-double proven_gap(const Climb& climb);
 
 // From `first` up to `last`, which is taken even where what it finds cannot settle the pair. Throws what the
 // making of a body throws.

@@ -37,7 +37,7 @@ RungWords of_convex_bodies(const PairResult& found, std::int64_t cost) {
 RungWords of_hulls(const Climb& climb, std::int64_t cost) {
   const PairResult& found = *climb.hulls;
   if (found.outcome == Outcome::separated) {
-    return {"hull", "separated", at_least("hulls", proven_gap(climb)), cost};
+    return {"hull", "separated", at_least("hulls", gap_of_hulls(climb)), cost};
   }
   const char* result = found.outcome == Outcome::undecided ? "undecided" : "meet";
   return {"hull", result, "not both convex: hulls prove only separation", cost};

@@ -1,4 +1,4 @@
-// What the rungs of a climb found, in words: the first stages of the plan of a pair.
+// What the rungs of a climb found, in words: the first stages of the trace of a pair.
 #pragma once
 
 #include <string>

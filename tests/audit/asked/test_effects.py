@@ -61,10 +61,10 @@ def climbs_of(patch: pytest.MonkeyPatch) -> list[core.Climb | None]:
         def __init__(self, *args: Any, **keys: Any) -> None:
             self._climbing = original(*args, **keys)
 
-        def found(self) -> list[core.Climb | None]:
-            found = self._climbing.found()
-            kept.extend(found)
-            return found
+        def results(self) -> list[core.Climb | None]:
+            climbs = self._climbing.results()
+            kept.extend(climbs)
+            return climbs
 
     patch.setattr(core, "Climbing", Climbing)
     return kept

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit.asked.plan import Plan
+from satcheck.audit.asked.trace import Trace
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.impact import first_impact, overlaps
 from satcheck.audit.motion.limits import SHORTEST_STEP
@@ -252,7 +252,9 @@ def random_path(rng, kind):
 
 def deepest_at(pair, t):
     placed = pair.placed(t)
-    finding = examine(replace(placed, settings=replace(placed.settings, depth=True)), Plan())
+    finding = examine(
+        replace(placed, settings=replace(placed.settings, depth=True)), Trace()
+    ).finding
     return finding.depth_bounds[0]
 
 

@@ -49,7 +49,7 @@ void hulls_of_both() {
   climb.hulls->lower = 2.5;
   CHECK(words_of(climb)[2].detail == "hulls apart by at least 2.5");
   climb.box_gap = 3;
-  CHECK(words_of(climb)[2].detail == "hulls apart by at least 3" && proven_gap(climb) == 3);
+  CHECK(words_of(climb)[2].detail == "hulls apart by at least 3" && gap_of_hulls(climb) == 3);
   climb.hulls = hulls(Outcome::penetrating);
   CHECK(words_of(climb)[2].result == std::string("meet") && words_of(climb).size() == 3);
   climb.both_convex = true;

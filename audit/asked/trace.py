@@ -1,4 +1,4 @@
-"""The record of what was done about one pair, and of what could not be."""
+"""The log of one pair: what ran, and what could not be done."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 NANOSECONDS_PER_MICROSECOND = 1000.0
 
 
-class Plan:
+class Trace:
     """Stages in the order they ran, each with the time since the one before."""
 
     __slots__ = ("_since", "issues", "stages")
@@ -29,9 +29,9 @@ class Plan:
         self.stages.append(Stage(stage, result, elapsed, detail))
         self._since = now
 
-    def climbed(self, found: Climb) -> None:
+    def climbed(self, climb: Climb) -> None:
         """The rungs of the core, in its words."""
-        self.stages += found.stages(Stage)
+        self.stages += climb.stages(Stage)
 
     def add(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
         """A stage that ran elsewhere."""

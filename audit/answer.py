@@ -1,0 +1,34 @@
+"""What a check answers about a pair before a rule judges it: the relation and the figures."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from msgspec import Struct
+
+from satcheck.audit.report.report import Quality, Relation
+
+if TYPE_CHECKING:
+    from satcheck.audit.figures.depth import Depth
+    from satcheck.audit.figures.gap import Gap
+    from satcheck.audit.figures.touch_band import Band
+    from satcheck.audit.figures.volume import CommonVolume
+    from satcheck.audit.report.contact_report import Contacts
+
+
+class Answer(Struct, frozen=True):
+    """relation: with the touch band; exact_relation: without it, None where it is not shown.
+
+    quality: of the weakest figure. gap: of bodies without a common interior. band: of an overlap;
+    depth, volume, contacts: None, too, where they are not asked for.
+    """
+
+    relation: Relation
+    exact_relation: Relation | None
+    quality: Quality
+    reason: str | None = None
+    gap: Gap | None = None
+    band: Band | None = None
+    depth: Depth | None = None
+    volume: CommonVolume | None = None
+    contacts: Contacts | None = None
