@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, get_args
 
 from msgspec import Struct, to_builtins
@@ -47,8 +46,7 @@ class Sample(Struct, frozen=True):
     issues: tuple[Issue, ...]
 
 
-@dataclass(slots=True)
-class PairTally:
+class PairTally(Struct):
     """One asked pair over all samples, in how many of which it is what, at rest or on the way: the
     first of overlaps, touches, near, undecided that applies.
 
@@ -120,7 +118,7 @@ class Samples(Struct, frozen=True):
         verdicts = Counter(sample.verdict for sample in self.samples)
         return {
             "schema": SCHEMA,
-            "tool": {"name": self.tool.name, "version": self.tool.version},
+            "tool": to_builtins(self.tool),
             "units": self.units,
             "settings": self.settings,
             "seed": self.seed,
@@ -143,7 +141,7 @@ class Samples(Struct, frozen=True):
             "rules": to_builtins(self.rules),
             "samples": [_sample_values(sample, timings) for sample in self.samples],
             "pairs": [to_builtins(pair) for pair in self.pairs if not pair.settled],
-            "issues": [to_builtins(issue) for issue in self.issues],
+            "issues": to_builtins(self.issues),
         }
 
 
@@ -227,7 +225,7 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
         "pose": sample.posture.pose(),
         "verdict": sample.verdict,
         "findings": findings if timings else without_timings(findings),
-        "issues": [to_builtins(issue) for issue in sample.issues],
+        "issues": to_builtins(sample.issues),
     }
 
 

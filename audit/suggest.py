@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from itertools import product
 from typing import TYPE_CHECKING, Any, Literal
 
-from msgspec import Struct
+from msgspec import Struct, to_builtins
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.placed_bodies import BodyCache
@@ -86,14 +86,14 @@ class Suggestions(Struct, frozen=True):
         """JSON values in the fixed key order of the schema."""
         return {
             "schema": SCHEMA,
-            "tool": {"name": self.tool.name, "version": self.tool.version},
+            "tool": to_builtins(self.tool),
             "units": self.units,
             "poses": self.poses,
             "seed": self.seed,
             "held": list(self.held),
-            "suggestions": [_values(pair) for pair in self.pairs],
+            "suggestions": to_builtins(self.pairs),
             "undecided": len(self.undecided),
-            "unchecked": [_unchecked_values(pair) for pair in self.unchecked],
+            "unchecked": to_builtins(self.unchecked),
         }
 
 
@@ -258,26 +258,4 @@ def _adjacent(scene: Scene) -> set[frozenset[str]]:
         for robot in scene.robots
         for parent, child in robot.neighbours()
         for pair in product(robot.bodies_of(parent), robot.bodies_of(child))
-    }
-
-
-def _values(pair: Suggestion) -> dict[str, Any]:
-    return {
-        "a": pair.a,
-        "b": pair.b,
-        "why": pair.why,
-        "links": pair.links and list(pair.links),
-        "relation": pair.relation,
-        "depth_bounds": pair.depth_bounds and list(pair.depth_bounds),
-        "contacts": pair.contacts,
-    }
-
-
-def _unchecked_values(pair: Unchecked) -> dict[str, Any]:
-    return {
-        "a": pair.a,
-        "b": pair.b,
-        "adjacent": pair.adjacent,
-        "links": pair.links and list(pair.links),
-        "reason": pair.reason,
     }

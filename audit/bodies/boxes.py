@@ -14,6 +14,11 @@ def largest_coordinate(*boxes: Box) -> float:
     return max(abs(c) for box in boxes for corner in box for c in corner)
 
 
+def corners(box: Box) -> list[Vector]:
+    (x, y, z), (u, v, w) = box
+    return [(i, j, k) for i in (x, u) for j in (y, v) for k in (z, w)]
+
+
 def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
     return math.hypot(*(box[1][axis] - box[0][axis] for axis in axes))
 

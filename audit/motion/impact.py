@@ -18,9 +18,9 @@ import math
 from msgspec import Struct
 
 from satcheck.audit.figures.verify import FREE
+from satcheck.audit.motion.contact_offsets import ContactOffsets
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.audit.motion.nudges import Nudges
 from satcheck.audit.report.report import OVERLAPS, Finding
 
 
@@ -90,7 +90,7 @@ class _Scan:
         self.contact: float | None = None
         self.reason: str | None = None
         self._pair = pair
-        self._nudges = Nudges(pair)
+        self._offsets = ContactOffsets(pair)
 
     def run(self) -> None:
         while self.t < 1.0 and self.reason is None:
@@ -121,7 +121,7 @@ class _Scan:
         on = self._pair.shallow(self.t, end)
         if on >= SHORTEST_STEP or not self._pair.pair.may("exact"):
             return on
-        return self._nudges.safe_time(self.t, end)
+        return self._offsets.safe_time(self.t, end)
 
     def impact(self) -> Impact:
         if self.reason is None:

@@ -83,14 +83,14 @@ class MovingPair:
             t, self.pair.b.bounds
         )
 
-    def apart(self, t: float, end: float, nudge: Vector = ORIGIN) -> Obstacle:
+    def apart(self, t: float, end: float, offset: Vector = ORIGIN) -> Obstacle:
         """For how long after t, up to `end`, the surfaces have no common point, A being moved by
-        `nudge`. end: in the same pieces as t."""
-        hulls = self._shapes(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
+        `offset`. end: in the same pieces as t."""
+        hulls = self._shapes(core.safe_time, t, offset=offset, level=0.0, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return Obstacle(hulls.value)
         self.hulls_apart = False
-        found = self._surfaces(core.safe_time, t, nudge=nudge, level=0.0, limit=end - t)
+        found = self._surfaces(core.safe_time, t, offset=offset, level=0.0, limit=end - t)
         triangles = None if found.triangle_a < 0 else (found.triangle_a, found.triangle_b)
         return Obstacle(max(hulls.value, found.value), triangles)
 
@@ -143,11 +143,11 @@ class MovingPair:
         ask: Callable[..., core.MotionAnswer],
         t: float,
         *,
-        nudge: Vector = ORIGIN,
+        offset: Vector = ORIGIN,
         **bounds: float,
     ) -> core.MotionAnswer:
         (a, frame_a), (b, frame_b) = _shape_of(self.pair.a), _shape_of(self.pair.b)
-        moving_a = self.track_a.moving_at(t, nudge, frame_a)
+        moving_a = self.track_a.moving_at(t, offset, frame_a)
         moving_b = self.track_b.moving_at(t, ORIGIN, frame_b)
         self._count()
         return ask(a, moving_a, b, moving_b, pad=self.pad, slack=self._slack(t), **bounds)
@@ -157,10 +157,10 @@ class MovingPair:
         ask: Callable[..., core.MotionAnswer],
         t: float,
         *,
-        nudge: Vector = ORIGIN,
+        offset: Vector = ORIGIN,
         **bounds: float,
     ) -> core.MotionAnswer:
-        one = self._side(self.pair.a, self.track_a, t, nudge)
+        one = self._side(self.pair.a, self.track_a, t, offset)
         other = self._side(self.pair.b, self.track_b, t, ORIGIN)
         if self.pair.b.curved is not None:  # the shape comes first
             one, other = other, one
@@ -172,12 +172,12 @@ class MovingPair:
 
     @staticmethod
     def _side(
-        body: PlacedBody, track: Track, t: float, nudge: Vector
+        body: PlacedBody, track: Track, t: float, offset: Vector
     ) -> tuple[core.Surface | core.Shape, core.Moving]:
         if body.curved is None:
-            return body.surface(), track.moving_at(t, nudge)
+            return body.surface(), track.moving_at(t, offset)
         shape, frame = _shape_of(body)
-        return shape, track.moving_at(t, nudge, frame)
+        return shape, track.moving_at(t, offset, frame)
 
     def _slack(self, t: float) -> float:
         return sum(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.boxes import Box, corners
 from satcheck.audit.motion.track import Piece, Track
 from satcheck.audit.motion.turn import applied
 
@@ -34,7 +34,7 @@ def _boxes(bounds: Box, piece: Piece) -> list[Box]:
     turned = math.radians(abs(piece.degrees))
     count = min(max(math.ceil(turned / STEP), 1), MOST_POSES)
     length = piece.end - piece.start
-    radius = max(math.dist(corner, piece.pivot) for corner in _corners(bounds))
+    radius = max(math.dist(corner, piece.pivot) for corner in corners(bounds))
     angle = min(turned / count, 4.0)  # radians; no point is farther off than twice the radius
     grown = radius * angle * angle / 8.0
     times = [piece.start + length * k / count for k in range(count + 1)]
@@ -44,7 +44,7 @@ def _boxes(bounds: Box, piece: Piece) -> list[Box]:
 def _box(bounds: Box, piece: Piece, t: float, grown: float) -> Box:
     turn, centre = piece.turn_at(t), piece.centre_at(t)
     points = []
-    for corner in _corners(bounds):
+    for corner in corners(bounds):
         x, y, z = (c - p for c, p in zip(corner, piece.pivot, strict=True))
         points.append(applied(turn, (x, y, z)))
     low, high = (
@@ -54,8 +54,3 @@ def _box(bounds: Box, piece: Piece, t: float, grown: float) -> Box:
         for pick, way in ((min, -1.0), (max, 1.0))
     )
     return low, high  # type: ignore[return-value]
-
-
-def _corners(bounds: Box) -> list[tuple[float, float, float]]:
-    (x, y, z), (u, v, w) = bounds
-    return [(i, j, k) for i in (x, u) for j in (y, v) for k in (z, w)]

@@ -14,7 +14,7 @@ from itertools import pairwise
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.bodies.boxes import Box
+from satcheck.audit.bodies.boxes import Box, corners
 from satcheck.audit.motion.turn import (
     STILL,
     Matrix,
@@ -25,6 +25,7 @@ from satcheck.audit.motion.turn import (
     rotation,
     unit,
 )
+from satcheck.audit.vectors import added
 from satcheck.core.tolerances import UNIT_ROUNDOFF
 from satcheck.scene.motion import Path, Rotation, Translation
 
@@ -62,12 +63,12 @@ class Piece(Struct, frozen=True):
 
     start: float
     end: float
-    pivot: Vector
-    centre: Vector
-    velocity: Vector
-    turn: Matrix
-    axis: Vector
-    degrees: float
+    pivot: Vector = ORIGIN
+    centre: Vector = ORIGIN
+    velocity: Vector = ORIGIN
+    turn: Matrix = STILL
+    axis: Vector = (1.0, 0.0, 0.0)
+    degrees: float = 0.0
 
     def centre_at(self, t: float) -> Vector:
         return tuple(  # type: ignore[return-value]
@@ -114,16 +115,16 @@ class Track(Struct, frozen=True):
         rows = [(*row, s) for row, s in zip(turn, shift, strict=True)]
         return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
 
-    def moving_at(self, t: float, nudge: Vector = ORIGIN, frame: Frame = WORLD) -> core.Moving:
-        """Where the body is and how it goes on, moved by `nudge`. frame: rotation and translation
+    def moving_at(self, t: float, offset: Vector = ORIGIN, frame: Frame = WORLD) -> core.Moving:
+        """Where the body is and how it goes on, moved by `offset`. frame: rotation and translation
         that place it before it moves."""
         piece = self.piece_at(t)
         turn, shift = _pose(piece, t)
         if frame != WORLD:
-            turn, shift = product(turn, frame[0]), _sum(shift, applied(turn, frame[1]))
+            turn, shift = product(turn, frame[0]), added(shift, applied(turn, frame[1]))
         centre = piece.centre_at(t)
         return core.Moving(
-            turn, _sum(shift, nudge), _sum(centre, nudge), piece.velocity, piece.spin
+            turn, added(shift, offset), added(centre, offset), piece.velocity, piece.spin
         )
 
     def reach(self, bounds: Box) -> float:
@@ -148,9 +149,9 @@ class Track(Struct, frozen=True):
 
 def track_of(path: Path) -> Track:
     if isinstance(path, Translation):
-        return Track((_piece(0.0, 1.0, velocity=path.vector),))
+        return Track((Piece(0.0, 1.0, velocity=path.vector),))
     if isinstance(path, Rotation):
-        piece = _piece(0.0, 1.0, path.point, path.point, axis=unit(path.axis), degrees=path.degrees)
+        piece = Piece(0.0, 1.0, path.point, path.point, axis=unit(path.axis), degrees=path.degrees)
         return Track((piece,))
     pieces = []
     for here, there in pairwise(path.waypoints):
@@ -160,7 +161,7 @@ def track_of(path: Path) -> Track:
         x, y, z = (step / length for step in steps)
         turn = of_quaternion(here.orientation)
         pieces.append(
-            _piece(
+            Piece(
                 here.time,
                 there.time,
                 centre=here.position,
@@ -173,28 +174,10 @@ def track_of(path: Path) -> Track:
     return Track(tuple(pieces))
 
 
-def _piece(
-    start: float,
-    end: float,
-    pivot: Vector = ORIGIN,
-    centre: Vector = ORIGIN,
-    *,
-    velocity: Vector = ORIGIN,
-    turn: Matrix = STILL,
-    axis: Vector = (1.0, 0.0, 0.0),
-    degrees: float = 0.0,
-) -> Piece:
-    return Piece(start, end, pivot, centre, velocity, turn, axis, degrees)
-
-
 def _pose(piece: Piece, t: float) -> tuple[Matrix, Vector]:
     turn, centre = piece.turn_at(t), piece.centre_at(t)
     carried = applied(turn, piece.pivot)
-    return turn, _sum(centre, (-carried[0], -carried[1], -carried[2]))
-
-
-def _sum(a: Vector, b: Vector) -> Vector:
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+    return turn, added(centre, (-carried[0], -carried[1], -carried[2]))
 
 
 def _fastest(piece: Piece, bounds: Box) -> float:
@@ -202,12 +185,10 @@ def _fastest(piece: Piece, bounds: Box) -> float:
 
 
 def _reach(piece: Piece, bounds: Box) -> float:
-    (x, y, z), (u, v, w) = bounds
-    corners = [(i, j, k) for i in (x, u) for j in (y, v) for k in (z, w)]
-    radius = max(math.dist(corner, piece.pivot) for corner in corners)
+    radius = max(math.dist(corner, piece.pivot) for corner in corners(bounds))
     ends = (piece.centre, piece.centre_at(piece.end))
     farthest = max(math.hypot(*end) for end in ends)
     return (radius + math.hypot(*piece.pivot) + farthest) * (1 + 8 * UNIT_ROUNDOFF)
 
 
-STANDS = Track((_piece(0.0, 1.0),))
+STANDS = Track((Piece(0.0, 1.0),))

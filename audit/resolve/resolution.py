@@ -98,7 +98,7 @@ class Resolution(Struct, frozen=True):
         report = self.report
         return {
             "schema": SCHEMA,
-            "tool": {"name": report.tool.name, "version": report.tool.version},
+            "tool": to_builtins(report.tool),
             "units": report.units,
             "output": output,
             "summary": {
@@ -123,10 +123,7 @@ class Resolution(Struct, frozen=True):
                 for move in self.moves
             ],
             "pinned": list(self.pinned),
-            "left": [
-                {"a": one.a, "b": one.b, "relation": one.relation, "reason": one.reason}
-                for one in self.left
-            ],
+            "left": to_builtins(self.left),
             "check": {
                 "verdict": report.summary.verdict,
                 "pairs": to_builtins(report.summary.pairs),

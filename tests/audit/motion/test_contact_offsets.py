@@ -102,7 +102,7 @@ def test_a_body_that_is_smaller_than_the_band_is_not_lost_in_the_other(into):
 
 
 def test_where_nothing_is_proven_the_answer_is_open():
-    """A slider that fits its slot exactly has nowhere to be nudged to. It never overlaps."""
+    """A slider that fits its slot exactly has no offset that frees it. It never overlaps."""
     slot = _slot()
     impact = impact_of(box((1, 1, 0), (2, 3, 1)), Translation((0.0, 0.5, 0.0)), slot)
     assert not impact.free

@@ -29,13 +29,13 @@ MOST_MEETING = 100_000
 AHEAD = 16
 # Decimals to which normals are told apart.
 DIGITS = 6
-# Of the touch band: a nudge that leaves room for rounding, and a shorter one, which what stands on
-# the other side is less likely to be in the way of.
+# Of the touch band: an offset that leaves room for rounding, and a shorter one. What stands on the
+# other side is less likely to stop the shorter one.
 SHARES = (0.9, 0.3)
 
 
-class Nudges:
-    """Keeps the nudge that served last: a contact usually goes on as it was."""
+class ContactOffsets:
+    """Keeps the offset that served last: a contact usually goes on as it was."""
 
     def __init__(self, pair: MovingPair) -> None:
         self._pair = pair
@@ -43,27 +43,29 @@ class Nudges:
         self._proven_until = -1.0
 
     def safe_time(self, t: float, end: float) -> float:
-        """For how long after t the bodies, nudged, have no common point; 0.0: no nudge helps."""
+        """For how long after t the bodies have no common point once A is moved by an offset.
+
+        0.0: no offset helps."""
         if self._last is not None:
             on = self._pair.apart(t, end, self._last).time
             seamless = self._proven_until >= t
             if _is_step(on, t, end) and (seamless or self._frees(self._pair.placed(t), self._last)):
                 return self._keep(self._last, t, on)
         placed = self._pair.placed(t)
-        for nudge in self._candidates(t, end, placed):
-            on = self._pair.apart(t, end, nudge).time
-            if _is_step(on, t, end) and self._frees(placed, nudge):
-                return self._keep(nudge, t, on)
+        for offset in self._candidates(t, end, placed):
+            on = self._pair.apart(t, end, offset).time
+            if _is_step(on, t, end) and self._frees(placed, offset):
+                return self._keep(offset, t, on)
         self._last = None
         return 0.0
 
-    def _keep(self, nudge: Vector, t: float, on: float) -> float:
-        self._last, self._proven_until = nudge, t + on
+    def _keep(self, offset: Vector, t: float, on: float) -> float:
+        self._last, self._proven_until = offset, t + on
         return on
 
     @staticmethod
-    def _frees(placed: Pair, nudge: Vector) -> bool:
-        return relation_after(placed, nudge) in FREE
+    def _frees(placed: Pair, offset: Vector) -> bool:
+        return relation_after(placed, offset) in FREE
 
     def _candidates(self, t: float, end: float, placed: Pair) -> Iterator[Vector]:
         ways = self._ways_off(t, end, placed)
