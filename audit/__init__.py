@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check
-from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
-from satcheck.audit.report.report import (
+from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
+from satcheck.report.report import (
     BodyReport,
     Finding,
     Issue,

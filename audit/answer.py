@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from satcheck.audit.report.report import Quality, Relation
+from satcheck.report.report import Quality, Relation
 
 if TYPE_CHECKING:
     from satcheck.audit.figures.depth import Depth
     from satcheck.audit.figures.gap import Gap
     from satcheck.audit.figures.touch_band import Band
     from satcheck.audit.figures.volume import CommonVolume
-    from satcheck.audit.report.contact_report import Contacts
+    from satcheck.report.contacts import Contacts
 
 
 class Answer(Struct, frozen=True):

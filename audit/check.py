@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from msgspec import Struct
+from msgspec import Struct, convert
 from msgspec.structs import replace
 
 from satcheck.audit.asked.effects import effects_of
@@ -21,7 +22,6 @@ from satcheck.audit.finding import Examined, apart_by_boxes, examine, indetermin
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.ladder.climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import PairQueue, Steps
-from satcheck.audit.report.report import INTERNAL_ERROR, Finding, Issue, Report
 from satcheck.audit.summary import (
     body_reports,
     count,
@@ -33,6 +33,8 @@ from satcheck.audit.summary import (
     truncated_of,
 )
 from satcheck.core.errors import SatcheckError
+from satcheck.report.certificate import Certificate
+from satcheck.report.report import INTERNAL_ERROR, Finding, Issue, Report
 
 if TYPE_CHECKING:
     from satcheck.audit.motion.movers import Movers
@@ -42,6 +44,7 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
+LOG = logging.getLogger("satcheck")
 Progress = Callable[[int, int], None]
 
 
@@ -49,7 +52,6 @@ class CheckedPair(Struct, frozen=True):
     finding: Finding
     asked: Asked
     issues: tuple[Issue, ...] = ()
-    traceback: str | None = None
 
 
 def check(
@@ -122,7 +124,7 @@ def _check(
     return Report(
         tool=tool(),
         units=scene.units,
-        settings=settings.to_dict() | {"depth": planner.depth},
+        settings=settings.stated(depth=planner.depth),
         summary=summarise(counts, findings, settings.fail_on),
         bodies=body_reports(bodies),
         exempt=exempt_of(scene),
@@ -133,12 +135,11 @@ def _check(
             counts,
             units_unknown=sum(1 for _ in bodies.pairs_of_several_units()),
         ),
-        motions=() if movers is None else movers.values(),
+        motions=() if movers is None else movers.stated(),
         pose=scene.posture.pose() if scene.posture else None,
         findings=tuple(findings),
         issues=issues,
         truncated=truncated_of(counts, findings),
-        tracebacks=tuple(one.traceback for one in examined if one.traceback),
     )
 
 
@@ -231,14 +232,13 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
         if pair.asked.wants("certificate"):
             finding = _with_certificate(pair, examined)
         return CheckedPair(finding, pair.asked, tuple(trace.issues))
-    except Exception as error:  # noqa: BLE001 the one place where a run survives its own faults
-        import traceback
-
+    except Exception as error:
+        LOG.debug("a pair failed", exc_info=True)
         reason = f"internal error: {type(error).__name__}: {error}"
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         finding = indeterminate(pair.a.id, pair.b.id, reason, trace)
-        return CheckedPair(finding, pair.asked, (*trace.issues, issue), traceback.format_exc())
+        return CheckedPair(finding, pair.asked, (*trace.issues, issue))
 
 
 def _with_certificate(pair: Pair, examined: Examined) -> Finding:
@@ -257,7 +257,8 @@ def _with_certificate(pair: Pair, examined: Examined) -> Finding:
         trace.record("certificate", "none", found)
         return replace(finding, plan=(*finding.plan, *trace.stages))
     trace.record("certificate", found["relation"]["kind"], "accepted by the checker")
-    return replace(finding, certificate=found, plan=(*finding.plan, *trace.stages))
+    certificate = convert(found, Certificate)
+    return replace(finding, certificate=certificate, plan=(*finding.plan, *trace.stages))
 
 
 def _findings(

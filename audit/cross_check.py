@@ -17,9 +17,9 @@ from satcheck import core
 from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS
 from satcheck.core.errors import SatcheckError
 from satcheck.core.peers import Peers
+from satcheck.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS
 
 DISAGREEMENT = "cross-check-disagreement"
 

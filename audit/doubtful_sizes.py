@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.report.report import SIZES_DIFFER, TOLERANCE_LARGE, Finding, Issue
 from satcheck.core import largest_stretch
 from satcheck.core.conventions import Plane, axes_of
+from satcheck.report.report import SIZES_DIFFER, TOLERANCE_LARGE, Finding, Issue
 
 # Two bodies of about one size, one in millimetres and one in metres, are about 1000-fold apart.
 UNLIKE = 500.0

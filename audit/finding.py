@@ -22,10 +22,10 @@ from satcheck.audit.figures.touch_band import Band, band_of, touch_band
 from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.around import open_pieces_around
 from satcheck.audit.ladder.ladder import boxes_verdict, settle
-from satcheck.audit.report.contact_report import Contacts
-from satcheck.audit.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 from satcheck.audit.severity import Judgement, disputed, judged
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.report.contacts import Contacts
+from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 
 if TYPE_CHECKING:
     from satcheck.core import Climb

@@ -8,8 +8,8 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.report.report import Finding
 from satcheck.core.errors import SatcheckError
+from satcheck.report.report import Finding
 from satcheck.scene.meshes import MeshLike, scene_of_meshes
 
 if TYPE_CHECKING:

@@ -10,15 +10,17 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
+from msgspec import convert
 from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.report.contact_report import Contacts, Vector
-from satcheck.audit.report.motion_report import Interval, Place, Sweep, WorstPose
-from satcheck.audit.report.report import BodyReport, Finding, Issue, Report, Stage, Witness
-from satcheck.audit.summary import health_values, rule_reports
+from satcheck.audit.summary import rule_reports, stated_health, stated_shape
 from satcheck.core.power_of_two import held_times_power, limit_times_power
-from satcheck.core.shapes import values_of
+from satcheck.report.certificate import Certificate
+from satcheck.report.contacts import Contacts
+from satcheck.report.report import BodyReport, Finding, Issue, Report, Stage, Witness, plain
+from satcheck.report.sweep import Place, Sweep, WorstPose
+from satcheck.report.values import Interval, Vector
 from satcheck.scene import Scene
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
@@ -49,11 +51,11 @@ class OtherUnit:
 
         return replace(
             found,
-            settings={**given.to_dict(), "depth": found.settings["depth"]},
+            settings=given.stated(depth=found.settings.depth),
             bodies=tuple(self._bodies(found.bodies, scene)),
             findings=tuple(map(self._finding, found.findings)),
             rules=rule_reports(scene.rules),
-            motions=Movers(scene.motions).values() if scene.motions else (),
+            motions=Movers(scene.motions).stated() if scene.motions else (),
             issues=tuple(self._issue(issue, scene) for issue in found.issues),
         )
 
@@ -75,8 +77,8 @@ class OtherUnit:
                 body,
                 sha256=own.file.sha256,
                 transform=placing_file(own.file, own.transform),
-                health=health_values(own.file.health),
-                shape=None if shape is None else values_of(shape),
+                health=stated_health(own.file.health),
+                shape=stated_shape(shape),
                 resolution=self._length(body.resolution),
             )
 
@@ -106,7 +108,8 @@ class OtherUnit:
             contacts=contacts,
             reason=found.reason and self._words(found.reason),
             motion=found.motion and self._sweep(found.motion),
-            certificate=found.certificate and self._certificate(found.certificate),
+            certificate=found.certificate
+            and convert(self._certificate(plain(found.certificate)), Certificate),
             plan=(self._stage(), *found.plan, *left_out),
         )
 

@@ -13,7 +13,7 @@ from satcheck.audit.asked.rule_book import RuleBook
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.report.report import (
+from satcheck.report.report import (
     OVERLAPS,
     BodyReport,
     Exempt,
@@ -26,6 +26,7 @@ from satcheck.audit.report.report import (
     Verdict,
     without_timings,
 )
+from satcheck.report.settings import StatedSettings
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
@@ -96,7 +97,7 @@ class Samples(Struct, frozen=True):
 
     tool: Tool
     units: str | None
-    settings: dict[str, object]
+    settings: StatedSettings
     bodies: tuple[BodyReport, ...]
     exempt: Exempt
     rules: tuple[RuleReport, ...]
@@ -105,7 +106,6 @@ class Samples(Struct, frozen=True):
     counts: PairCounts
     issues: tuple[Issue, ...]
     seed: int | None = None
-    tracebacks: tuple[str, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
@@ -120,7 +120,7 @@ class Samples(Struct, frozen=True):
             "schema": SCHEMA,
             "tool": to_builtins(self.tool),
             "units": self.units,
-            "settings": self.settings,
+            "settings": to_builtins(self.settings),
             "seed": self.seed,
             "summary": {
                 "verdict": self.verdict,
@@ -134,7 +134,12 @@ class Samples(Struct, frozen=True):
                 },
             },
             "bodies": [
-                {"id": body.id, "file": body.file, "sha256": body.sha256, "shape": body.shape}
+                {
+                    "id": body.id,
+                    "file": body.file,
+                    "sha256": body.sha256,
+                    "shape": to_builtins(body.shape),
+                }
                 for body in self.bodies
             ],
             "exempt": to_builtins(self.exempt),
@@ -173,14 +178,12 @@ def check_poses(
     tallies: dict[tuple[str, str], PairTally] = {}
     samples: list[Sample] = []
     common: dict[Issue, None] = {}
-    tracebacks: list[str] = []
     report: Report | None = None
     for number, one in enumerate(placed, 1):
         report = check(one, replace(settings, list_pruned=False), cache=cache)
         sample, others = _sample(number, report, one.posture)
         samples.append(sample)
         common |= dict.fromkeys(others)
-        tracebacks += report.tracebacks
         for finding in sample.findings:
             pair = finding.a, finding.b
             tallies.setdefault(pair, PairTally(*pair)).count(finding, number)
@@ -191,7 +194,7 @@ def check_poses(
     return Samples(
         tool=report.tool,
         units=report.units,
-        settings=dict(report.settings),
+        settings=report.settings,
         bodies=report.bodies,
         exempt=report.exempt,
         rules=report.rules,
@@ -199,7 +202,6 @@ def check_poses(
         pairs=_all_pairs(report, cache.book, tallies),
         counts=report.summary.pairs,
         issues=tuple(common),
-        tracebacks=tuple(tracebacks),
     )
 
 

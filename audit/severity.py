@@ -16,8 +16,8 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.planner import Asked
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
 from satcheck.audit.tolerances import is_within, keeps
+from satcheck.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
 
 if TYPE_CHECKING:
     from satcheck.audit.answer import Answer

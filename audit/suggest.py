@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
+from satcheck.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
 
 if TYPE_CHECKING:
     from satcheck.audit.asked.settings import Settings

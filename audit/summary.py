@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
+
+from msgspec import convert, to_builtins
 
 from satcheck._version import __version__
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.report.report import (
+from satcheck.core.errors import SatcheckError
+from satcheck.core.shapes import values_of
+from satcheck.report.bodies import Health, StatedShape
+from satcheck.report.report import (
     NOTHING_TO_CHECK,
     RELATIONS,
     SEVERITIES,
@@ -27,7 +32,6 @@ from satcheck.audit.report.report import (
     Truncated,
     Verdict,
 )
-from satcheck.core.errors import SatcheckError
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
@@ -37,8 +41,6 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
     from satcheck.scene.health import MeshHealth
     from satcheck.scene.rules import Rule
-
-Health = Mapping[str, bool | int | float | str | None]
 
 
 def tool() -> Tool:
@@ -92,7 +94,7 @@ def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -
 
 def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
     meshes = {id(body.shared): body.shared for body in bodies.placed.values()}
-    health = {key: health_values(mesh.file.health) for key, mesh in meshes.items()}
+    health = {key: stated_health(mesh.file.health) for key, mesh in meshes.items()}
     return tuple(
         _unusable_report(bodies.unusable[k])
         if k in bodies.unusable
@@ -101,8 +103,10 @@ def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
     )
 
 
-def health_values(health: MeshHealth) -> Health:
-    return {name: _finite(getattr(health, name)) for name in health.__struct_fields__}
+def stated_health(health: MeshHealth) -> Health:
+    """A volume that overflowed is not known."""
+    volume = health.volume if math.isfinite(health.volume) else None
+    return Health(**{**to_builtins(health), "volume": volume})
 
 
 def _unusable_report(body: UnusableBody) -> BodyReport:
@@ -146,7 +150,7 @@ def _body_report(body: PlacedBody, health: Health) -> BodyReport:
         convex=body.shared.geometry.known_convex,
         parts=None if parts is None else len(parts.parts),
         part_error=None if parts is None else _part_error(parts, file.exponent),
-        shape=_shape(shape_of_file(given.file, given.shape)),
+        shape=stated_shape(shape_of_file(given.file, given.shape)),
     )
 
 
@@ -154,17 +158,8 @@ def _part_error(parts: Decomposition, exponent: int) -> PartError:
     return PartError(math.ldexp(parts.outside, exponent), math.ldexp(parts.missing, exponent))
 
 
-def _shape(shape: Primitive | None) -> Mapping[str, object] | None:
-    if shape is None:
-        return None
-    from satcheck.core.shapes import values_of
-
-    return values_of(shape)
-
-
-def _finite(value: bool | int | float | str) -> bool | int | float | str | None:
-    """A volume that overflowed is not known; None says so."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+def stated_shape(shape: Primitive | None) -> StatedShape | None:
+    return None if shape is None else convert(values_of(shape), StatedShape)
 
 
 def rule_reports(rules: Iterable[Rule]) -> tuple[RuleReport, ...]:

@@ -32,7 +32,7 @@ from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.ladder.ladder import settle
-from satcheck.audit.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS
 from satcheck.scene import load_scene
 
 # A best known way out was verified by others, with coordinates rounded once more.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import logging
 import os
 import sys
 import traceback
@@ -31,6 +32,8 @@ def main() -> None:
 def _run() -> int:
     """Not click's standalone mode: a crash and Ctrl-C would both exit 1 there, "findings"."""
     debug = "--debug" in sys.argv[1:]
+    if debug:
+        _talk_of_faults()
     stdout = sys.stdout
     try:
         result = _call()
@@ -80,6 +83,15 @@ def _internal(error: Exception) -> str:
     first, *_ = [*str(error).strip().splitlines(), "no message"]
     name = type(error).__name__
     return f"internal error: {name}: {first} [internal-error] (--debug shows where)"
+
+
+def _talk_of_faults() -> None:
+    """Show the tracebacks of faults that a run survives."""
+    handler = logging.StreamHandler()
+    handler.emit = lambda record: talk(handler.format(record))  # type: ignore[method-assign]
+    log = logging.getLogger("satcheck")
+    log.setLevel(logging.DEBUG)
+    log.addHandler(handler)
 
 
 def _failed(line: str, debug: bool) -> int:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import Issue, Verdict
+    from satcheck.report.report import Issue, Verdict
 
 CLEAN = 0  # everything was checked, and no pair fails
 FINDINGS = 1  # bodies overlap beyond what rules allow, or are closer than their clearance

@@ -195,7 +195,12 @@ cache_option = click.option(
     default=DEFAULTS.cache,
     help="Neither read nor write the cache of convex parts.",
 )
-debug_option = click.option("--debug", is_flag=True, help="Show a traceback when satcheck fails.")
+debug_option = click.option(
+    "--debug",
+    is_flag=True,
+    expose_value=False,  # cli/entry.py looks for it: what fails may be the reading of options
+    help="Show a traceback when satcheck fails.",
+)
 package_option = click.option(
     "--package",
     "packages",

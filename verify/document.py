@@ -16,7 +16,7 @@ from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding, default_tolerance, number
 from satcheck.verify.in_plane import ACROSS, curve_error
-from satcheck.verify.published import Departure, departures
+from satcheck.verify.published import departures
 from satcheck.verify.relations import OVERLAPS
 from satcheck.verify.rules import ASKED, SEVERITIES, Asked, Rules
 
@@ -160,11 +160,9 @@ class _Report:
     def __init__(self, document: Any, root: Path, *, allow_outside: bool) -> None:
         if not isinstance(document, dict) or document.get("schema") != SCHEMA:
             raise Rejected(f'not a report: "schema" is not "{SCHEMA}"')
-        self.ill_formed: dict[int, Departure] = {}
-        for departure in departures(document):
-            if departure.finding is None:
-                raise Rejected(f"not a report by its schema: {departure}")
-            self.ill_formed.setdefault(departure.finding, departure)
+        self.ill_formed = departures(document)
+        if None in self.ill_formed:
+            raise Rejected(f"not a report by its schema: {self.ill_formed[None]}")
         self.document = document
         self.findings = _list(document, "findings")
         self.asked = _asked(_object(document, "settings"))
@@ -231,6 +229,8 @@ class _Report:
         a, b = self._list(entry)
         if self.rules.is_exempt(a, b):
             raise Rejected("the scene does not ask about this pair")
+        if (entry["motion"] is None) is not (entry["placed_relation"] is None):
+            raise Rejected("the relation as placed comes with a motion")
         if entry.get("motion") is not None:
             raise _NotCertified("what happens while bodies move is not certified")
         asked = self.asked_of(a, b)

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from satcheck.audit.asked.planner import Asked, Planner
-from satcheck.audit.report.report import (
+from satcheck.report.report import (
     EFFECTS,
     OVERLAPS,
     Effect,

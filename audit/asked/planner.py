@@ -12,8 +12,8 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.report.report import Effect
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.report.report import Effect
 from satcheck.scene.rules import Rule, Severity
 
 # The key by which a rule asks for an effect.

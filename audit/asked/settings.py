@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from satcheck.core.conventions import PLANES, Plane
 from satcheck.core.errors import SatcheckError
+from satcheck.report.settings import StatedSettings
 
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
 ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
@@ -111,32 +112,33 @@ class Settings(Struct, frozen=True):
         if self.jobs < 0:
             raise _refused(f"jobs must be 0 (one per core) or more, not {self.jobs!r}")
 
-    def to_dict(self) -> dict[str, object]:
-        """Everything that can change an answer, and nothing that cannot."""
-        return {
-            "depth": self.depth,
-            "volume": self.volume,
-            "volume_seconds": self.volume_seconds,
-            "volume_megabytes": self.volume_megabytes,
-            "contacts": self.contacts,
-            "contact_points": self.contact_points,
-            "clearance": self.clearance,
-            "tolerance": "input-precision" if self.tolerance is None else self.tolerance,
-            "accuracy": self.accuracy,
-            "fail_on": self.fail_on,
-            "allow_open": self.allow_open,
-            "cross_check": self.cross_check,
-            "planar": self.planar,
-            "list_pruned": self.list_pruned,
-            "depth_width": self.depth_width,
-            "depth_budget": self.depth_budget,
-            "part_threshold": self.part_threshold,
-            "part_seed": self.part_seed,
-            "part_seconds": self.part_seconds,
-            "part_megabytes": self.part_megabytes,
-            "seconds_per_file": self.seconds_per_file,
-            "megabytes_per_file": self.megabytes_per_file,
-        }
+    def stated(self, *, depth: bool) -> StatedSettings:
+        """Everything that can change an answer, and nothing that cannot. depth: whether it is
+        computed."""
+        return StatedSettings(
+            depth=depth,
+            volume=self.volume,
+            volume_seconds=self.volume_seconds,
+            volume_megabytes=self.volume_megabytes,
+            contacts=self.contacts,
+            contact_points=self.contact_points,
+            clearance=self.clearance,
+            tolerance="input-precision" if self.tolerance is None else self.tolerance,
+            accuracy=self.accuracy,
+            fail_on=self.fail_on,
+            allow_open=self.allow_open,
+            cross_check=self.cross_check,
+            planar=self.planar,
+            list_pruned=self.list_pruned,
+            depth_width=self.depth_width,
+            depth_budget=self.depth_budget,
+            part_threshold=self.part_threshold,
+            part_seed=self.part_seed,
+            part_seconds=self.part_seconds,
+            part_megabytes=self.part_megabytes,
+            seconds_per_file=self.seconds_per_file,
+            megabytes_per_file=self.megabytes_per_file,
+        )
 
 
 def _refused(message: str) -> SatcheckError:

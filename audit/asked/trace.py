@@ -5,7 +5,7 @@ from __future__ import annotations
 from time import perf_counter_ns
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report.report import Issue, Stage
+from satcheck.report.report import Issue, Stage
 
 if TYPE_CHECKING:
     from satcheck.core import Climb

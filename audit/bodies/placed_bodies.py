@@ -18,7 +18,7 @@ from satcheck.audit.bodies.placed_body import (
     mesh_key,
     world_bounds,
 )
-from satcheck.audit.report.report import Issue
+from satcheck.report.report import Issue
 from satcheck.scene import Body
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.report.report import Vector
 from satcheck.audit.vectors import crossed, unit
+from satcheck.report.report import Vector
 
 Crossing = tuple[int, int]
 

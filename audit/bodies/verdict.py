@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from satcheck.audit.report.report import Relation, Vector
+from satcheck.report.report import Relation, Vector
 
 if TYPE_CHECKING:
     from satcheck import core

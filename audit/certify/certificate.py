@@ -13,8 +13,8 @@ from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.finding import Examined
-from satcheck.audit.report.report import OVERLAPS, plain
 from satcheck.core.conventions import axis_across
+from satcheck.report.report import OVERLAPS, plain
 from satcheck.verify import Rejected
 from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector

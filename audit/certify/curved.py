@@ -11,9 +11,9 @@ import numpy as np
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.certify.overlaps import as_json
-from satcheck.audit.report.report import OVERLAPS, Finding
 from satcheck.core.curved.exact.pair import proof_of
 from satcheck.core.curved.signed import Signed, convex_pair
+from satcheck.report.report import OVERLAPS, Finding
 from satcheck.verify import Rejected
 from satcheck.verify.curved import Curved
 from satcheck.verify.curved_pair import CurvedPair, reach

@@ -21,10 +21,10 @@ from satcheck.audit.figures.depth import Depth, frees_boxes
 from satcheck.audit.figures.verify import Escape, verified_escape
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
-from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.conventions import axis_across
 from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.report.report import Vector
 
 # Steps of the search in a second of `depth_budget`: what a slow machine of today gets done, so that
 # the budget is not exceeded there. A number and not a clock: the same input, the same answer.

@@ -10,7 +10,7 @@ from satcheck import core
 from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
+from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 
 # Pairs of triangles that may meet: a report about more is nothing that anybody could use. Each
 # takes 0.2 kB on its way, 0.7 kB where it shares a patch: 2 GB at most.

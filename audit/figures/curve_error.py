@@ -30,11 +30,11 @@ from satcheck.audit.figures.gap import Gap
 from satcheck.audit.figures.verify import Escape, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.ladder.in_plane import wall_gap
-from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import keeps
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import axes_of
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import Vector
 
 if TYPE_CHECKING:
     from satcheck.core import PairResult

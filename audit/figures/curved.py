@@ -14,11 +14,11 @@ from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.figures.concave_depth import depth_of_move
 from satcheck.audit.figures.depth import Depth, measure_depth
 from satcheck.audit.ladder.ladder import settle
-from satcheck.audit.report.report import NOT_AVAILABLE, ON_TRIANGLES, OVERLAPS, Vector
 from satcheck.core import Mesh
 from satcheck.core.curved.freeing import move_off
 from satcheck.core.shape_mesh import mesh_around
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import NOT_AVAILABLE, ON_TRIANGLES, OVERLAPS, Vector
 from satcheck.scene.shape_file import remeshed
 
 

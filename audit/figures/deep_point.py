@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from satcheck.audit.bodies.placed_body import PlacedBody
-    from satcheck.audit.report.report import Vector
+    from satcheck.report.report import Vector
 
     Floats = npt.NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from satcheck import core
 from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.verify import Escape, verified_escape
-from satcheck.audit.report.report import Vector, Witness
+from satcheck.report.report import Vector, Witness
 
 if TYPE_CHECKING:
     from satcheck.audit.bodies.verdict import Verdict

@@ -11,9 +11,9 @@ from satcheck import core
 from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.report.report import Vector, Witness
 from satcheck.audit.tolerances import keeps
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import Vector, Witness
 
 if TYPE_CHECKING:
     from collections.abc import Callable

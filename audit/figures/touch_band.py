@@ -22,10 +22,10 @@ from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.gap import compare_convex
 from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.report.report import Vector
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.vectors import scaled
 from satcheck.core.tolerances import UNIT_ROUNDOFF, rounding_pad
+from satcheck.report.report import Vector
 
 if TYPE_CHECKING:
     from satcheck.core.curved.signed import Signed

@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Literal
 
 from satcheck import core
-from satcheck.audit.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS
 
 if TYPE_CHECKING:
     from satcheck.audit.asked.settings import Accuracy
     from satcheck.audit.bodies.pair import Pair
-    from satcheck.audit.report.report import Effect
+    from satcheck.report.report import Effect
 
     Request = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, bool]
     Rung = Literal["aabb", "obb", "hull", "triangles"]

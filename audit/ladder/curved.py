@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from satcheck.audit.asked.trace import Trace
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.bodies.placed_body import PlacedBody
-    from satcheck.audit.report.report import Relation
     from satcheck.core.curved.exact.proof import Proof
+    from satcheck.report.report import Relation
 
 STAGE = "curved"
 PROOF = "curved-exact"

@@ -11,8 +11,8 @@ from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.report.report import OVERLAPS, Relation
 from satcheck.core.conventions import Plane, axes_of, axis_across
+from satcheck.report.report import OVERLAPS, Relation
 
 if TYPE_CHECKING:
     from satcheck.audit.bodies.verdict import Verdict

@@ -15,8 +15,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.parts import Covering, covering, inner_parts, split_together
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.ladder.inner_bodies import deepest_pair
-from satcheck.audit.report.report import Relation
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import Relation
 
 
 def settle_by_parts(pair: Pair, trace: Trace) -> Verdict:

@@ -16,8 +16,8 @@ from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.motion.limits import SHORTEST_STEP
 from satcheck.audit.motion.moving_pair import MovingPair
-from satcheck.audit.report.report import Vector
 from satcheck.audit.vectors import scaled, unit
+from satcheck.report.report import Vector
 
 # A part in a corner has to leave three walls.
 WALLS = 3

@@ -21,7 +21,7 @@ from satcheck.audit.figures.verify import FREE
 from satcheck.audit.motion.contact_offsets import ContactOffsets
 from satcheck.audit.motion.limits import PROBES, SHORTEST_STEP, SLID
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.audit.report.report import OVERLAPS, Finding
+from satcheck.report.report import OVERLAPS, Finding
 
 
 class Impact(Struct, frozen=True):

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
-from msgspec import to_builtins
+from msgspec import convert, to_builtins
 
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Paths
 from satcheck.audit.motion.swept import swept_box
 from satcheck.audit.motion.track import track_of
-from satcheck.audit.report.report import Issue
+from satcheck.report.motions import StatedMotion
+from satcheck.report.report import Issue
 from satcheck.scene.motion import Motion, PosePath, Rotation, Translation
 
 # How a report calls the kinds of paths.
@@ -36,10 +36,13 @@ class Movers:
         motion = self._motion.get(body)
         return placed if motion is None else swept_box(placed, self._tracks[id(motion)])
 
-    def values(self) -> tuple[dict[str, Any], ...]:
-        """The motions as JSON values: the kind of the path, and what it is made of."""
+    def stated(self) -> tuple[StatedMotion, ...]:
+        """The motions as a report states them."""
         return tuple(
-            {"bodies": list(one.bodies), "kind": KINDS[type(one.path)], **to_builtins(one.path)}
+            convert(
+                {"kind": KINDS[type(one.path)], "bodies": one.bodies, **to_builtins(one.path)},
+                StatedMotion,
+            )
             for one in self._motions
         )
 

@@ -24,7 +24,7 @@ from satcheck.core.tolerances import UNIT_ROUNDOFF
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.audit.report.report import Finding, Vector
+    from satcheck.report.report import Finding, Vector
 
 
 class Unanswerable(Exception):

@@ -16,7 +16,7 @@ from satcheck.audit.motion.worst import (
     least_distance,
     least_hull_distance,
 )
-from satcheck.audit.report.motion_report import Place, Relation, Sweep, WorstPose
+from satcheck.report.sweep import Place, Sweep, SweptRelation, WorstPose
 from satcheck.scene.motion import Path, Rotation, Translation
 
 
@@ -126,7 +126,7 @@ class _Answer:
         hulls = least_hull_distance(self._pair, worst.upper, clearance)
         return replace(worst, lower=min(worst.lower, hulls))
 
-    def _relation(self, worst: Worst) -> Relation:
+    def _relation(self, worst: Worst) -> SweptRelation:
         """Of bodies that the scan has shown to be apart, or within the touch band, all the way."""
         if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
             return "touching"

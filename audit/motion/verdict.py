@@ -11,10 +11,10 @@ from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair, Paths
 from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.report.motion_report import Sweep
-from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
 from satcheck.audit.severity import Judgement, by_rule, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
+from satcheck.report.sweep import Sweep
 
 
 def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Examined:

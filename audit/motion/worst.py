@@ -21,8 +21,8 @@ from satcheck.audit.asked.trace import Trace
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
-from satcheck.audit.report.report import OVERLAPS
 from satcheck.audit.tolerances import keeps
+from satcheck.report.report import OVERLAPS
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
 # An interval whose least bound is below this share of the best figure is halved in any case.

@@ -18,11 +18,11 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
-from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.pair_state import PairState, is_objected, is_overlap_excused, state_of
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 from satcheck.audit.side_by_side import side_by_side
 from satcheck.audit.vectors import added, dot, scaled
+from satcheck.report.report import Vector
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:

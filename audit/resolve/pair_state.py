@@ -15,9 +15,9 @@ from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import examine
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.report.report import OVERLAPS, SEVERITIES, Finding, Vector
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Vector
 
 
 class PairState(Struct, frozen=True):

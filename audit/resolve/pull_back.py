@@ -15,12 +15,12 @@ from collections.abc import Collection
 from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.finding import examine
-from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pair_state import may_overlap, separation
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import Vector
 
 STEPS = 8
 HALVINGS = 2

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 from msgspec import Struct, to_builtins
 
-from satcheck.audit.asked.settings import FailOn
-from satcheck.audit.report.report import OVERLAPS, Finding, Relation, Report, Vector
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pair_state import is_objected
 from satcheck.audit.resolve.walls import BodyPair
+from satcheck.report.report import OVERLAPS, Finding, Relation, Report, Vector
 
 SCHEMA = "satcheck.resolution/1"
 
@@ -135,7 +134,7 @@ class Resolution(Struct, frozen=True):
 
 def objected(report: Report) -> tuple[Finding, ...]:
     """The findings that this check fails on, or whose limits it cannot decide."""
-    fail_on = cast("FailOn", report.settings["fail_on"])
+    fail_on = report.settings.fail_on
     return tuple(finding for finding in report.findings if is_objected(finding, fail_on))
 
 

@@ -11,7 +11,6 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check, volume_meter
-from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.layout import Layout, translated
 from satcheck.audit.resolve.plain_numbers import write_plainly
 from satcheck.audit.resolve.pull_back import pull_back
@@ -20,6 +19,7 @@ from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.resolve.walls import ORIGIN
 from satcheck.core.errors import SatcheckError
+from satcheck.report.report import Vector
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 

@@ -20,12 +20,12 @@ from satcheck import core
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
 from satcheck.audit.figures.verify import FREE
-from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pull_back import pull_back, swept
 from satcheck.audit.resolve.rounds import Rounds
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 from satcheck.core.conventions import axis_across
+from satcheck.report.report import Vector
 
 # More triangles than this around a body, and it is not tried.
 MOST_TRIANGLES = 500_000

@@ -20,7 +20,6 @@ from collections.abc import Callable, Sequence
 from satcheck.audit.bodies.boxes import largest_coordinate
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.verify import FREE, relation_after
-from satcheck.audit.report.report import Vector
 from satcheck.audit.resolve.free_places import FreePlaces
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pair_state import PairState, longer, out_of_hull
@@ -28,6 +27,7 @@ from satcheck.audit.resolve.pull_back import swept, walled
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import Vector
 
 # After so many rounds in which a pair overlaps, one wall between its hulls takes the place of all,
 # if the way out of these is not much longer. After so many, one of its bodies is taken out.

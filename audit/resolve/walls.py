@@ -7,8 +7,8 @@ from collections.abc import Collection, Mapping, Sequence
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.report.report import Vector
 from satcheck.audit.vectors import added, dot, scaled
+from satcheck.report.report import Vector
 
 BodyPair = tuple[int, int]
 

@@ -204,7 +204,6 @@ def command(
     output: Path | None,
     explain: bool,
     exit_zero: bool,
-    debug: bool,
     **options: Any,
 ) -> int:
     """Do these meshes collide? How deep, and which way out?
@@ -243,7 +242,7 @@ def command(
         output,
         utf8=form == "json",
     )
-    _tell(result, scene, output, debug=debug)
+    _tell(result, scene, output)
     verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
     return exit_codes.of_verdict(verdict, result.issues, exit_zero=exit_zero)
 
@@ -308,10 +307,8 @@ def _render(
     return render_table(result, page, explain=explain, timings=timings)
 
 
-def _tell(result: Report | Samples, scene: Scene, output: Path | None, *, debug: bool) -> None:
+def _tell(result: Report | Samples, scene: Scene, output: Path | None) -> None:
     """Errors of the run on stderr; with -o also the warnings, the summary, where the report is."""
-    for trace in result.tracebacks if debug else ():
-        talk(trace.rstrip())
     told = {(issue.code, issue.body, issue.message) for issue in scene.issues}
     for issue in result.issues:
         if issue.severity == "error" and (issue.code, issue.body, issue.message) not in told:

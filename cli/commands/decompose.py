@@ -109,7 +109,6 @@ def command(
     seconds: float,
     form: str,
     cache: bool,
-    debug: bool,
     **options: Any,
 ) -> int:
     """Split meshes into convex parts, for physics engines.
@@ -122,7 +121,6 @@ def command(
     Exit codes: 0, every body has its parts; 2, wrong usage, an unreadable input, no parts at all,
     or an internal error; 3, some bodies have no parts.
     """
-    del debug
     inputs = Inputs.taken_from(options)
     _refuse_output(inputs, output)
     document = Document()

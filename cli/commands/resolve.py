@@ -102,7 +102,6 @@ def command(
     pins: tuple[str, ...],
     max_motion: Length | None,
     iterations: int,
-    debug: bool,
     **options: Any,
 ) -> int:
     """Move the bodies of a scene apart, by short translations.
@@ -116,7 +115,6 @@ def command(
     input, or an internal error; 3, nothing is known to overlap, but not everything could be
     checked.
     """
-    del debug
     inputs = Inputs.taken_from(options)
     if form is None and output is not None and output.suffix.lower() == ".toml":
         raise click.UsageError(

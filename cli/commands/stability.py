@@ -65,7 +65,6 @@ def command(
     seed: int,
     depth: bool,
     explain: bool,
-    debug: bool,
     **options: Any,
 ) -> int:
     """Ask the same question in other ways: does the answer stay?
@@ -77,7 +76,6 @@ def command(
     Exit codes: 0, everything is within its bound; 1, something is not; 2, wrong usage, an
     unreadable input, or an internal error; 3, something could not be decided.
     """
-    del debug
     inputs = Inputs.taken_from(options)
     form = form_of(form, output)
     if len(inputs.paths) != 2:

@@ -64,7 +64,7 @@ def _form_of(output: Path | None) -> str:
 @package_option
 @pose_options
 @debug_option
-def command(form: str | None, output: Path | None, never: bool, debug: bool, **options: Any) -> int:
+def command(form: str | None, output: Path | None, never: bool, **options: Any) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
     These are the pairs in contact as they are placed, and links of a robot with a joint between
@@ -75,7 +75,6 @@ def command(form: str | None, output: Path | None, never: bool, debug: bool, **o
     Exit codes: 0, all pairs were looked at; 2, wrong usage, an unreadable input, or an internal
     error; 3, something could not be decided.
     """
-    del debug
     inputs = Inputs.taken_from(options)
     form = form or _form_of(output)
     refuse_early(inputs, output)

@@ -77,7 +77,6 @@ def command(
     pairs: int,
     plot: Path | None,
     dark: bool,
-    debug: bool,
     **options: Any,
 ) -> int:
     """What accuracy costs in time: every rung of the ladder on one pair.
@@ -89,7 +88,6 @@ def command(
     Exit codes: 0, every rung has answered; 2, wrong usage, an unreadable input, or an internal
     error; 3, a rung failed or was not run, or the truth is not known.
     """
-    del debug
     inputs = Inputs.taken_from(options)
     form = form_of(form, output)
     refuse_early(inputs, output)

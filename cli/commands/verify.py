@@ -62,7 +62,6 @@ def command(
     form: str | None,
     output: Path | None,
     allow_outside: bool,
-    debug: bool,
 ) -> int:
     """Re-check the certificates of a report from the mesh files.
 
@@ -73,7 +72,6 @@ def command(
     Exit codes: 0, every verdict is accepted; 1, a verdict is rejected or not certified; 2, wrong
     usage, an unreadable report, no certificate in it, a missing mesh file, or an internal error.
     """
-    del debug
     form = form_of(form, output)
     refuse_early(Inputs((str(report),)), output)
     document = Document()

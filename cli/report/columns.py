@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from rich.cells import cell_len, chop_cells
 
-from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import bounds, duration, number, vector
 from satcheck.cli.report.words import contacts, depth, in_motion
+from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import Finding
+    from satcheck.report.report import Finding
 
 # Narrower than this a name is not broken: the terminal may fold the row.
 NARROWEST_NAME = 6

@@ -13,7 +13,7 @@ from satcheck.cli.report.numbers import at_most, duration, number
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import BodyReport, EffectReport, Finding, Report
+    from satcheck.report.report import BodyReport, EffectReport, Finding, Report
 
 
 # Of those who ask for an effect.
@@ -69,7 +69,7 @@ def _about(body: BodyReport) -> Iterator[str]:
         yield f"{body.file}: unreadable"
         return
     words = [f"{body.file}: {counted(body.triangles, 'triangle')}"]
-    if body.health is not None and not body.health.get("closed", True):
+    if body.health is not None and not body.health.closed:
         words.append("not closed")
     if body.convex is not None:
         words.append("convex" if body.convex else "concave")

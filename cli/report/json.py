@@ -9,7 +9,7 @@ from typing import Any
 from msgspec import json as msgspec_json
 from msgspec import to_builtins
 
-from satcheck.audit.report.report import Report, without_timings
+from satcheck.report.report import Report, without_timings
 
 INDENT = 2
 
@@ -19,9 +19,8 @@ def render(report: Report, *, timings: bool) -> list[str]:
 
     Not as one text: the report of a scene can be larger than the scene in memory.
     """
-    keys = [key for key in report.__struct_fields__ if key != "tracebacks"]
     pieces = []
-    for number, key in enumerate(keys):
+    for number, key in enumerate(report.__struct_fields__):
         pieces.append(f'{"," if number else "{"}\n  "{key}": ')
         pieces += _member(getattr(report, key), timings)
     return [*pieces, "\n}\n"]

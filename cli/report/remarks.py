@@ -8,13 +8,6 @@ from typing import TYPE_CHECKING
 
 from rich.text import Text
 
-from satcheck.audit.report.report import (
-    CROSS_CHECK,
-    NO_ANSWER,
-    NOT_AVAILABLE,
-    ON_TRIANGLES,
-    OVERLAPS,
-)
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
     counted,
@@ -23,10 +16,17 @@ from satcheck.cli.report.words import (
     place,
     with_unit,
 )
+from satcheck.report.report import (
+    CROSS_CHECK,
+    NO_ANSWER,
+    NOT_AVAILABLE,
+    ON_TRIANGLES,
+    OVERLAPS,
+)
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import BodyReport, Finding, Report, RuleReport
+    from satcheck.report.report import BodyReport, Finding, Report, RuleReport
 
 _ISSUE_COLOURS = {"warning": "yellow", "note": ""}
 
@@ -66,7 +66,7 @@ def _band(finding: Finding) -> list[str]:
 
 def _undecided(finding: Finding, report: Report) -> list[str]:
     """The reason, unless a line on the body or the summary says it for many pairs at once."""
-    capped = finding.quality == "estimate" and report.settings["accuracy"] != "exact"
+    capped = finding.quality == "estimate" and report.settings.accuracy != "exact"
     said = finding.undecided in ("limit", "motion") or finding.quality in ("exact", "bounded")
     if finding.reason is None or capped or said:
         return []
@@ -156,7 +156,7 @@ def _of_bodies(report: Report) -> Iterator[str]:
 def _body(body: BodyReport, pairs: int, swept: int) -> list[str]:
     if is_lost(body):
         return [f"{body.id}: could not be used, its {counted(pairs, 'pair')} not checked"]
-    if body.health is None or not body.health.get("holes") or not swept:
+    if body.health is None or not body.health.holes or not swept:
         return []
     verb = "moves" if swept == 1 else "move"
     return [

@@ -9,18 +9,18 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
-from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.summary import samples_line
 from satcheck.cli.report.words import counted, depth, in_motion, issue_line, with_unit
+from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.audit.report.report import Finding
     from satcheck.audit.samples import PairTally, Sample, Samples
     from satcheck.cli.output import Page
+    from satcheck.report.report import Finding
 
 # More poses than this, and pairs are listed instead of poses.
 FEW_POSES = 20

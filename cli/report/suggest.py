@@ -8,9 +8,9 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
-from satcheck.audit.report.report import OVERLAPS
 from satcheck.cli.report.numbers import number
 from satcheck.cli.report.words import counted, with_unit
+from satcheck.report.report import OVERLAPS
 from satcheck.scene.rules import Selector
 from satcheck.scene.units import unit_of
 

@@ -6,7 +6,9 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from satcheck.audit.report.report import (
+from satcheck.audit.summary import exempt_by
+from satcheck.cli.report.words import counted, depth, is_hit, past_holes, with_unit
+from satcheck.report.report import (
     CROSS_CHECK,
     INTERNAL_ERROR,
     NOTHING_TO_CHECK,
@@ -15,14 +17,12 @@ from satcheck.audit.report.report import (
     SIZES_DIFFER,
     TOLERANCE_LARGE,
 )
-from satcheck.audit.summary import exempt_by
-from satcheck.cli.report.words import counted, depth, is_hit, past_holes, with_unit
 from satcheck.scene.bodies import UNITS_UNKNOWN
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.report import Finding, Issue, Report
     from satcheck.audit.samples import Samples
+    from satcheck.report.report import Finding, Issue, Report
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
@@ -106,7 +106,7 @@ def _exempt(report: Report) -> str:
 
 def _found(report: Report) -> list[str]:
     """`2 separated`, `1 possibly penetrating (not proven at --accuracy aabb)`."""
-    accuracy = report.settings["accuracy"]
+    accuracy = report.settings.accuracy
     why = "" if accuracy == "exact" else f" (not proven at --accuracy {accuracy})"
     guesses = [f for f in report.findings if f.quality == "estimate"]
     overlaps = Counter(f.relation for f in guesses if _surely_overlaps(f, report))
@@ -127,7 +127,7 @@ def _found(report: Report) -> list[str]:
 def _surely_overlaps(estimate: Finding, report: Report) -> bool:
     """Whether only open is how: one body may hold the other."""
     settings = report.settings
-    is_strict = settings["accuracy"] == "exact" and not settings["allow_open"]
+    is_strict = settings.accuracy == "exact" and not settings.allow_open
     return is_strict and estimate.at_rest in OVERLAPS and estimate.undecided != "relation"
 
 
@@ -210,13 +210,13 @@ def _why_failed(report: Report) -> list[str]:
         return [f"{counted(close, 'pair')} {verb} not keep the clearance."]
     if any(finding.relation in OVERLAPS for finding in report.findings):
         return []
-    return [f"Failed by --fail-on {report.settings['fail_on']}."]
+    return [f"Failed by --fail-on {report.settings.fail_on}."]
 
 
 def _cross_check(report: Report) -> list[str]:
     """`Cross-check: 5 answers agree, 1 disagrees, 1 pair not asked.`, an answer being that of one
     library on a pair. A missing answer is counted apart, not as agreement."""
-    if not report.settings.get("cross_check"):
+    if not report.settings.cross_check:
         return []
     standings: Counter[str] = Counter()
     asked = 0

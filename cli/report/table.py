@@ -16,8 +16,8 @@ from satcheck.cli.report.words import counted, past_holes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.audit.report.report import Finding, Report
     from satcheck.cli.output import Page
+    from satcheck.report.report import Finding, Report
 
 
 def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:

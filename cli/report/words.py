@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from satcheck.cli.report.numbers import at_most, bounds, number
 
 if TYPE_CHECKING:
-    from satcheck.audit.report.motion_report import Place
-    from satcheck.audit.report.report import Finding, Issue
+    from satcheck.report.report import Finding, Issue
+    from satcheck.report.sweep import Place
     from satcheck.scene import Issue as InputIssue
 
 # A lower bound below this share of the upper one is left out: it tells a person nothing.

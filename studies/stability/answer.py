@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check
-from satcheck.audit.report.report import (
+from satcheck.report.report import (
     OVERLAPS,
     Finding,
     Quality,

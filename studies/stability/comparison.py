@@ -14,7 +14,7 @@ from typing import Literal
 
 from msgspec import Struct
 
-from satcheck.audit.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS
 from satcheck.studies.stability.answer import NESTED, Answer
 from satcheck.studies.stability.variant import Variant, rounding_of_figures
 

@@ -8,8 +8,8 @@ from typing import Any, Literal
 
 from msgspec import Struct, to_builtins
 
-from satcheck.audit.report.report import Relation
 from satcheck.audit.summary import tool
+from satcheck.report.report import Relation
 from satcheck.studies.stability.answer import Answer
 from satcheck.studies.stability.comparison import Comparison, Judgement
 from satcheck.studies.stability.variant import Family

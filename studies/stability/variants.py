@@ -10,9 +10,9 @@ from itertools import permutations, product
 import numpy as np
 from numpy.random import Generator
 
-from satcheck.audit.report.report import Vector
 from satcheck.core import Mesh
 from satcheck.core.transform import of_quaternion
+from satcheck.report.report import Vector
 from satcheck.scene import Body, MeshFile
 from satcheck.scene.shape_file import remeshed
 from satcheck.studies.stability.retessellation import retessellate

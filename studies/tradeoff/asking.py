@@ -15,9 +15,9 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.finding import examine
-from satcheck.audit.report.report import Finding
 from satcheck.core.errors import SatcheckError
 from satcheck.core.tolerances import rounding_pad
+from satcheck.report.report import Finding
 from satcheck.scene import Body
 from satcheck.studies.tradeoff.climbed import picked
 from satcheck.studies.tradeoff.cpu import CpuClock

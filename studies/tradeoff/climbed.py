@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from satcheck.audit.report.report import Finding
+from satcheck.report.report import Finding
 from satcheck.studies.tradeoff.figure import is_of_bodies
 from satcheck.studies.tradeoff.result import Picked
 

@@ -10,7 +10,7 @@ import math
 from msgspec import Struct
 
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.report.report import OVERLAPS, Finding, Relation
+from satcheck.report.report import OVERLAPS, Finding, Relation
 
 
 class Figure(Struct, frozen=True):

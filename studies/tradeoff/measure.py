@@ -12,7 +12,7 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
-from satcheck.audit.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS
 from satcheck.studies.tradeoff.asking import Asked, Bodies, ask, ask_parts, ask_volume, own_rooms
 from satcheck.studies.tradeoff.climbed import picked
 from satcheck.studies.tradeoff.gauge import SPENT, Budget, Gauge

@@ -8,7 +8,7 @@ from typing import Any, Literal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.report.report import OVERLAPS, Relation, Tool
+from satcheck.report.report import OVERLAPS, Relation, Tool
 from satcheck.studies.tradeoff.figure import Figure, Truth
 from satcheck.studies.tradeoff.pareto import front
 from satcheck.studies.tradeoff.rungs import Rung

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from satcheck.audit.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS
 from satcheck.studies.tradeoff.asking import Asked, Measured, Rooms
 from satcheck.studies.tradeoff.figure import Truth, figure_of, is_of_bodies, plain, truth_of
 from satcheck.studies.tradeoff.gauge import Gauge

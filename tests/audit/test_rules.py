@@ -10,7 +10,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
-from satcheck.audit.report.report import Finding, Report
+from satcheck.report.report import Finding, Report
 from satcheck.scene import Rule, Scene, Selector, load_scene
 from tests.audit.shapes import bracket, open_box, placed_scene, pose, scene_of, unit_box, write
 from tests.audit.test_kettle import KETTLE, SNOWFLAKE

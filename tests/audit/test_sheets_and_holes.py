@@ -182,8 +182,8 @@ def test_a_t_junction_leaves_a_box_the_solid_that_it_is(tmp_path, lift):
     assert only(report).exact_relation == "contains"
     assert only(report).certificate is not None
     health = report.bodies[0].health
-    assert (health["closed"], health["solid"]) == (True, True)
-    assert (health["cracks"], health["holes"]) == (1, 0)
+    assert (health.closed, health.solid) == (True, True)
+    assert (health.cracks, health.holes) == (1, 0)
     assert [issue.code for issue in report.issues] == ["cracks"]
     over = check(scene_of(tmp_path, a=a, b=unit_box(0.5, 0.25, 0.25)))
     assert only(over).depth_bounds == pytest.approx((0.5, 0.5))
@@ -196,7 +196,7 @@ def test_a_seam_within_the_precision_of_the_file_is_no_hole(tmp_path):
     corners = list(dict.fromkeys(p for quad in quads for p in quad))
     halves = corners, [tuple(corners.index(p) for p in quad) for quad in quads]
     report = check(scene_of(tmp_path, a=halves, b=unit_box(0.25, 0.25, 0.25, edge=0.5)))
-    assert report.bodies[0].health["holes"] == 0
+    assert report.bodies[0].health.holes == 0
     assert only(report).relation == "contains"
 
 

@@ -10,8 +10,8 @@ from msgspec.structs import replace
 
 from satcheck.audit import check
 from satcheck.audit.finding import examine
-from satcheck.audit.report.report import INTERNAL_ERROR
 from satcheck.audit.suggest import Suggestions, suggest
+from satcheck.report.report import INTERNAL_ERROR
 from satcheck.scene import Rule, Selector, load_scene
 from satcheck.scene.robot import joint_samples
 from tests.audit.shapes import open_box, scene_of, unit_box

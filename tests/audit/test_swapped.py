@@ -11,7 +11,7 @@ import pytest
 
 from satcheck import core
 from satcheck.audit import Settings, check
-from satcheck.audit.report.report import Finding
+from satcheck.report.report import Finding
 from tests.audit.shapes import bracket, moved, scene_of
 from tests.hard_cases import mesh_families
 from tests.hard_cases.case import Vertices

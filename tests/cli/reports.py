@@ -5,9 +5,9 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from satcheck.audit import Settings
-from satcheck.audit.report.contact_report import Contacts, ContactTotals, Curve, Patch
-from satcheck.audit.report.motion_report import Sweep
-from satcheck.audit.report.report import (
+from satcheck.report.bodies import Health
+from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
+from satcheck.report.report import (
     BodyReport,
     Finding,
     Issue,
@@ -19,6 +19,7 @@ from satcheck.audit.report.report import (
     Tool,
     Witness,
 )
+from satcheck.report.sweep import Sweep
 
 PENETRATING = Finding(
     id="block|block_pushed",
@@ -134,6 +135,27 @@ CROSSING = replace(
     volume_error=1e-12,
     contacts=CONTACTS,
 )
+HEALTH = Health(
+    vertices=8,
+    triangles=12,
+    components=1,
+    boundary_edges=0,
+    nonmanifold_edges=0,
+    misoriented_edges=0,
+    degenerate_triangles=0,
+    duplicate_triangles=0,
+    cracks=0,
+    holes=0,
+    largest_hole=0.0,
+    closed=True,
+    manifold=True,
+    oriented=True,
+    volume=1.0,
+    inside_out=False,
+    double_sided=False,
+    flat=False,
+    solid=True,
+)
 BLOCK = BodyReport(
     id="block",
     name="block",
@@ -144,7 +166,7 @@ BLOCK = BodyReport(
     groups=(),
     static=False,
     triangles=12,
-    health={"closed": True, "solid": True},
+    health=HEALTH,
     resolution=2.5e-7,
     convex=True,
     parts=None,
@@ -156,7 +178,7 @@ SOUP = replace(
     name="soup",
     file="soup.stl",
     triangles=1234,
-    health={"closed": False, "solid": False, "holes": 1},
+    health=replace(HEALTH, closed=False, solid=False, holes=1),
     convex=False,
     parts=3,
     part_error=PartError(0.25, 0.0),
@@ -180,7 +202,7 @@ def report(
     return Report(
         tool=Tool("satcheck", "0.1.0"),
         units=units,
-        settings=Settings().to_dict() | {"depth": True},
+        settings=Settings().stated(depth=True),
         summary=Summary(
             verdict="fail" if found else "incomplete" if warned else "pass",
             pairs=PairCounts(len(findings), 0, len(findings) - undecided, 0, undecided),

@@ -11,10 +11,10 @@ import pytest
 from jsonschema import Draft202012Validator
 from msgspec.structs import replace
 
-from satcheck.audit.report.report import Tool
 from satcheck.audit.suggest import Suggestion, Suggestions, Unchecked
 from satcheck.cli.report.schema import text
 from satcheck.cli.report.suggest import srdf, toml
+from satcheck.report.report import Tool
 from satcheck.scene import Selector
 from tests.cli.process import SAMPLES, Ran, satcheck
 from tests.scene.robot.robots import joint, link, robot_of

@@ -9,16 +9,16 @@ from msgspec.structs import replace
 
 from satcheck.audit import Contacts
 from satcheck.audit.asked.settings import LISTED_PAIRS
-from satcheck.audit.report.report import (
+from satcheck.cli.output import PLAIN_PAGE, Page
+from satcheck.cli.report.columns import broken
+from satcheck.cli.report.table import render
+from satcheck.report.report import (
     INTERNAL_ERROR,
     NOTHING_TO_CHECK,
     Exempt,
     Issue,
     Stage,
 )
-from satcheck.cli.output import PLAIN_PAGE, Page
-from satcheck.cli.report.columns import broken
-from satcheck.cli.report.table import render
 from tests.cli import reports
 from tests.cli.reports import (
     BOUNDED,
@@ -338,7 +338,7 @@ def test_one_line_a_body_with_holes() -> None:
 
 def test_what_is_not_proven_is_called_possible() -> None:
     made = report(PENETRATING, ESTIMATE)
-    made = replace(made, settings={**made.settings, "accuracy": "aabb"})
+    made = replace(made, settings=replace(made.settings, accuracy="aabb"))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
     assert "1 penetrating, 1 possibly penetrating (not proven at --accuracy aabb)." in text
     assert "<= 2" in text

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from satcheck.report.report import Report
+from satcheck.report.schema import schema_of
 from satcheck.verify.coverage import COVERAGE, uncovered
-from satcheck.verify.published import schema
 from tests.verify.honest import honest
 from tests.verify.reports import report_of, verified
+
+SCHEMA = schema_of("report", Report)
 
 
 def fields_of(node: Any, path: str = "") -> Iterator[str]:
@@ -17,23 +20,18 @@ def fields_of(node: Any, path: str = "") -> Iterator[str]:
     A certificate is one field: it is evidence, and claims nothing itself.
     """
     if "$ref" in node:
-        target = schema()
-        for step in node["$ref"].removeprefix("#/").split("/"):
-            target = target[step]
-        node = target
-    choices = node.get("oneOf", [])
-    if path.endswith(".certificate") or not (
-        choices or node.get("properties") or node.get("items")
-    ):
+        node = SCHEMA["$defs"][node["$ref"].rpartition("/")[2]]
+    choices = [choice for choice in node.get("anyOf", []) if choice.get("type") != "null"]
+    items = node.get("items") or next(iter(node.get("prefixItems", [])), None)
+    if path.endswith(".certificate") or not (choices or node.get("properties") or items):
         yield path
         return
     for choice in choices:
-        if choice.get("type") != "null" and "required" not in choice.keys() - {"type"}:
-            yield from fields_of(choice, path)
+        yield from fields_of(choice, path)
     for key, member in node.get("properties", {}).items():
         yield from fields_of(member, f"{path}.{key}".lstrip("."))
-    if "items" in node:
-        yield from fields_of(node["items"], f"{path}[]")
+    if items:
+        yield from fields_of(items, f"{path}[]")
 
 
 def speaks_of(entry: str, field: str) -> bool:
@@ -41,7 +39,7 @@ def speaks_of(entry: str, field: str) -> bool:
     return field.startswith(entry) and (not rest or rest[0] in ".[")
 
 
-FIELDS = sorted(set(fields_of(schema())))
+FIELDS = sorted(set(fields_of(SCHEMA)))
 
 
 def test_each_field_is_in_one_class() -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from satcheck.audit import Contacts, Settings, check
-from satcheck.audit.report.contact_report import ContactTotals
 from satcheck.core.errors import SatcheckError
+from satcheck.report.contacts import ContactTotals
 from tests.audit.shapes import bracket, moved, open_box, scene_of, unit_box
 
 ASKED = Settings(contacts=True, depth=False)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from satcheck.audit.report.report import Finding, Stage
+from satcheck.report.report import Finding, Stage
 from satcheck.studies.tradeoff.climbed import picked
 
 MEET = Stage("aabb", "meet", 1.0, "world boxes meet")

@@ -29,7 +29,7 @@ FINDING = Finding(
 REPORT = Report(
     tool=Tool("satcheck", "0.0.0"),
     units=None,
-    settings=Settings().to_dict(),
+    settings=Settings().stated(depth=True),
     summary=Summary("fail", PairCounts(1, 0, 1, 0, 0), {"penetrating": 1}),
     bodies=(),
     findings=(FINDING,),

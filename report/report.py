@@ -11,27 +11,26 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from typing import Any, Literal, get_args
+from typing import Annotated, Any, Literal, get_args
 
-from msgspec import Struct, to_builtins
+from msgspec import Meta, to_builtins
 
-from satcheck.audit.report.contact_report import Contacts
-from satcheck.audit.report.contact_report import Vector as Vector
-from satcheck.audit.report.motion_report import Sweep
+from satcheck.report.bodies import BodyReport as BodyReport
+from satcheck.report.bodies import PartError as PartError
+from satcheck.report.certificate import Certificate
+from satcheck.report.contacts import Contacts
+from satcheck.report.motions import StatedMotion
+from satcheck.report.settings import StatedSettings
+from satcheck.report.sweep import Sweep
+from satcheck.report.values import Code, Count, Interval, Length, Value
+from satcheck.report.values import Quality as Quality
+from satcheck.report.values import Relation as Relation
+from satcheck.report.values import Tool as Tool
+from satcheck.report.values import Vector as Vector
+from satcheck.report.values import Verdict as Verdict
 
 SCHEMA: Literal["satcheck.report/1"] = "satcheck.report/1"
 
-Relation = Literal[
-    "separated",
-    "near",
-    "touching",
-    "penetrating",
-    "contains",
-    "inside",
-    "coincident",
-    "indeterminate",
-]
-Quality = Literal["exact", "bounded", "estimate"]
 # How grave a finding is, from the worst. silenced: an error that a rule calls `none`. none: nothing
 # was found.
 Severity = Literal["error", "warning", "note", "silenced", "none"]
@@ -40,7 +39,6 @@ SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 # other, whether an overlap is within its limits or a gap keeps its clearance, whether they hit on
 # the way; cross-check: another library contradicts what was decided.
 Undecided = Literal["relation", "inside", "limit", "motion", "cross-check"]
-Verdict = Literal["pass", "fail", "incomplete"]
 Effect = Literal[
     "overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate", "sweep"
 ]
@@ -63,12 +61,7 @@ SIZES_DIFFER = "sizes-differ"
 OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coincident"})
 
 
-class Tool(Struct, frozen=True):
-    name: str
-    version: str
-
-
-class PairCounts(Struct, frozen=True):
+class PairCounts(Value, frozen=True):
     """total = pruned + decided + allowed + indeterminate.
 
     Pruned: the world boxes are apart by more than was asked about. Allowed: the scene permits
@@ -76,12 +69,12 @@ class PairCounts(Struct, frozen=True):
     bodies; they are not part of the total.
     """
 
-    total: int
-    pruned: int
-    decided: int
-    allowed: int
-    indeterminate: int
-    exempt: int = 0
+    total: Count
+    pruned: Count
+    decided: Count
+    allowed: Count
+    indeterminate: Count
+    exempt: Count = 0
 
     @property
     def asked(self) -> int:
@@ -89,7 +82,7 @@ class PairCounts(Struct, frozen=True):
         return self.total - self.allowed
 
 
-class Summary(Struct, frozen=True):
+class Summary(Value, frozen=True):
     """by_relation counts every pair that is not allowed; pruned pairs count as separated.
 
     surfaces_only: the pairs of which one body may come to lie in the other while they move, as what
@@ -102,59 +95,21 @@ class Summary(Struct, frozen=True):
 
     verdict: Verdict
     pairs: PairCounts
-    by_relation: Mapping[Relation, int]
-    surfaces_only: int = 0
-    limits_undecided: int = 0
-    sweeps_undecided: int = 0
-    disputed: int = 0
+    by_relation: Mapping[Relation, Count]
+    surfaces_only: Count = 0
+    limits_undecided: Count = 0
+    sweeps_undecided: Count = 0
+    disputed: Count = 0
 
 
-class Truncated(Struct, frozen=True):
+class Truncated(Value, frozen=True):
     """What `findings` leaves out: how many pairs, and why."""
 
-    pairs: int
+    pairs: Annotated[int, Meta(ge=1)]
     reason: str
 
 
-class PartError(Struct, frozen=True):
-    """Proven upper bounds, world units: how far parts stick out of the mesh, and it out of them."""
-
-    outside: float
-    missing: float
-
-
-class BodyReport(Struct, frozen=True, kw_only=True):
-    """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
-
-    An unreadable body has None everywhere but id, name and file. `sha256` is None, too, where the
-    scene was loaded without. `convex` is None where no pair
-    had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
-    input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
-    None: as in the file. `groups`, `static`: as the scene says. `shape`: the primitive that the
-    file states, as a scene file does; None: a mesh file. `units`: of its lengths here; None: nobody
-    states any. `unit_scale`: what `transform` converts lengths of the file by; None: nothing.
-    """
-
-    id: str
-    name: str
-    file: str
-    sha256: str | None
-    path: str | None
-    shape: Mapping[str, Any] | None = None
-    transform: tuple[float, ...] | None
-    units: str | None = None
-    unit_scale: float | None = None
-    groups: tuple[str, ...]
-    static: bool
-    triangles: int | None
-    health: Mapping[str, bool | int | float | str | None] | None
-    resolution: float | None
-    convex: bool | None
-    parts: int | None
-    part_error: PartError | None
-
-
-class Stage(Struct, frozen=True):
+class Stage(Value, frozen=True):
     """One step of the trace of a pair: what ran, its result, its cost, why it settled nothing.
 
     microseconds: left out of a document without timings.
@@ -162,18 +117,18 @@ class Stage(Struct, frozen=True):
 
     stage: str
     result: str
-    microseconds: float = 0.0
+    microseconds: Length = 0.0
     detail: str = ""
 
 
-class Witness(Struct, frozen=True):
+class Witness(Value, frozen=True):
     """World points, one per body: where the gap is smallest, or a common point."""
 
     a: Vector
     b: Vector
 
 
-class Finding(Struct, frozen=True, kw_only=True):
+class Finding(Value, frozen=True, kw_only=True):
     """One pair.
 
     relation: with the touch band, as the bodies are placed, and at the worst of their way where
@@ -192,9 +147,10 @@ class Finding(Struct, frozen=True, kw_only=True):
     volume: what both have in common; volume_error: about how far off that is, not proven (0.0: the
     volume is exactly 0.0). Neither weakens the quality.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
-    as it had to be for the moved mesh to be verified free. certificate: JSON values that prove it
-    (Settings.certificate), see the schema. motion: None where neither body moves against the other,
-    or their boxes stay apart; relation, severity and undecided count it, figures are as placed.
+    as it had to be for the moved mesh to be verified free. motion: None where neither body moves
+    against the other, or their boxes stay apart; relation, severity and undecided count it, figures
+    are as placed. certificate: what `satcheck verify` checks; None: not asked for, or nothing is
+    proven, and the last stage of the plan says why.
     """
 
     id: str
@@ -206,22 +162,22 @@ class Finding(Struct, frozen=True, kw_only=True):
     relation: Relation
     placed_relation: Relation | None = None
     exact_relation: Relation | None = None
-    tolerance: float | None = None
-    distance: float | None = None
-    distance_bounds: tuple[float, float] | None = None
-    depth: float | None = None
-    depth_bounds: tuple[float, float] | None = None
+    tolerance: Length | None = None
+    distance: Length | None = None
+    distance_bounds: Interval | None = None
+    depth: Length | None = None
+    depth_bounds: Interval | None = None
     quality: Quality | None = None
     normal: Vector | None = None
     mtv: Vector | None = None
     mtv_moves: Literal["a"] | None = None
     mtv_verified: bool | None = None
     witness: Witness | None = None
-    volume: float | None = None
-    volume_error: float | None = None
+    volume: Length | None = None
+    volume_error: Length | None = None
     contacts: Contacts | None = None
     motion: Sweep | None = None
-    certificate: Mapping[str, Any] | None = None
+    certificate: Certificate | None = None
     reason: str | None = None
     plan: tuple[Stage, ...]
     baseline_state: None = None
@@ -239,7 +195,7 @@ class Finding(Struct, frozen=True, kw_only=True):
         return self.placed_relation or self.relation
 
 
-class EffectReport(Struct, frozen=True):
+class EffectReport(Value, frozen=True):
     """What a check computes beyond reading files, over all pairs.
 
     asked_by: the flags and rules that need it; empty: none does. pairs: on how many it ran.
@@ -248,22 +204,22 @@ class EffectReport(Struct, frozen=True):
 
     effect: Effect
     asked_by: tuple[str, ...]
-    pairs: int
-    not_run: Mapping[str, int]
-    microseconds: float = 0.0
+    pairs: Count
+    not_run: Mapping[str, Count]
+    microseconds: Length = 0.0
 
 
-class Issue(Struct, frozen=True):
+class Issue(Value, frozen=True):
     """Something about the input or the run, with a stable code."""
 
-    code: str
+    code: Code
     severity: Literal["error", "warning", "note"]
     body: str | None
     file: str | None
     message: str
 
 
-class Exempt(Struct, frozen=True):
+class Exempt(Value, frozen=True):
     """What the scene does not ask about, and does not count: pairs within these groups, and pairs
     of static bodies."""
 
@@ -271,7 +227,11 @@ class Exempt(Struct, frozen=True):
     static_pairs: bool = False
 
 
-class RuleReport(Struct, frozen=True):
+# Of a planar or a floating joint.
+JointValues = Annotated[list[float], Meta(min_length=3, max_length=6)]
+
+
+class RuleReport(Value, frozen=True):
     """What the scene asks of the pairs with one body in each selector. None: the rule does not say.
 
     a, b: a glob of ids, or "group:" and a glob of groups; an id or group that is exactly the text
@@ -280,13 +240,13 @@ class RuleReport(Struct, frozen=True):
     of these pairs. where: it is written.
     """
 
-    a: str
-    b: str
+    a: Annotated[str, Meta(min_length=1)]
+    b: Annotated[str, Meta(min_length=1)]
     allowed: bool | None
-    max_depth: float | None
-    max_volume: float | None
-    clearance: float | None
-    tolerance: float | None
+    max_depth: Length | None
+    max_volume: Length | None
+    clearance: Length | None
+    tolerance: Length | None
     severity: Literal["error", "warning", "note", "none"] | None
     reason: str
     where: str
@@ -296,20 +256,25 @@ class RuleReport(Struct, frozen=True):
         return self.where or f"{self.a} and {self.b}"
 
 
-class Report(Struct, frozen=True, kw_only=True):
-    """pose: of the robots, joint -> value; None without robots. motions: those of
-    the scene, as JSON values. truncated: what `findings` leaves out; None: nothing.
+class Report(Value, frozen=True, kw_only=True):
+    """World frame, right-handed; lengths in the units of the files. A figure that was not computed
+    is None, never 0. Numbers are finite.
 
-    `tracebacks` is for --debug and never leaves the program in a document.
+    units: of all lengths; None: one is unknown. pose: of the robots, joint -> radians, metres of a
+    prismatic joint, [x, y, angle] of a planar one, [x, y, z, roll, pitch, yaw] of a floating one,
+    without joints that mimic others; None without robots. rules: in the order in which they count:
+    of several about a pair, the last one that sets a key decides it. findings: every pair that is
+    asked about, but for those that `truncated` counts, in the order of the bodies. truncated: pairs
+    that are asked about and apart by their boxes, where there are more than 60 pairs; None: none.
     """
 
     schema: Literal["satcheck.report/1"] = SCHEMA
     tool: Tool
     units: str | None
-    settings: Mapping[str, object]
+    settings: StatedSettings
     summary: Summary
-    pose: Mapping[str, float | list[float]] | None = None
-    motions: tuple[Mapping[str, Any], ...] = ()
+    pose: Mapping[str, float | JointValues] | None = None
+    motions: tuple[StatedMotion, ...] = ()
     bodies: tuple[BodyReport, ...]
     exempt: Exempt = Exempt()
     rules: tuple[RuleReport, ...] = ()
@@ -317,12 +282,10 @@ class Report(Struct, frozen=True, kw_only=True):
     findings: tuple[Finding, ...]
     issues: tuple[Issue, ...]
     truncated: Truncated | None = None
-    tracebacks: tuple[str, ...] = ()
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""
         values: dict[str, Any] = plain(self)
-        del values["tracebacks"]
         return values if timings else without_timings(values)
 
 

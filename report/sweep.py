@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from msgspec import Struct
+from satcheck.report.values import Count, Interval, Length, Share, Value
 
-Interval = tuple[float, float]
-Relation = Literal["separated", "near", "touching", "penetrating", "indeterminate"]
+SweptRelation = Literal["separated", "near", "touching", "penetrating", "indeterminate"]
 
 
-class Place(Struct, frozen=True):
+class Place(Value, frozen=True):
     """How far a body has come, in its motion's own terms: degrees turned, the length moved, or t on
     a path of poses."""
 
@@ -22,18 +21,18 @@ class Place(Struct, frozen=True):
     value: float
 
 
-class WorstPose(Struct, frozen=True):
+class WorstPose(Value, frozen=True):
     """The deepest pose of bodies that overlap, else the nearest. distance, depth: proven bounds of
     the least distance, or the greatest depth, over the whole motion; the end that is worse is
     bounded, the other is reached at `time`. One of the two is None."""
 
-    time: float
+    time: Share
     at: tuple[Place, ...]
     distance: Interval | None = None
     depth: Interval | None = None
 
 
-class Sweep(Struct, frozen=True, kw_only=True):
+class Sweep(Value, frozen=True, kw_only=True):
     """A pair over its whole motion.
 
     relation: the worst of it. `separated`: no common point at any t; `near`: closer than the
@@ -47,13 +46,13 @@ class Sweep(Struct, frozen=True, kw_only=True):
     show, at an accuracy below exact.
     """
 
-    relation: Relation
+    relation: SweptRelation
     time_of_impact: Interval | None = None
     at: tuple[Place, ...] = ()
-    contact: float | None = None
-    reached: float
+    contact: Share | None = None
+    reached: Share
     worst: WorstPose | None = None
-    tolerance: float
-    steps: int = 0
+    tolerance: Length
+    steps: Count = 0
     proven: bool = True
     reason: str | None = None

@@ -1,1 +1,0 @@
-"""The report: plain data, and its way into JSON values."""

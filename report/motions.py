@@ -1,0 +1,45 @@
+"""How bodies move, as a report states it: t runs from 0 to 1."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from msgspec import Meta
+
+from satcheck.report.values import Share, Value, Vector
+
+Bodies = Annotated[tuple[str, ...], Meta(min_length=1)]
+
+
+class Translation(Value, frozen=True, tag_field="kind", tag="translation"):
+    """Bodies that move by t * vector."""
+
+    bodies: Bodies
+    vector: Vector
+
+
+class Rotation(Value, frozen=True, tag_field="kind", tag="rotation"):
+    """Bodies that turn by t * degrees about an axis through a point."""
+
+    bodies: Bodies
+    point: Vector
+    axis: Vector
+    degrees: float
+
+
+class Waypoint(Value, frozen=True):
+    """A rigid pose. orientation: quaternion x, y, z, w."""
+
+    time: Share
+    position: Vector
+    orientation: tuple[float, float, float, float]
+
+
+class PosePath(Value, frozen=True, tag_field="kind", tag="path"):
+    """Bodies in rigid poses at times, in between along lines and shortest arcs."""
+
+    bodies: Bodies
+    waypoints: Annotated[tuple[Waypoint, ...], Meta(min_length=2)]
+
+
+StatedMotion = Translation | Rotation | PosePath
