@@ -11,18 +11,16 @@ origin and scaled by a power of two to unit size. The scaling is exact both ways
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import msgspec
+import numpy as np
 from msgspec import Struct
+from numpy.typing import NDArray
 
 from satcheck.core import Mesh
 from satcheck.decompose.result import MeshBytes
 from satcheck.decompose.settings import DecompositionSettings
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 
 class _Piece(Struct, frozen=True):
@@ -50,7 +48,6 @@ def decode_reply(reply: bytes) -> list[MeshBytes]:
 
 def serve(message: bytes) -> bytes:
     import coacd  # type: ignore[import-untyped]
-    import numpy as np
 
     coacd.set_log_level("off")
     request = msgspec.msgpack.decode(message, type=_Request)
@@ -77,8 +74,6 @@ def serve(message: bytes) -> bytes:
 
 def _unit_frame(vertices: NDArray[np.float64]) -> tuple[NDArray[Any], int]:
     """(centre, e): (vertices - centre) / 2^e has its largest coordinate in [1/2, 1]."""
-    import numpy as np
-
     # Halves first, so that no coordinate can overflow.
     low, high = vertices.min(axis=0) / 2.0, vertices.max(axis=0) / 2.0
     exponent = int(np.frexp((high - low).max())[1])

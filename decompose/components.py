@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from satcheck.core import Mesh
 
 Bounds = tuple[tuple[float, float, float], tuple[float, float, float]]
@@ -34,8 +36,6 @@ def merged(meshes: Sequence[Mesh]) -> Mesh:
     """All triangles in one mesh; nothing is welded."""
     if len(meshes) == 1:
         return meshes[0]
-    import numpy as np
-
     offsets = np.cumsum([0] + [mesh.vertex_count for mesh in meshes[:-1]])
     return Mesh(
         np.concatenate([mesh.vertices for mesh in meshes]),

@@ -12,12 +12,12 @@ from satcheck.core.errors import SatcheckError
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
+from satcheck.scene.motion import Motion, refuse_second_motions
 from satcheck.scene.resolution import FLOAT64_ROUNDING
 from satcheck.scene.rules import Rule
 
 if TYPE_CHECKING:
     from satcheck.core.shapes import Primitive
-    from satcheck.scene.motion import Motion
     from satcheck.scene.robot import Posture, SceneRobot
 
 UNITS_UNKNOWN = "units-unknown"
@@ -140,8 +140,6 @@ class Scene(Struct, frozen=True):
 
     def __post_init__(self) -> None:
         if self.motions:
-            from satcheck.scene.motion import refuse_second_motions
-
             refuse_second_motions(self.motions)
 
     def require_one_unit(self) -> None:

@@ -5,23 +5,21 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.drawing import is_drawing
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import ReadLimits, load_mesh_file
 from satcheck.scene.loading.native import NATIVE_FORMATS
+from satcheck.scene.loading.nodes import Node, Nodes, load_nodes
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.scene.loading.source import FORMATS, LARGE_FILE_BYTES
 from satcheck.scene.plain_ids import COMPONENT_MARK
+from satcheck.scene.shape_file import shape_file
 from satcheck.scene.words import meant
-
-if TYPE_CHECKING:
-    from satcheck.core.shapes import Primitive
-    from satcheck.scene.loading.nodes import Node, Nodes
 
 DEFAULT_SECONDS_PER_FILE = 60.0
 DEFAULT_MEGABYTES_PER_FILE = 2048
@@ -129,8 +127,6 @@ class MeshFiles:
             from satcheck.scene.drawing.bodies import load_shapes
 
             return load_shapes(path, location, self._limits, self._children)
-        from satcheck.scene.loading.nodes import load_nodes
-
         return load_nodes(path, location, self._limits, self._children, components=components)
 
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
@@ -147,8 +143,6 @@ class MeshFiles:
 
     def shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
         """path: the file that states it."""
-        from satcheck.scene.shape_file import shape_file
-
         key = shape, path
         found = self._shapes.get(key)
         if found is None:

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from satcheck.core.shapes import Primitive, times_power_of_two
 from satcheck.scene.bodies import IDENTITY, MeshFile, Transform
 from satcheck.scene.common_units import scaled_mesh
 from satcheck.scene.errors import MeshFileError
-
-if TYPE_CHECKING:
-    from satcheck.core.shapes import Primitive
 
 
 def placing_mesh(file: MeshFile | MeshFileError, transform: Transform | None) -> Transform | None:
@@ -40,6 +36,4 @@ def shape_of_file(file: MeshFile, shape: Primitive | None) -> Primitive | None:
 def _scaled(shape: Primitive | None, exponent: int) -> Primitive | None:
     if shape is None or exponent == 0:
         return shape
-    from satcheck.core.shapes import times_power_of_two
-
     return times_power_of_two(shape, exponent)

@@ -9,22 +9,23 @@ from typing import TYPE_CHECKING, Literal
 
 from msgspec.structs import replace
 
+from satcheck.core.shapes import Primitive
 from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
 from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.file_facts import issues_of_files
+from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
+from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.issue import Issue, issue
+from satcheck.scene.loading.placing import multiply
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
+from satcheck.scene.rules import Rule
 from satcheck.scene.units import ratio, stated_unit
 
 if TYPE_CHECKING:
-    from satcheck.core.shapes import Primitive
-    from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
-    from satcheck.scene.format.joined import JoinedScenes
     from satcheck.scene.robot import SceneRobot, Srdf
-    from satcheck.scene.rules import Rule
 
 Split = Literal["nodes", "components", "none"]
 
@@ -82,8 +83,6 @@ class SceneBuilder:
 
     def add_scene(self, scene: SceneFile) -> None:
         """A scene file without bodies is one of rules; a second time it says nothing new."""
-        from satcheck.scene.format.joined import JoinedScenes
-
         path = scene.path
         if not scene.bodies:
             place = os.path.realpath(path)
@@ -132,8 +131,6 @@ class SceneBuilder:
         self, mesh: MeshPath, part: str, transform: Transform | None, units: str | None
     ) -> tuple[MeshFile | MeshFileError, Transform | None]:
         """The part, and where it is when the file is placed by the transform."""
-        from satcheck.scene.loading.placing import multiply
-
         found = self._files.part(mesh.path, mesh.location, part)
         if isinstance(found, MeshFileError):
             return found, None

@@ -5,13 +5,17 @@ A request and its answer are messages in MessagePack, of which msgspec checks th
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import msgspec
 
 from satcheck.scene.drawing.contour import Drawing, DrawnShape, RefusedShape
-from satcheck.scene.drawing.sheet import Sheet, sheet_of, united
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.raw_mesh import Block, Refusal
 from satcheck.scene.loading.reading_children import ReadingChildren
+
+if TYPE_CHECKING:
+    from satcheck.scene.drawing.sheet import Sheet
 
 
 class _Request(msgspec.Struct, frozen=True):
@@ -74,6 +78,8 @@ def _drawing(form: str, data: bytes) -> Drawing:
 
 
 def _message(drawing: Drawing, whole: bool) -> DrawingMessage:
+    from satcheck.scene.drawing.sheet import sheet_of, united
+
     def triangulated(shape: DrawnShape | RefusedShape) -> Sheet:
         if isinstance(shape, RefusedShape):
             raise MeshFileError(shape.code, shape.message)

@@ -9,17 +9,18 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from typing import TYPE_CHECKING
 
+import manifold3d
+import numpy as np
+import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
+from satcheck.core import Surface, covers_once
 from satcheck.scene.drawing.contour import Contour, DrawnShape, Point
 from satcheck.scene.errors import MeshFileError
-
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
+from satcheck.scene.planar.prism import prism
+from satcheck.scene.planar.turns import turns
 
 
 class Sheet(Struct, frozen=True):
@@ -45,7 +46,6 @@ def sheet_of(shape: DrawnShape) -> Sheet:
 def united(sheets: list[Sheet]) -> Sheet:
     """What any of them covers, by the name of the first. Raises MeshFileError: one winds both ways
     round, and another could take back what it covers."""
-    import numpy as np
 
     if len(sheets) == 1:
         return sheets[0]
@@ -62,7 +62,6 @@ def united(sheets: list[Sheet]) -> Sheet:
 
 def _upward(sheet: Sheet) -> npt.NDArray[np.int64]:
     """Its triangles, turned over where they cover points less than never."""
-    from satcheck.scene.planar.turns import turns
 
     turned = sheet.triangles[:, ::-1]
     signs = turns(sheet.points, sheet.triangles)
@@ -77,8 +76,6 @@ def _upward(sheet: Sheet) -> npt.NDArray[np.int64]:
 
 
 def _sheet_of(shape: DrawnShape) -> Sheet:
-    import manifold3d
-    import numpy as np
 
     contours = _alternating(shape.contours) if shape.rule == "evenodd" else shape.contours
     polygons = [np.array(contour.points, dtype=np.float64) for contour in contours]
@@ -97,9 +94,6 @@ def _sheet_of(shape: DrawnShape) -> Sheet:
 
 
 def _covers_once(points: npt.NDArray[np.float64], triangles: npt.NDArray[np.int64]) -> bool:
-    from satcheck.core import Surface, covers_once
-    from satcheck.scene.planar.prism import prism
-
     solid = prism(points, triangles, 1.0).welded()
     return solid.topology().solid and covers_once(Surface(solid, True))
 

@@ -7,18 +7,15 @@ no rules, the mesh files and robots beside it; those of a file without bodies ar
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
 from satcheck.scene.bodies import Body, Unreadable
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import SceneFile
+from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
-
-if TYPE_CHECKING:
-    from satcheck.scene.motion import Motion
 
 MOST_PAIRS = 100_000  # of a rule that has to be written out
 
@@ -56,8 +53,6 @@ class JoinedScenes:
         """scales: path of a scene -> the factor of its lengths; 1 where left out."""
         if not self._motions:
             return ()
-        from satcheck.scene.motion import scaled_motion
-
         return tuple(scaled_motion(motion, scales.get(path, 1.0)) for path, motion in self._motions)
 
     def rules(
