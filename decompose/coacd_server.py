@@ -57,7 +57,7 @@ def serve(message: bytes) -> bytes:
         vertices = np.frombuffer(piece.mesh[0], dtype="<f8").reshape(-1, 3)
         triangles = np.frombuffer(piece.mesh[1], dtype="<u4").reshape(-1, 3)
         centre, exponent = _unit_frame(vertices)
-        found = coacd.run_coacd(
+        hulls = coacd.run_coacd(
             coacd.Mesh(np.ldexp(vertices - centre, -exponent), triangles.astype(np.int32)),
             threshold=settings.threshold,
             preprocess_mode="off" if piece.manifold else "auto",
@@ -66,7 +66,7 @@ def serve(message: bytes) -> bytes:
             mcts_iterations=settings.mcts_iterations,
             seed=settings.seed,
         )
-        for points, corners in found:
+        for points, corners in hulls:
             placed = np.ldexp(points, exponent) + centre
             parts.append((placed.astype("<f8").tobytes(), corners.astype("<u4").tobytes()))
     return msgspec.msgpack.encode(parts)

@@ -37,8 +37,8 @@ def compute(
     started, deadline = time.monotonic(), Deadline(seconds)
     solid = mesh.topology().solid
     convex, concave = _sorted_pieces(mesh, settings.threshold) if solid else ([], [mesh])
-    found = _run_coacd(concave, settings, deadline, megabytes) if concave else []
-    parts = convex + [hull for hull in found if hull.dimension == 3]
+    coacd_parts = _run_coacd(concave, settings, deadline, megabytes) if concave else []
+    parts = convex + [hull for hull in coacd_parts if hull.dimension == 3]
     if not parts:
         raise DecompositionError(errors.BAD_OUTPUT, "CoACD returned no solid convex part")
     surface = Surface(mesh, solid)
@@ -50,7 +50,7 @@ def compute(
         seconds=time.monotonic() - started,
         from_cache=False,
         settings=settings,
-        notes=tuple(_notes(solid, concave, dropped=len(convex) + len(found) - len(parts))),
+        notes=tuple(_notes(solid, concave, dropped=len(convex) + len(coacd_parts) - len(parts))),
     )
 
 

@@ -94,15 +94,15 @@ def _cached(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int, cache: Cache
 ) -> Decomposition:
     key = cache_key(mesh, settings)
-    found = _load(cache, key, settings)
-    if found is not None:
-        return found
+    cached = _load(cache, key, settings)
+    if cached is not None:
+        return cached
     result = None
     try:
         with cache.single_flight(key, seconds):
-            found = _load(cache, key, settings)  # from the process we waited for
-            if found is not None:
-                return found
+            cached = _load(cache, key, settings)  # from the process we waited for
+            if cached is not None:
+                return cached
             result = _compute(mesh, settings, seconds, megabytes)
             cache.store(key, encode(result))
             return result

@@ -41,8 +41,8 @@ def _inner_part(part: Polytope, solid: Surface, deadline: Deadline) -> Polytope 
     region = free_region(part, solid, deadline)
     if region is not part:
         bodies.append(_largest_inside(region.to_mesh(), solid))
-    found = [body for body in bodies if body is not None]
-    return max(found, key=lambda body: body.to_mesh().topology().volume, default=None)
+    inside = [body for body in bodies if body is not None]
+    return max(inside, key=lambda body: body.to_mesh().topology().volume, default=None)
 
 
 def _largest_inside(region: Mesh, solid: Surface) -> Polytope | None:

@@ -65,13 +65,13 @@ def in_one_unit(
     for one in inputs:
         _infer(one, [by_id[id_] for id_ in one.ids if id_ in by_id], known_rules)
     unit = _common(inputs) or next(iter(known_rules.values()), None)
-    found = {
+    converted = {
         id_: _converted(by_id[id_], one.unit, unit)
         for one in inputs
         for id_ in one.ids
         if id_ in by_id
     }
-    scaled = [found.get(body.id, body) for body in bodies]
+    scaled = [converted.get(body.id, body) for body in bodies]
     units = {one.path: one.unit for one in inputs if one.kind == "scene"} | known_rules
     scales = {path: ratio(own, unit) for path, own in units.items() if own and unit}
     declared = [*(one.declares for one in inputs), *rules.values()]

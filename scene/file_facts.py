@@ -16,12 +16,12 @@ def issues_of_files(bodies: Sequence[Body]) -> list[Issue]:
     for body in bodies:
         users.setdefault((body.file.path, body.file.part), []).append(body)
     return [
-        _shared(found, together) for together in users.values() for found in together[0].file.issues
+        _shared(issue, together) for together in users.values() for issue in together[0].file.issues
     ]
 
 
-def _shared(found: Issue, bodies: list[Body]) -> Issue:
-    part, message = bodies[0].file.part, found.message
+def _shared(issue: Issue, bodies: list[Body]) -> Issue:
+    part, message = bodies[0].file.part, issue.message
     if len(bodies) == 1:
-        return replace(found, body=bodies[0].id)
-    return found if part is None else replace(found, message=f"mesh {part!r}: {message}")
+        return replace(issue, body=bodies[0].id)
+    return issue if part is None else replace(issue, message=f"mesh {part!r}: {message}")

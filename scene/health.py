@@ -102,8 +102,8 @@ def _sealed(inspection: Inspection, orient: bool, resolution: Resolution) -> Ins
     return with_cracks_closed(inspection, orient, CRACK_WIDTH * resolution(inspection.mesh))
 
 
-def _judged(found: Inspection, exponent: int) -> Examined:
-    topology, after, turned = found.topology, found.repaired, found.turned
+def _judged(inspection: Inspection, exponent: int) -> Examined:
+    topology, after, turned = inspection.topology, inspection.repaired, inspection.turned
     if topology.degenerate_triangles == topology.triangles:
         raise MeshFileError(
             "only-degenerate",
@@ -112,7 +112,7 @@ def _judged(found: Inspection, exponent: int) -> Examined:
     # An even number of triangles at every edge, each face in pairs, and nothing enclosed: front and
     # back of a sheet. A solid whose faces come twice encloses its volume twice.
     in_pairs = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
-    double_sided = in_pairs and topology.volume == 0 and not found.hole_count
+    double_sided = in_pairs and topology.volume == 0 and not inspection.hole_count
     copies_dropped = after.triangles < topology.triangles  # orienting does that, too
     health = MeshHealth(
         vertices=topology.vertices,
@@ -123,19 +123,23 @@ def _judged(found: Inspection, exponent: int) -> Examined:
         misoriented_edges=topology.misoriented_edges,
         degenerate_triangles=topology.degenerate_triangles,
         duplicate_triangles=topology.duplicate_triangles,
-        cracks=found.cracks,
-        holes=found.hole_count,
-        largest_hole=math.ldexp(found.largest_hole[1], exponent) if found.largest_hole else 0.0,
-        closed=after.closed if found.cracks else topology.closed,
+        cracks=inspection.cracks,
+        holes=inspection.hole_count,
+        largest_hole=math.ldexp(inspection.largest_hole[1], exponent)
+        if inspection.largest_hole
+        else 0.0,
+        closed=after.closed if inspection.cracks else topology.closed,
         manifold=topology.manifold,
         oriented=topology.oriented,
-        volume=held_times_power(after.volume if found.cracks else topology.volume, 3 * exponent),
+        volume=held_times_power(
+            after.volume if inspection.cracks else topology.volume, 3 * exponent
+        ),
         inside_out=turned and topology.oriented and not copies_dropped,
         double_sided=double_sided,
-        flat=not after.solid and found.mesh.is_flat(),
+        flat=not after.solid and inspection.mesh.is_flat(),
         solid=after.solid,
     )
-    return Examined(found.mesh, topology, health, tuple(_warnings(health, turned)))
+    return Examined(inspection.mesh, topology, health, tuple(_warnings(health, turned)))
 
 
 def _warnings(health: MeshHealth, turned: bool) -> list[tuple[str, str]]:

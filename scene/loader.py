@@ -91,11 +91,11 @@ def _as_texts(paths: Sequence[str | Path]) -> list[str]:
 
 
 def _unit(name: str) -> str:
-    found = unit_of(name)
-    if found is None:
+    unit = unit_of(name)
+    if unit is None:
         known = ", ".join(MICROMETRES)
         raise SatcheckError("bad-argument", f"units: one of {known}, not {name!r}")
-    return found
+    return unit
 
 
 def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFile]:

@@ -115,9 +115,9 @@ class MeshFiles:
         key = self._absolute(location), components
         if key not in self._nodes:
             try:
-                found = self._load_nodes(path, location, components)
-                self._nodes[key] = found
-                self._by_path[key] = {node.path: node for node in found.nodes}
+                loaded = self._load_nodes(path, location, components)
+                self._nodes[key] = loaded
+                self._by_path[key] = {node.path: node for node in loaded.nodes}
             except MeshFileError as error:
                 self._nodes[key] = error
         return self._nodes[key]
@@ -132,9 +132,9 @@ class MeshFiles:
     def part(self, path: str, location: Path, part: str) -> Node | MeshFileError:
         """One node of the file by its path, which may end in "#" and the number of a component."""
         components = COMPONENT_MARK in part
-        found = self.nodes(path, location, components=components)
-        if isinstance(found, MeshFileError):
-            return found
+        loaded = self.nodes(path, location, components=components)
+        if isinstance(loaded, MeshFileError):
+            return loaded
         by_path = self._by_path[self._absolute(location), components]
         if part in by_path:
             return by_path[part]
@@ -144,14 +144,14 @@ class MeshFiles:
     def shape(self, shape: Primitive, path: str) -> MeshFile | MeshFileError:
         """path: the file that states it."""
         key = shape, path
-        found = self._shapes.get(key)
-        if found is None:
+        loaded = self._shapes.get(key)
+        if loaded is None:
             try:
-                found = shape_file(shape, path)
+                loaded = shape_file(shape, path)
             except MeshFileError as error:
-                found = error
-            self._shapes[key] = found
-        return found
+                loaded = error
+            self._shapes[key] = loaded
+        return loaded
 
 
 def _is_large(location: Path) -> bool:

@@ -72,9 +72,9 @@ def _span(body: Body) -> tuple[int, int] | None:
 
 
 def _scaled(body: Body, exponent: int) -> Body | Unreadable:
-    found = _scaled_shape(body, exponent) or _scaled_placement(body, exponent)
-    if found is not None:
-        return found
+    scaled = _scaled_shape(body, exponent) or _scaled_placement(body, exponent)
+    if scaled is not None:
+        return scaled
     message = "beyond the range of numbers: its coordinates would lose digits"
     path = body.file.path
     reason = issue("out-of-range", message, body=body.id, file=path)

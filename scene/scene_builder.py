@@ -67,16 +67,16 @@ class SceneBuilder:
         """alone: the paths of nodes need nothing before them to be ids."""
         name = location.stem or path
         self._names.append(name)
-        found = self._files.nodes(path, location, components=split == "components")
-        if isinstance(found, MeshFileError):
+        parts = self._files.nodes(path, location, components=split == "components")
+        if isinstance(parts, MeshFileError):
             self._begin("mesh", path, None)
-            self._add(id_, name, path, found, None)
+            self._add(id_, name, path, parts, None)
             return
-        self._issues.extend(found.issues)
-        self._taken_apart |= len(found.nodes) > 1
-        units = (node.file.units for node in found.nodes if isinstance(node.file, MeshFile))
+        self._issues.extend(parts.issues)
+        self._taken_apart |= len(parts.nodes) > 1
+        units = (node.file.units for node in parts.nodes if isinstance(node.file, MeshFile))
         self._begin("mesh", path, next(units, None))
-        for node in found.nodes:
+        for node in parts.nodes:
             wanted = _node_id(node.path, id_, alone)
             title = wanted if node.path else name
             self._add(wanted, title, path, node.file, node.transform, node=node.path)
@@ -131,11 +131,11 @@ class SceneBuilder:
         self, mesh: MeshPath, part: str, transform: Transform | None, units: str | None
     ) -> tuple[MeshFile | MeshFileError, Transform | None]:
         """The part, and where it is when the file is placed by the transform."""
-        found = self._files.part(mesh.path, mesh.location, part)
-        if isinstance(found, MeshFileError):
-            return found, None
-        scale = self._scale(found.file, units)
-        return found.file, multiply(transform, scaled_world(found.transform, scale))
+        node = self._files.part(mesh.path, mesh.location, part)
+        if isinstance(node, MeshFileError):
+            return node, None
+        scale = self._scale(node.file, units)
+        return node.file, multiply(transform, scaled_world(node.transform, scale))
 
     def add_robot(
         self,
@@ -233,9 +233,9 @@ class SceneBuilder:
         robots = with_srdfs(self._robots, self._srdfs)
         allowed, issues = [], list(scene.issues)
         for robot in robots:
-            permitted, found = permissions(robot)
+            permitted, remarks = permissions(robot)
             allowed += permitted
-            issues += found
+            issues += remarks
         scene = replace(
             scene,
             robots=tuple(robots),
@@ -246,23 +246,23 @@ class SceneBuilder:
 
     def _bodies_and_files(self) -> Scene:
         scenes = self._scenes
-        found = in_one_unit(self._bodies, self._inputs, self._rule_units)
+        common = in_one_unit(self._bodies, self._inputs, self._rule_units)
         return Scene(
             name=" ".join(self._names),
-            units=found.label,
-            bodies=found.bodies,
+            units=common.label,
+            bodies=common.bodies,
             unreadable=tuple(self._unreadable),
             order=tuple(self._order),
             ignore_within_groups=frozenset(scenes.ignored if scenes else ()),
-            rules=self._rules(found.scales),
+            rules=self._rules(common.scales),
             check_static=scenes is None or scenes.check_static,
-            motions=scenes.motions(found.scales) if scenes else (),
+            motions=scenes.motions(common.scales) if scenes else (),
             composed=self._taken_apart or not self._only_meshes,
             issues=(
                 *self._issues,
                 *_of_lost(self._unreadable),
                 *issues_of_files(self._bodies),
-                *found.issues,
+                *common.issues,
             ),
         )
 

@@ -54,8 +54,8 @@ class Length(Struct, frozen=True):
 
 def parse_length(text: str) -> Length:
     """`0.5` or `2mm`; ValueError for what is not a length."""
-    found = re.fullmatch(_LENGTH, text, re.ASCII)
-    digits, suffix = found.groups() if found else ("nan", "")
+    match = re.fullmatch(_LENGTH, text, re.ASCII)
+    digits, suffix = match.groups() if match else ("nan", "")
     number, suffix = float(digits), suffix.lower()
     if not math.isfinite(number) or (suffix and suffix not in MICROMETRES):
         units = "/".join(MICROMETRES)

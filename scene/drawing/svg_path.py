@@ -49,10 +49,10 @@ def _arguments(d: str, place: int, letter: str) -> tuple[list[float] | None, int
                 return None, place
             value, place = float(d[place]), place + 1
         else:
-            found = number_at(d, place, "path data")
-            if found is None:
+            parsed = number_at(d, place, "path data")
+            if parsed is None:
                 return None, place
-            value, place = found
+            value, place = parsed
         given.append(value)
         place = skip(d, place)
     return given, place

@@ -89,13 +89,13 @@ def _side(text: str, key: str) -> _Side | Literal["auto", "open"]:
     """open: it depends on what the file does not say."""
     if text.strip() in ("auto", ""):
         return "auto"
-    found = _SIDE.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
-    if found is None or found[2] not in _PIXELS_IN:
+    match = _SIDE.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
+    if match is None or match[2] not in _PIXELS_IN:
         return "open"
-    value = float(found[1])
+    value = float(match[1])
     if not value > 0:
         raise bad(f"{key}: {text.strip()} leaves nothing to draw")
-    return _Side(value, found[2])
+    return _Side(value, match[2])
 
 
 def _length(side: _Side, units: str | None) -> float:

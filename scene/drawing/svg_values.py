@@ -44,8 +44,8 @@ def unread(message: str) -> MeshFileError:
 
 def skip(text: str, place: int) -> int:
     """The place after spaces and commas."""
-    found = _BETWEEN.match(text, place)
-    return place if found is None else found.end()
+    match = _BETWEEN.match(text, place)
+    return place if match is None else match.end()
 
 
 def number_at(text: str, place: int, what: str) -> tuple[float, int] | None:
@@ -53,13 +53,13 @@ def number_at(text: str, place: int, what: str) -> tuple[float, int] | None:
 
     Raises MeshFileError for one that is not finite.
     """
-    found = _ONE.match(text, place)
-    if found is None:
+    match = _ONE.match(text, place)
+    if match is None:
         return None
-    value = float(found[0])
+    value = float(match[0])
     if not math.isfinite(value):
         raise MeshFileError("non-finite", f"{what}: non-finite number")
-    return value, found.end()
+    return value, match.end()
 
 
 def numbers(text: str, what: str) -> list[float]:
@@ -67,11 +67,11 @@ def numbers(text: str, what: str) -> list[float]:
     values = []
     place = skip(text, 0)
     while place < len(text):
-        found = number_at(text, place, what)
-        if found is None:
+        parsed = number_at(text, place, what)
+        if parsed is None:
             raise bad(f"{what}: {text[place : place + 40]!r} is no number")
-        values.append(found[0])
-        place = skip(text, found[1])
+        values.append(parsed[0])
+        place = skip(text, parsed[1])
     return values
 
 
@@ -83,14 +83,14 @@ class Viewport(Struct, frozen=True):
 
     def length(self, text: str, along: str, what: str) -> float:
         """User units. along: "x", "y", or "d" for what is neither. Raises MeshFileError."""
-        found = _LENGTH.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
-        if found is None:
+        match = _LENGTH.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
+        if match is None:
             raise bad(f"{what}: {text[:40]!r} is no length")
-        if found[2] == "%":
-            return float(found[1]) / 100 * self._whole(along, what)
-        if found[2] not in PIXELS:
+        if match[2] == "%":
+            return float(match[1]) / 100 * self._whole(along, what)
+        if match[2] not in PIXELS:
             raise unread(f"{what}: the unit of {text[:40]!r} is not read")
-        value = float(found[1]) * PIXELS[found[2]]
+        value = float(match[1]) * PIXELS[match[2]]
         if not math.isfinite(value):
             raise MeshFileError("non-finite", f"{what}: non-finite length")
         return value
@@ -124,9 +124,9 @@ def translation(x: float, y: float) -> Affine:
 def transform(text: str) -> Affine:
     """A transform attribute. Raises MeshFileError."""
     affines, end = [IDENTITY], 0
-    while found := _FUNCTION.match(text, end):
-        end = found.end()
-        affines.append(_function(found[1], numbers(found[2], found[1])))
+    while call := _FUNCTION.match(text, end):
+        end = call.end()
+        affines.append(_function(call[1], numbers(call[2], call[1])))
     if text[end:].strip(" \t\r\n,") not in ("", "none"):
         raise bad(f"transform: {text[end : end + 40]!r} is not read")
     return reduce(compose, affines)
@@ -162,10 +162,10 @@ def view_box(text: str) -> tuple[float, float, float, float] | None:
     """min x, min y, width, height; None where the attribute is empty. Raises MeshFileError."""
     if not text.strip():
         return None
-    found = numbers(text, "viewBox")
-    if len(found) != 4 or found[2] <= 0 or found[3] <= 0:
+    sides = numbers(text, "viewBox")
+    if len(sides) != 4 or sides[2] <= 0 or sides[3] <= 0:
         raise bad(f"viewBox: {text[:40]!r} is no rectangle")
-    return (found[0], found[1], found[2], found[3])
+    return (sides[0], sides[1], sides[2], sides[3])
 
 
 class AspectRatio(Struct, frozen=True):
@@ -181,10 +181,10 @@ def aspect_ratio(text: str) -> AspectRatio | None:
     """A preserveAspectRatio; None: it is not preserved. Raises MeshFileError."""
     if text.strip() == "none":
         return None
-    found = _ALIGNED.fullmatch(text.strip() or "xMidYMid")
-    if found is None:
+    match = _ALIGNED.fullmatch(text.strip() or "xMidYMid")
+    if match is None:
         raise bad(f"preserveAspectRatio: {text[:40]!r} is not read")
-    return AspectRatio(_SHARE[found[1]], _SHARE[found[2]], found[3] == "slice")
+    return AspectRatio(_SHARE[match[1]], _SHARE[match[2]], match[3] == "slice")
 
 
 def fitted(

@@ -32,10 +32,10 @@ class MeshPlaces:
                 self._known[mesh] = self._judged(mesh)
             except Wrong as wrong:
                 self._known[mesh] = wrong
-        found = self._known[mesh]
-        if isinstance(found, Wrong):
-            raise found
-        return found
+        place = self._known[mesh]
+        if isinstance(place, Wrong):
+            raise place
+        return place
 
     def _judged(self, mesh: str) -> MeshPath:
         if "\0" in mesh:

@@ -124,10 +124,10 @@ def _two_at_least(value: Any) -> None:
 
 
 def _time(value: Any) -> float:
-    found = number(value)
-    if not 0 <= found <= 1:
+    time = number(value)
+    if not 0 <= time <= 1:
         raise Wrong(f"a time from 0 to 1 expected, not {shown(value)}")
-    return found
+    return time
 
 
 def _euler(value: Any) -> Quaternion:

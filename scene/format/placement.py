@@ -80,19 +80,19 @@ def matrix(rows: Any) -> Transform:
     """Four rows of four numbers, affine and not singular."""
     if not is_4x4(rows):
         raise Wrong(f"4 rows of 4 numbers expected, not {shown(rows)}")
-    found = sixteen(rows)
-    if (fault := singular(found)) is not None:
+    entries = sixteen(rows)
+    if (fault := singular(entries)) is not None:
         raise Wrong(fault, code="singular-transform")
-    return found
+    return entries
 
 
 def sixteen(rows: list[list[Any]]) -> Transform:
     """Row by row, of rows that are 4x4; Wrong names the first that is no finite number."""
     first, second, third, fourth = rows
-    found = numbers([*first, *second, *third, *fourth])
-    if found is None:
-        found = [value for row in items(rows, lambda row: items(row, number)) for value in row]
-    return tuple(found)
+    entries = numbers([*first, *second, *third, *fourth])
+    if entries is None:
+        entries = [value for row in items(rows, lambda row: items(row, number)) for value in row]
+    return tuple(entries)
 
 
 def singular(transform: Transform) -> str | None:

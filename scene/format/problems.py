@@ -24,24 +24,24 @@ class Wrong(Exception):
 
 
 class Problems:
-    """Collects the problems of one scene file. found: each with the keys that lead to it."""
+    """Collects the problems of one scene file. entries: each with the keys that lead to it."""
 
     def __init__(self) -> None:
-        self.found: list[tuple[Keys, Wrong]] = []
+        self.entries: list[tuple[Keys, Wrong]] = []
 
     def __bool__(self) -> bool:
-        return bool(self.found)
+        return bool(self.entries)
 
     def __len__(self) -> int:
-        return len(self.found)
+        return len(self.entries)
 
     def add(self, keys: Keys, wrong: Wrong) -> None:
         """keys: the way from the top of the document to the value that was read."""
-        self.found.append(((*keys, *wrong.keys), wrong))
+        self.entries.append(((*keys, *wrong.keys), wrong))
 
     def raise_any(self, path: str, positions: Callable[[], Positions]) -> None:
         """Raises SceneFileError where there are any, the first in the file with its `others`."""
-        if not self.found:
+        if not self.entries:
             return
         where = positions()
         errors = [
@@ -51,10 +51,10 @@ class Problems:
                 file=path,
                 line=where.line(keys),
             )
-            for keys, wrong in self.found[:MOST]
+            for keys, wrong in self.entries[:MOST]
         ]
         errors.sort(key=lambda error: error.line or 0)
-        if left := len(self.found[MOST:]):
+        if left := len(self.entries[MOST:]):
             errors.append(SceneFileError("bad-scene", f"{left} more errors", file=path))
         raise SceneFileError.of_several(errors)
 

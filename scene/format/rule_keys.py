@@ -72,7 +72,7 @@ def _volume(value: Any) -> float:
 
 
 def _not_negative(value: Any, what: str) -> float:
-    found = number(value)
-    if found < 0:
+    limit = number(value)
+    if limit < 0:
         raise Wrong(f"a {what} >= 0 expected, not {shown(value)}")
-    return found
+    return limit

@@ -100,16 +100,16 @@ class _Reader:
         )
 
     def _rules(self, top: Table, units: str | None) -> tuple[Rule, ...]:
-        found = (
+        candidates = (
             read_rule(table, units, where=f"{self._parsed.path}:{self._line(table)}")
             for table in top.tables("rules")
         )
-        return tuple(rule for rule in found if rule is not None)
+        return tuple(rule for rule in candidates if rule is not None)
 
     def _motions(self, top: Table, bodies: tuple[BodyEntry, ...] | None) -> tuple[Motion, ...]:
         moved: dict[str, str] = {}  # a body, and by which motion
-        found = (read_motion(table, bodies, moved) for table in top.tables("motion"))
-        return tuple(motion for motion in found if motion is not None)
+        candidates = (read_motion(table, bodies, moved) for table in top.tables("motion"))
+        return tuple(motion for motion in candidates if motion is not None)
 
     def _line(self, table: Table) -> int:
         return self._parsed.positions.line(table.keys)

@@ -79,8 +79,8 @@ def _toml(path: str, text: str) -> Any:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        found = re.fullmatch(_TOML_PLACE, str(error))
-        reason, line = found.groups() if found else (str(error), None)
+        match = re.fullmatch(_TOML_PLACE, str(error))
+        reason, line = match.groups() if match else (str(error), None)
         line = int(line or len(text.splitlines()))
         message = f"not well-formed TOML: {reason}"
         raise SceneFileError("bad-scene", message, file=path, line=line) from None

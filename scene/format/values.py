@@ -77,21 +77,21 @@ def numbers(values: list[Any]) -> list[float] | None:
     if not _NUMBERS.issuperset(map(type, values)):
         return None
     try:
-        found = list(map(float, values))
+        converted = list(map(float, values))
     except OverflowError:
         return None
-    return found if all(map(math.isfinite, found)) else None
+    return converted if all(map(math.isfinite, converted)) else None
 
 
 def items(values: list[Any], read: Reader[T]) -> list[T]:
     """Each item read; Wrong names the first at fault."""
-    found = []
+    converted = []
     for index, value in enumerate(values):
         try:
-            found.append(read(value))
+            converted.append(read(value))
         except Wrong as wrong:
             raise Wrong(wrong.message, index, *wrong.keys, code=wrong.code) from None
-    return found
+    return converted
 
 
 def list_of(what: str, read: Reader[T]) -> Reader[list[T]]:

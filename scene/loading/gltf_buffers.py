@@ -92,8 +92,8 @@ def _two_numbers(data: memoryview, offset: int) -> tuple[int, int]:
 def extension(owner: dict[str, Any], name: str) -> dict[str, Any] | None:
     """What the extension of this name says of an object."""
     extensions = owner.get("extensions", {})
-    found = extensions.get(name) if isinstance(extensions, dict) else None
-    return found if isinstance(found, dict) else None
+    content = extensions.get(name) if isinstance(extensions, dict) else None
+    return content if isinstance(content, dict) else None
 
 
 class BufferViews:
@@ -165,10 +165,10 @@ class BufferViews:
                 "too-large", f"meshopt data unpacks to {self._unpacked_bytes} bytes and more"
             )
         stream = bytes(self._range(packed, f"buffer view {number}"))
-        found = unpack_meshopt(stream, mode, count, stride, filter_)
-        if isinstance(found, ReadError):
-            raise MeshFileError(found.code, f"buffer view {number}: {found.message}")
-        return found
+        elements = unpack_meshopt(stream, mode, count, stride, filter_)
+        if isinstance(elements, ReadError):
+            raise MeshFileError(elements.code, f"buffer view {number}: {elements.message}")
+        return elements
 
     def _buffer(self, number: int) -> memoryview:
         if number not in self._buffers:

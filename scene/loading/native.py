@@ -19,16 +19,16 @@ NATIVE_FORMATS = frozenset(_READERS)
 
 def read_native(source: Source) -> RawMesh:
     """The mesh of a file in one of `NATIVE_FORMATS`; raises MeshFileError with line or byte."""
-    found = _read_in_pieces(source) if source.in_pieces else _READERS[source.format](source.data)
-    if isinstance(found, _readers.ReadError):
-        raise MeshFileError(found.code, f"{_place(found)}{found.message}", file=source.path)
+    outcome = _read_in_pieces(source) if source.in_pieces else _READERS[source.format](source.data)
+    if isinstance(outcome, _readers.ReadError):
+        raise MeshFileError(outcome.code, f"{_place(outcome)}{outcome.message}", file=source.path)
     return RawMesh(
-        vertices=found.vertices,
-        triangles=found.triangles,
-        precision=found.precision,
-        decimals=found.decimals,
-        significant=found.significant,
-        warnings=tuple((warning.code, warning.message) for warning in found.warnings),
+        vertices=outcome.vertices,
+        triangles=outcome.triangles,
+        precision=outcome.precision,
+        decimals=outcome.decimals,
+        significant=outcome.significant,
+        warnings=tuple((warning.code, warning.message) for warning in outcome.warnings),
     )
 
 

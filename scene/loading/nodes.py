@@ -113,8 +113,8 @@ class _Splitter:
         try:
             raw, mesh = mesh_of(self._source, raw)
             pieces = self._connected(raw, mesh) if self._components else []
-            found = self._pieces(part, raw, pieces) if len(pieces) > 1 else []
-            return found or [("", self._file(part, raw, mesh))]
+            bodies = self._pieces(part, raw, pieces) if len(pieces) > 1 else []
+            return bodies or [("", self._file(part, raw, mesh))]
         except MeshFileError as error:
             return [("", self._named(part, error))]
 
@@ -127,22 +127,22 @@ class _Splitter:
     ) -> list[tuple[str, MeshFile | MeshFileError]]:
         """Those that have an area; what was read with a warning is warned about once."""
         _refuse_too_many(len(pieces), self._source.path)
-        found: list[tuple[str, MeshFile | MeshFileError]] = []
+        bodies: list[tuple[str, MeshFile | MeshFileError]] = []
         flat = 0
         for piece in pieces:
-            mark = f"{COMPONENT_MARK}{len(found) + 1}"
+            mark = f"{COMPONENT_MARK}{len(bodies) + 1}"
             try:
-                found.append((mark, self._file(part, replace(raw, warnings=()), piece, mark)))
+                bodies.append((mark, self._file(part, replace(raw, warnings=()), piece, mark)))
             except MeshFileError as error:
                 if error.code != _ONLY_DEGENERATE:
                     raise
                 flat += 1
-        if found:
+        if bodies:
             for code, message in raw.warnings:
                 self._warn(code, part, message)
-        if found and flat:
+        if bodies and flat:
             self._warn("degenerate-triangles", part, f"{flat} loose pieces of area 0 are left out")
-        return found
+        return bodies
 
     def _file(self, part: RawPart, raw: RawMesh, mesh: Mesh, mark: str = "") -> MeshFile:
         name = f"{part.name}{mark}" or None

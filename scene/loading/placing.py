@@ -50,15 +50,15 @@ def instances(
         lambda key: f"{kind} {name(key)!r}",
     )
     paths = UniqueNames()
-    found = []
+    placed = []
     stack = list(_named("", roots, name))[::-1]
     while stack:
         path, key, matrix = stack.pop()
         if has_mesh(key):
-            found.append(Instance(key, matrix, paths.unique(path)))
+            placed.append(Instance(key, matrix, paths.unique(path)))
         below = ((child, multiply(matrix, placement)) for child, placement in children(key))
         stack.extend(list(_named(f"{path}/", below, name))[::-1])
-    return found
+    return placed
 
 
 def _named(

@@ -25,7 +25,7 @@ _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 def read_xaml(data: memoryview) -> RawMesh:
     """All meshes of the scene, flattened; raises MeshFileError without a file name."""
     root = read_elements(data)
-    found: list[tuple[WrittenMesh, Matrix]] = []
+    meshes: list[tuple[WrittenMesh, Matrix]] = []
     waiting = [(root, _IDENTITY)]
     while waiting:
         element, matrix = waiting.pop()
@@ -35,16 +35,16 @@ def read_xaml(data: memoryview) -> RawMesh:
             if child.tag == "MeshGeometry3D":
                 if element.tag != _GEOMETRY:
                     child.refuse("a mesh that no model shows is not read", "unsupported-feature")
-                found.append((_mesh(child), inside))
+                meshes.append((_mesh(child), inside))
             elif child.tag != f"{element.tag}.Transform":
                 waiting.append((child, inside))
-    if not found:
+    if not meshes:
         raise MeshFileError("empty-mesh", "empty mesh: the scene has no triangles")
-    return _flattened(found)
+    return _flattened(meshes)
 
 
-def _flattened(found: list[tuple[WrittenMesh, Matrix]]) -> RawMesh:
-    raws = [(mesh.raw(None), matrix) for mesh, matrix in found]
+def _flattened(meshes: list[tuple[WrittenMesh, Matrix]]) -> RawMesh:
+    raws = [(mesh.raw(None), matrix) for mesh, matrix in meshes]
     vertices, triangles = concatenate(
         [
             (raw.vertices, raw.triangles, None if matrix == _IDENTITY else matrix)

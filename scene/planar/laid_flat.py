@@ -142,8 +142,8 @@ def _is_inscribed(body: Body) -> bool:
 
 
 def _lost(body: Body, error: MeshFileError) -> Unreadable:
-    found = issue(error.code, error.message, body=body.id, file=body.file.path)
-    return Unreadable(body.id, body.file.path, found, body.groups, body.path, body.static)
+    reason = issue(error.code, error.message, body=body.id, file=body.file.path)
+    return Unreadable(body.id, body.file.path, reason, body.groups, body.path, body.static)
 
 
 def _heights(regions: Sequence[Region]) -> list[float]:

@@ -71,26 +71,26 @@ class SceneRobot(Struct, frozen=True):
         between, count as part of the joint."""
         solid = {body.link for body in self.bodies}
         carrier = {joint.child: joint.parent for joint in self.robot.joints}
-        found = []
+        pairs = []
         for link in (link for link in self.robot.links if link in solid):
             above = carrier.get(link)
             while above is not None and above not in solid:
                 above = carrier.get(above)
             if above is not None:
-                found.append((above, link))
-        return found
+                pairs.append((above, link))
+        return pairs
 
 
 def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
     """One part a <collision>: called as the link, and where that has several "link/name" or
     "link/number". Parts that are lost for one cause have one message, which counts them."""
-    found = [
+    collisions = [
         (link, collision, number, _source(collision, places))
         for link in robot.links.values()
         for number, collision in enumerate(link.collisions, 1)
     ]
     lost: dict[tuple[str, str], list[Collision]] = {}
-    for _, collision, _, source in found:
+    for _, collision, _, source in collisions:
         if isinstance(source, MeshFileError):
             lost.setdefault((source.code, source.message), []).append(collision)
     return [
@@ -102,7 +102,7 @@ def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
             if isinstance(source, MeshFileError)
             else source,
         )
-        for link, collision, number, source in found
+        for link, collision, number, source in collisions
     ]
 
 
@@ -134,21 +134,21 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
 
     Raises SceneFileError for an SRDF about no robot that is here, and for a second one about one.
     """
-    found = list(robots)
+    matched = list(robots)
     for srdf in srdfs:
-        named = [k for k, robot in enumerate(found) if robot.robot.name == srdf.robot]
-        if not named and len(found) == 1:
+        named = [k for k, robot in enumerate(matched) if robot.robot.name == srdf.robot]
+        if not named and len(matched) == 1:
             named = [0]
         if not named:
-            names = ", ".join(robot.robot.name for robot in found) or "no URDF is given"
+            names = ", ".join(robot.robot.name for robot in matched) or "no URDF is given"
             message = f"about robot {srdf.robot!r}, which is not here ({names})"
             raise SceneFileError("bad-robot", message, file=srdf.file)
         for k in named:
-            if found[k].srdf is not None:
-                message = f"a second SRDF about robot {found[k].robot.name!r}"
+            if matched[k].srdf is not None:
+                message = f"a second SRDF about robot {matched[k].robot.name!r}"
                 raise SceneFileError("bad-robot", message, file=srdf.file)
-            found[k] = replace(found[k], srdf=srdf)
-    return found
+            matched[k] = replace(matched[k], srdf=srdf)
+    return matched
 
 
 def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
@@ -194,7 +194,7 @@ def posed(scene: Scene, pose: Pose) -> Scene:
             else replace(body, transform=transforms[body.id])
             for body in scene.bodies
         ),
-        issues=(*(found for found in scene.issues if found not in earlier), *posture.issues),
+        issues=(*(remark for remark in scene.issues if remark not in earlier), *posture.issues),
         posture=posture,
     )
 

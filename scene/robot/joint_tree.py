@@ -50,12 +50,12 @@ def _walk(roots: Sequence[str], joints: Sequence[Joint]) -> tuple[Joint, ...]:
     carried: dict[str, list[Joint]] = {}
     for joint in joints:
         carried.setdefault(joint.parent, []).append(joint)
-    found, waiting = [], list(roots)
+    ordered, waiting = [], list(roots)
     while waiting:
         for joint in carried.get(waiting.pop(), ()):
-            found.append(joint)
+            ordered.append(joint)
             waiting.append(joint.child)
-    return tuple(found)
+    return tuple(ordered)
 
 
 def _circle(link: str, carriers: Mapping[str, Joint]) -> str:

@@ -78,10 +78,10 @@ class MeshPlaces:
         name, _, inner = rest.partition("/")
         if named := self._named(rest):
             return named
-        found = [folder for folder in self._folders_of(name) if folder.is_dir()]
+        folders = [folder for folder in self._folders_of(name) if folder.is_dir()]
         places = []
         reasons = []
-        for folder in found:
+        for folder in folders:
             try:
                 place = _existing(folder, inner, quoted=True)
             except MeshFileError as error:
@@ -92,7 +92,7 @@ class MeshPlaces:
             places.append(place)
         if places:
             message = (
-                f"package {name!r} lies {self._outside()}: --package {name}={found[0]} lets it"
+                f"package {name!r} lies {self._outside()}: --package {name}={folders[0]} lets it"
             )
             raise MeshFileError("outside-path", message)
         if reasons:

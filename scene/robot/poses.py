@@ -74,11 +74,11 @@ def read_poses(given: str) -> list[Pose] | Pose:
 def state_named(name: str, states: Iterable[State]) -> State:
     """The state of that name, "group/name" where groups share it. Raises SatcheckError."""
     known = list(states)
-    found = [state for state in known if name in (state.name, f"{state.group}/{state.name}")]
-    if len(found) == 1:
-        return found[0]
-    if found:
-        choices = ", ".join(f"{state.group}/{state.name}" for state in found)
+    matches = [state for state in known if name in (state.name, f"{state.group}/{state.name}")]
+    if len(matches) == 1:
+        return matches[0]
+    if matches:
+        choices = ", ".join(f"{state.group}/{state.name}" for state in matches)
         raise SatcheckError("bad-pose", f"several groups have a state {name!r}: {choices}")
     names = ", ".join(dict.fromkeys(state.name for state in known))
     has = f"the states are {names}" if known else "no SRDF with a <group_state> was given"

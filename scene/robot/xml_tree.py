@@ -47,11 +47,11 @@ class Element(xml_tree.Element):
 
     def only(self, tag: str) -> Self | None:
         """The one child of that name, or None; several are refused unless they say the same."""
-        found = self.all(tag)
-        for other in found[1:]:
-            if not other.says_the_same_as(found[0]):
+        matches = self.all(tag)
+        for other in matches[1:]:
+            if not other.says_the_same_as(matches[0]):
                 other.refuse(f"a second <{tag}> in one <{self.tag}>")
-        return found[0] if found else None
+        return matches[0] if matches else None
 
     def says_the_same_as(self, other: Self) -> bool:
         return (
@@ -132,10 +132,10 @@ def _refuse_macros(document: Element) -> None:
         for name, uri in document.attributes.items()
         if name.startswith("xmlns:") and uri.endswith(_XACRO_NAMESPACE)
     )
-    found = list(_macros(document, (*prefixes, "xacro:")))
-    if found:
-        more = f"; {len(found) - 1} more elements are macros" if len(found) > 1 else ""
-        found[0].refuse(f"{EXPAND}{more}", "xacro")
+    matches = list(_macros(document, (*prefixes, "xacro:")))
+    if matches:
+        more = f"; {len(matches) - 1} more elements are macros" if len(matches) > 1 else ""
+        matches[0].refuse(f"{EXPAND}{more}", "xacro")
 
 
 def _macros(element: Element, prefixes: tuple[str, ...]) -> Iterator[Element]:

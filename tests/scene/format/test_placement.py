@@ -111,4 +111,4 @@ def test_what_places_nothing_is_refused(name):
     values, message = WRONG[name]
     problems = Problems()
     placement(Table(values, (), problems))
-    assert [message in wrong.message for _, wrong in problems.found] == [True]
+    assert [message in wrong.message for _, wrong in problems.entries] == [True]
