@@ -8,7 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-Vector = tuple[float, float, float]
+from satcheck.core.conventions import Vector
+
+Quaternion = tuple[float, float, float, float]  # x, y, z, w
 Rotation = tuple[float, ...]
 Transform = tuple[float, ...]
 

@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from satcheck.core import Mesh, Topology, largest_placed, largest_stretch
 from satcheck.core.errors import SatcheckError
+from satcheck.core.transform import Transform
 from satcheck.scene.drawing import DRAWINGS
 from satcheck.scene.health import MeshHealth
 from satcheck.scene.issue import Issue
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from satcheck.scene.robot import Posture, SceneRobot
 
 UNITS_UNKNOWN = "units-unknown"
-Transform = tuple[float, ...]
 IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column in range(4))
 
 
@@ -145,7 +145,7 @@ class Scene(Struct, frozen=True):
     def require_one_unit(self) -> None:
         """Raises SatcheckError (`units-unknown`) where bodies have no common unit of length."""
         if len({body.units for body in self.bodies}) > 1:
-            said = next(found for found in self.issues if found.code == UNITS_UNKNOWN)
+            said = next(issue for issue in self.issues if issue.code == UNITS_UNKNOWN)
             raise SatcheckError(UNITS_UNKNOWN, said.message)
 
     def require_in_space(self, instead: str) -> None:

@@ -13,7 +13,8 @@ from typing import Literal
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body, Transform
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY, UNITS_UNKNOWN, Body
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.units import MICROMETRES, is_unit, ratio, stated_unit, unit_in
 from satcheck.scene.words import listed

@@ -114,6 +114,7 @@ def _judged(inspection: Inspection, exponent: int) -> Examined:
     in_pairs = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
     double_sided = in_pairs and topology.volume == 0 and not inspection.hole_count
     copies_dropped = after.triangles < topology.triangles  # orienting does that, too
+    hole, cracks = inspection.largest_hole, inspection.cracks
     health = MeshHealth(
         vertices=topology.vertices,
         triangles=topology.triangles,
@@ -123,17 +124,13 @@ def _judged(inspection: Inspection, exponent: int) -> Examined:
         misoriented_edges=topology.misoriented_edges,
         degenerate_triangles=topology.degenerate_triangles,
         duplicate_triangles=topology.duplicate_triangles,
-        cracks=inspection.cracks,
+        cracks=cracks,
         holes=inspection.hole_count,
-        largest_hole=math.ldexp(inspection.largest_hole[1], exponent)
-        if inspection.largest_hole
-        else 0.0,
-        closed=after.closed if inspection.cracks else topology.closed,
+        largest_hole=math.ldexp(hole[1], exponent) if hole else 0.0,
+        closed=after.closed if cracks else topology.closed,
         manifold=topology.manifold,
         oriented=topology.oriented,
-        volume=held_times_power(
-            after.volume if inspection.cracks else topology.volume, 3 * exponent
-        ),
+        volume=held_times_power(after.volume if cracks else topology.volume, 3 * exponent),
         inside_out=turned and topology.oriented and not copies_dropped,
         double_sided=double_sided,
         flat=not after.solid and inspection.mesh.is_flat(),

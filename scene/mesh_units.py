@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from satcheck.core.shapes import Primitive, times_power_of_two
-from satcheck.scene.bodies import IDENTITY, MeshFile, Transform
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY, MeshFile
 from satcheck.scene.common_units import scaled_mesh
 from satcheck.scene.errors import MeshFileError
 

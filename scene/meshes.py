@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
-from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene, Transform
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY, Body, MeshFile, Scene
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import mesh_file
 from satcheck.scene.loading.raw_mesh import Precision, RawMesh

@@ -17,10 +17,9 @@ from itertools import pairwise
 from msgspec import Struct
 from msgspec.structs import replace
 
+from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-
-Vector = tuple[float, float, float]
-Quaternion = tuple[float, float, float, float]
+from satcheck.core.transform import Quaternion
 
 NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 

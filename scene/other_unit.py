@@ -12,7 +12,8 @@ from satcheck.core.power_of_two import (
     times_power,
 )
 from satcheck.core.shapes import sizes_of, times_power_of_two
-from satcheck.scene.bodies import IDENTITY, Body, Scene, Transform, Unreadable
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY, Body, Scene, Unreadable
 from satcheck.scene.issue import issue
 from satcheck.scene.motion import scaled_motion
 from satcheck.scene.rules import LENGTHS, Rule

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Literal
 from msgspec.structs import replace
 
 from satcheck.core.shapes import Primitive
-from satcheck.scene.bodies import Body, MeshFile, Scene, Transform, Unreadable
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.file_facts import issues_of_files

@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 
 from satcheck.core import transform
-from satcheck.core.transform import Vector, about, cos_sin
+from satcheck.core.conventions import Vector
+from satcheck.core.transform import about, cos_sin
 
 Quaternion = tuple[float, float, float, float]
 Matrix = tuple[Vector, Vector, Vector]

@@ -14,7 +14,7 @@ from satcheck.scene.words import meant
 
 if TYPE_CHECKING:
     from satcheck.core.shapes import Primitive
-    from satcheck.scene.bodies import Transform
+    from satcheck.core.transform import Transform
     from satcheck.scene.motion import Motion
     from satcheck.scene.rules import Rule
 

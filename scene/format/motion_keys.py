@@ -7,8 +7,9 @@ from itertools import pairwise
 from typing import Any
 
 from satcheck.core.errors import SatcheckError
+from satcheck.core.transform import Quaternion
 from satcheck.scene.format.entries import BodyEntry
-from satcheck.scene.format.placement import Quaternion, quaternion, quaternion_of_euler
+from satcheck.scene.format.placement import quaternion, quaternion_of_euler
 from satcheck.scene.format.problems import Wrong, dotted
 from satcheck.scene.format.rule_keys import selector
 from satcheck.scene.format.table import Table

@@ -6,12 +6,18 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from satcheck.core.transform import Rotation, about_fixed_axes, cos_sin, of_quaternion
-from satcheck.scene.bodies import Transform
+from satcheck.core.conventions import Vector
+from satcheck.core.transform import (
+    Quaternion,
+    Rotation,
+    Transform,
+    about_fixed_axes,
+    cos_sin,
+    of_quaternion,
+)
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.table import Table
 from satcheck.scene.format.values import (
-    Triple,
     items,
     number,
     numbers,
@@ -31,8 +37,6 @@ KEYS = frozenset((*PARTS, "matrix"))
 _NO_TURN: Rotation = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 _NO_SCALE = (1.0, 1.0, 1.0)
 _ORIGIN = (0.0, 0.0, 0.0)
-
-Quaternion = tuple[float, float, float, float]  # (x, y, z, w)
 
 
 def placement(table: Table) -> Transform | None:
@@ -126,7 +130,7 @@ def _euler(value: Any) -> Rotation:
     return of_euler(triple(value))
 
 
-def _scale(value: Any) -> Triple:
+def _scale(value: Any) -> Vector:
     factors = triple(value) if isinstance(value, list) else (number(value),) * 3
     if 0.0 in factors:
         raise Wrong("a scale of 0 leaves nothing", code="singular-transform")

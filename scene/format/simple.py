@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from satcheck.scene.bodies import Transform
+from satcheck.core.transform import Transform
 from satcheck.scene.format.entries import (
     NO_MESH,
     BodyEntry,

@@ -6,13 +6,14 @@ import math
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
+from satcheck.core.conventions import Vector
+from satcheck.core.transform import Quaternion
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.units import MICROMETRES, unit_of
 from satcheck.scene.words import meant
 
 T = TypeVar("T")
 Reader = Callable[[Any], T]
-Triple = tuple[float, float, float]
 
 _NUMBERS = {int, float}
 _MOST_SHOWN = 40  # characters of a text in a message
@@ -51,13 +52,13 @@ def number(value: Any) -> float:
     return value
 
 
-def triple(value: Any) -> Triple:
+def triple(value: Any) -> Vector:
     """[x, y, z]"""
     x, y, z = _numbers(value, 3, "three")
     return x, y, z
 
 
-def quadruple(value: Any) -> tuple[float, float, float, float]:
+def quadruple(value: Any) -> Quaternion:
     """Four numbers."""
     a, b, c, d = _numbers(value, 4, "four")
     return a, b, c, d

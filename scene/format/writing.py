@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from satcheck.scene.bodies import IDENTITY, Transform
+from satcheck.core.transform import Transform
+from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.format.entries import SIMPLE
 from satcheck.scene.format.placement import matrix, placement
 from satcheck.scene.format.positions import Keys, Place

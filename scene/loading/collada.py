@@ -13,14 +13,14 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from satcheck.core.transform import about, compose, cos_sin, placed
+from satcheck.core.transform import Transform, about, compose, cos_sin, placed
 from satcheck.scene._readers import ReadError, cut_polygons
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.collada_skin import Floats, morphed, skinned
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import instances
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
 from satcheck.scene.loading.written_mesh import of_fan, of_strip
 from satcheck.scene.loading.xml_tree import Element, read_elements
 
@@ -116,7 +116,7 @@ class _Document:
             element.refuse(f"{len(targets)} elements <{tag}> have the id {url[1:]!r}", code)
         return targets[0]
 
-    def _children(self, element: Element) -> list[tuple[Element, Matrix | None]]:
+    def _children(self, element: Element) -> list[tuple[Element, Transform | None]]:
         """What is placed in a node. Transforms of what has no triangles are not read."""
         return [
             (child, _matrix_of(child) if self._carries(child) else None)
@@ -158,8 +158,8 @@ class _Document:
         return self._geometry(self._target(owner, "geometry", attribute))
 
     def _placed(
-        self, element: Element, matrix: Matrix | None, scene: Element
-    ) -> tuple[Geometry, Matrix | None]:
+        self, element: Element, matrix: Transform | None, scene: Element
+    ) -> tuple[Geometry, Transform | None]:
         """A mesh, its vertices moved by a skin or by morph targets, and what places it."""
         points, triangles = self._mesh_of(element)
         shaper = self._shaper(element)
@@ -181,11 +181,11 @@ class _Document:
 
     def _joints(
         self, scene: Element, skeletons: list[str], attribute: str, names: list[str]
-    ) -> dict[str, Matrix]:
+    ) -> dict[str, Transform]:
         """Where the nodes of these names stand in the world: those below the skeletons, if there
         are any, else anywhere. attribute: that holds the name."""
         roots = [k for id_ in skeletons for k in self._by_id.get(("node", id_), [])]
-        joints: dict[str, Matrix] = {}
+        joints: dict[str, Transform] = {}
         stack: list[tuple[Element, ...]] = [(scene,)]
         while stack:
             chain = stack.pop()
@@ -229,7 +229,7 @@ def _without_extras(root: Element) -> Iterator[Element]:
         waiting += [child for child in element.children if child.tag != "extra"]
 
 
-def _world(chain: tuple[Element, ...]) -> Matrix:
+def _world(chain: tuple[Element, ...]) -> Transform:
     """The matrices of a node and of all around it."""
     matrix = IDENTITY
     for node in chain:
@@ -237,7 +237,7 @@ def _world(chain: tuple[Element, ...]) -> Matrix:
     return matrix
 
 
-def _matrix_of(node: Element) -> Matrix:
+def _matrix_of(node: Element) -> Transform:
     """The transforms of a node, the first one outermost."""
     matrix = IDENTITY
     for child in node.children:
@@ -248,7 +248,7 @@ def _matrix_of(node: Element) -> Matrix:
     return matrix
 
 
-def _move(element: Element) -> Matrix:
+def _move(element: Element) -> Transform:
     words, wanted = element.text.split(), _MOVES[element.tag]
     try:
         values = [float(word) for word in words]

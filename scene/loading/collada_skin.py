@@ -12,8 +12,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.raw_mesh import Matrix
 from satcheck.scene.loading.xml_tree import Element
 
 Floats = NDArray[np.float64]
@@ -41,7 +41,7 @@ def morphed(morph: Element, points: Floats, target: Callable[[str], Floats | Non
 
 
 def skinned(
-    skin: Element, points: Floats, joints_by: Callable[[str, list[str]], dict[str, Matrix]]
+    skin: Element, points: Floats, joints_by: Callable[[str, list[str]], dict[str, Transform]]
 ) -> tuple[Floats, bool]:
     """(the vertices in the world, whether the skin mirrors them). Raises MeshFileError.
 

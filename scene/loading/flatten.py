@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from satcheck.core import Mesh
+from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, Matrix, RawMesh, RawScene
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh, RawScene
 
 
 def flattened(scene: RawScene) -> RawMesh:
@@ -48,7 +49,7 @@ def flattened(scene: RawScene) -> RawMesh:
     )
 
 
-def concatenate(parts: list[tuple[Block, Block, Matrix | None]]) -> tuple[Block, Block]:
+def concatenate(parts: list[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:
     """(vertices, triangles) of all parts together, each at its matrix.
 
     parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the
@@ -68,7 +69,7 @@ def concatenate(parts: list[tuple[Block, Block, Matrix | None]]) -> tuple[Block,
     return b"".join(vertices for vertices, _ in placed), b"".join(c.tobytes() for c in corners)
 
 
-def _placed(vertices: Block, triangles: Block, matrix: Matrix) -> tuple[Block, Block]:
+def _placed(vertices: Block, triangles: Block, matrix: Transform) -> tuple[Block, Block]:
     try:
         return Mesh.from_bytes(vertices, triangles).transformed(matrix).to_bytes()
     except ValueError as error:

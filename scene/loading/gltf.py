@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from satcheck.core.transform import of_quaternion, placed
+from satcheck.core.transform import Transform, of_quaternion, placed
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
@@ -30,7 +30,6 @@ from satcheck.scene.loading.gltf_meshes import DRACO, Meshes, Shape, Skin
 from satcheck.scene.loading.placing import Instance, instances, multiply, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import (
     NO_SURFACE,
-    Matrix,
     RawMesh,
     RawScene,
     Refusal,
@@ -162,7 +161,7 @@ class _Scene:
         except MeshFileError as error:
             return Refusal(error.code, error.message)
 
-    def _copies(self, node: Instance[int]) -> list[tuple[str, Matrix | None]]:
+    def _copies(self, node: Instance[int]) -> list[tuple[str, Transform | None]]:
         """(path, matrix) of a node, or of each instance that it draws in its own place."""
         instancing = extension(self._nodes[node.key], _INSTANCING)
         if "skin" in self._nodes[node.key]:  # its joints place it
@@ -202,7 +201,7 @@ class _Scene:
                 raise MeshFileError("count-mismatch", f"skin {number}: a joint lacks its matrix")
         return Skin(tuple(self._world(joint) or IDENTITY for joint in joints), bound)
 
-    def _world(self, node: int) -> Matrix | None:
+    def _world(self, node: int) -> Transform | None:
         """Where a node stands in the world."""
         if self._parents is None:
             self._parents = {
@@ -237,7 +236,7 @@ class _Scene:
         member(self._nodes, number, "node")
         return number
 
-    def _children(self, node: int) -> list[tuple[int, Matrix | None]]:
+    def _children(self, node: int) -> list[tuple[int, Transform | None]]:
         numbers = items(member(self._nodes, node, "node"), "children")
         return [(child := self._node_number(n), self._matrix(child)) for n in numbers]
 
@@ -252,7 +251,7 @@ class _Scene:
     def _mesh_name(self, number: int) -> str:
         return tidy_name(self._meshes.name(number), f"mesh{number}")
 
-    def _matrix(self, number: int) -> Matrix | None:
+    def _matrix(self, number: int) -> Transform | None:
         node = member(self._nodes, number, "node")
         if "matrix" in node:
             return _from_columns(_numbers(node, "matrix", 16, number), f"node {number}")
@@ -280,7 +279,7 @@ def _numbers(node: dict[str, Any], key: str, count: int, number: int) -> list[fl
     return [float(value) for value in values]
 
 
-def _from_columns(columns: Sequence[float], where: str) -> Matrix:
+def _from_columns(columns: Sequence[float], where: str) -> Transform:
     if tuple(columns[3:16:4]) != (0.0, 0.0, 0.0, 1.0):
         raise MeshFileError("bad-record", f"{where}: the matrix is not affine")
     return tuple(columns[4 * column + row] for row in range(4) for column in range(4))
@@ -290,9 +289,9 @@ def _placement(
     translation: Sequence[float] | None,
     rotation: Sequence[float] | None,
     scale: Sequence[float] | None,
-) -> Matrix | None:
+) -> Transform | None:
     """Scaled, then turned by a quaternion x, y, z, w, then moved."""
-    placement: Matrix | None = None
+    placement: Transform | None = None
     if translation is not None:
         x, y, z = translation
         placement = (1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1)
@@ -304,7 +303,7 @@ def _placement(
     return placement
 
 
-def _rotation(quaternion: Sequence[float]) -> Matrix:
+def _rotation(quaternion: Sequence[float]) -> Transform:
     if not any(quaternion):
         raise MeshFileError("bad-record", "a rotation quaternion is zero")
     x, y, z, w = quaternion

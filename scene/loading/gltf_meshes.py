@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
+from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns, Floats, Indices
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
 from satcheck.scene.loading.gltf_shapes import morphed, skinned
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, Matrix, RawMesh
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, RawMesh
 
 DRACO = "KHR_draco_mesh_compression"
 
@@ -37,7 +38,7 @@ class Skin(Struct, frozen=True):
     """joints: where each stands in the world. bound: for each the matrix from the mesh to the joint
     as it was bound, column-major 4x4; None: the identity."""
 
-    joints: tuple[Matrix, ...]
+    joints: tuple[Transform, ...]
     bound: Floats | None = None
 
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.gltf_accessors import Columns, Floats
-from satcheck.scene.loading.raw_mesh import Matrix
 
 
 def morphed(positions: Floats, moves: Sequence[tuple[float, Floats]]) -> Floats:
@@ -22,7 +22,7 @@ def morphed(positions: Floats, moves: Sequence[tuple[float, Floats]]) -> Floats:
 
 
 def skinned(
-    points: Floats, columns: Columns, joints: Sequence[Matrix], bound: Floats | None, where: str
+    points: Floats, columns: Columns, joints: Sequence[Transform], bound: Floats | None, where: str
 ) -> Floats:
     """Each vertex where its joints put it, in world coordinates.
 

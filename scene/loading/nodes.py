@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core import Mesh
+from satcheck.core.transform import Transform
 from satcheck.scene.bodies import MeshFile
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import CRACK_WIDTH
@@ -22,7 +23,7 @@ from satcheck.scene.loading import (
     read_scene,
     resolution_of,
 )
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawPart, Refusal
+from satcheck.scene.loading.raw_mesh import RawMesh, RawPart, Refusal
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source
 from satcheck.scene.plain_ids import COMPONENT_MARK
@@ -42,7 +43,7 @@ class Node(Struct, frozen=True):
 
     path: str | None
     file: MeshFile | MeshFileError
-    transform: Matrix | None = None
+    transform: Transform | None = None
 
 
 class Nodes(Struct, frozen=True):
@@ -88,7 +89,7 @@ def _refuse_too_many(bodies: int, path: str) -> None:
         raise MeshFileError("too-large", message, file=path)
 
 
-def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Matrix | None) -> Node:
+def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Transform | None) -> Node:
     if matrix is not None and isinstance(file, MeshFile):
         try:
             _CORNER.transformed(matrix)

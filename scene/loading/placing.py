@@ -8,10 +8,10 @@ from typing import Generic, TypeVar
 
 from msgspec import Struct
 
-from satcheck.core.transform import compose
+from satcheck.core.transform import Transform, compose
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawNode, RawPart, RawScene, Refusal
+from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene, Refusal
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 
 _LONGEST_NAME = 80
@@ -26,14 +26,14 @@ class Instance(Struct, Generic[Key], frozen=True):
     """Part `key` at `matrix` (None: as it is). path: the names that lead to it, unique."""
 
     key: Key
-    matrix: Matrix | None
+    matrix: Transform | None
     path: str
 
 
 def instances(
-    roots: Sequence[tuple[Key, Matrix | None]],
+    roots: Sequence[tuple[Key, Transform | None]],
     *,
-    children: Callable[[Key], Sequence[tuple[Key, Matrix | None]]],
+    children: Callable[[Key], Sequence[tuple[Key, Transform | None]]],
     has_mesh: Callable[[Key], bool],
     name: Callable[[Key], str],
     kind: str,
@@ -62,8 +62,8 @@ def instances(
 
 
 def _named(
-    prefix: str, placed: Iterable[tuple[Key, Matrix | None]], name: Callable[[Key], str]
-) -> Iterator[tuple[str, Key, Matrix | None]]:
+    prefix: str, placed: Iterable[tuple[Key, Transform | None]], name: Callable[[Key], str]
+) -> Iterator[tuple[str, Key, Transform | None]]:
     """With the path of each; siblings of one name are numbered."""
     names = UniqueNames()
     for key, matrix in placed:
@@ -136,7 +136,7 @@ def raw_scene(
     )
 
 
-def multiply(outer: Matrix | None, inner: Matrix | None) -> Matrix | None:
+def multiply(outer: Transform | None, inner: Transform | None) -> Transform | None:
     """The placement of a part at `inner` inside a part at `outer`; both affine."""
     if outer is None or inner is None:
         return inner if outer is None else outer

@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.power_of_two import exponent_into_range, exponent_of, times_power
+from satcheck.core.transform import Transform
 
 Precision = Literal["written-digits", "float16", "float32", "float64"]
 if TYPE_CHECKING:
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
 else:
     Block = memoryview  # what msgspec decodes to
 NO_SURFACE = "no-surface"  # the code of a mesh of lines or points alone
-Matrix = tuple[float, ...]  # row-major 4x4 for column vectors
 
 
 class RawMesh(Struct, frozen=True, tag=True):
@@ -58,7 +58,7 @@ class RawNode(Struct, frozen=True):
 
     path: str | None
     part: int
-    matrix: Matrix | None = None
+    matrix: Transform | None = None
 
 
 class RawScene(Struct, frozen=True, tag=True):

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import zipfile
 
+from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawScene, Refusal
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.written_mesh import WrittenMesh, of_fan, of_strip
 from satcheck.scene.loading.xml_tree import Element, read_elements
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
@@ -34,7 +35,7 @@ class _Assembly:
 
     def __init__(self, archive: zipfile.ZipFile) -> None:
         self._archive = archive
-        self._children: dict[str, list[tuple[str, Matrix | None]]] = {}
+        self._children: dict[str, list[tuple[str, Transform | None]]] = {}
         self._names: dict[str, str] = {}
         self._parts: dict[str, Element] = {}
 
@@ -83,7 +84,7 @@ class _Assembly:
                 element.refuse(f"refers to {above!r} and {below!r}", "index-out-of-range")
             self._children[above].append((below, _matrix(element.find("RelativeMatrix"))))
 
-    def _children_of(self, key: str) -> list[tuple[str, Matrix | None]]:
+    def _children_of(self, key: str) -> list[tuple[str, Transform | None]]:
         if key not in self._children:
             raise MeshFileError("index-out-of-range", f"the product refers to unknown {key!r}")
         return self._children[key]
@@ -114,7 +115,7 @@ def _reference(element: Element) -> str:
     return element.text.rpartition("#")[2].rpartition(":")[2]
 
 
-def _matrix(element: Element | None) -> Matrix | None:
+def _matrix(element: Element | None) -> Transform | None:
     """Three columns and where the origin goes, as a 4x4 by rows."""
     if element is None:
         return None

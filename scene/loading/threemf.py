@@ -16,9 +16,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import IO
 
+from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh, RawScene, Refusal
+from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
 from satcheck.scene.loading.written_mesh import digits_of
 from satcheck.scene.loading.xml_tree import (
     UNDECLARED,
@@ -167,7 +168,7 @@ class Reference:
 
     part: str
     id: str
-    matrix: Matrix | None
+    matrix: Transform | None
 
 
 @dataclass(slots=True)
@@ -333,7 +334,7 @@ class _ModelReader:
         part = part_name(path) if path else self._part
         return Reference(part, attributes["objectid"], self._matrix(attributes))
 
-    def _matrix(self, attributes: dict[str, str]) -> Matrix | None:
+    def _matrix(self, attributes: dict[str, str]) -> Transform | None:
         """3MF writes 4x3 values for row vectors; here they become a 4x4 for column vectors."""
         if "transform" not in attributes:
             return None

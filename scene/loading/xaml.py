@@ -9,23 +9,23 @@ from __future__ import annotations
 
 import math
 
-from satcheck.core.transform import about, compose, cos_sin, of_quaternion, placed
+from satcheck.core.transform import Transform, about, compose, cos_sin, of_quaternion, placed
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
-from satcheck.scene.loading.raw_mesh import Matrix, RawMesh
+from satcheck.scene.loading.raw_mesh import RawMesh
 from satcheck.scene.loading.written_mesh import WrittenMesh
 from satcheck.scene.loading.xml_tree import Element, read_elements
 
 _PRESENTATION = "http://schemas.microsoft.com/winfx/2006/xaml/presentation"
 _GEOMETRY = "GeometryModel3D.Geometry"
-_IDENTITY: Matrix = (1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0)
+_IDENTITY: Transform = (1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0)
 _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def read_xaml(data: memoryview) -> RawMesh:
     """All meshes of the scene, flattened; raises MeshFileError without a file name."""
     root = read_elements(data)
-    meshes: list[tuple[WrittenMesh, Matrix]] = []
+    meshes: list[tuple[WrittenMesh, Transform]] = []
     waiting = [(root, _IDENTITY)]
     while waiting:
         element, matrix = waiting.pop()
@@ -43,7 +43,7 @@ def read_xaml(data: memoryview) -> RawMesh:
     return _flattened(meshes)
 
 
-def _flattened(meshes: list[tuple[WrittenMesh, Matrix]]) -> RawMesh:
+def _flattened(meshes: list[tuple[WrittenMesh, Transform]]) -> RawMesh:
     raws = [(mesh.raw(None), matrix) for mesh, matrix in meshes]
     vertices, triangles = concatenate(
         [
@@ -90,7 +90,7 @@ def _mesh(element: Element) -> WrittenMesh:
     return mesh
 
 
-def _transform_of(element: Element) -> Matrix:
+def _transform_of(element: Element) -> Transform:
     if not element.tag.endswith(("3D", "3DGroup")):
         return _IDENTITY
     given = element.attributes.get("Transform")
@@ -104,7 +104,7 @@ def _transform_of(element: Element) -> Matrix:
     return _transform(inside.children[0])
 
 
-def _transform(element: Element) -> Matrix:
+def _transform(element: Element) -> Transform:
     match element.tag:
         case "MatrixTransform3D":
             return _matrix(element, element.attributes.get("Matrix", "Identity"))
@@ -120,7 +120,7 @@ def _transform(element: Element) -> Matrix:
     return element.refuse("a transform that is not read", "unsupported-feature")
 
 
-def _group(element: Element) -> Matrix:
+def _group(element: Element) -> Transform:
     """Its transforms are applied in the order in which they stand."""
     matrix = _IDENTITY
     holders = element.all("Transform3DGroup.Children") or [element]
@@ -130,7 +130,7 @@ def _group(element: Element) -> Matrix:
     return matrix
 
 
-def _matrix(element: Element, text: str) -> Matrix:
+def _matrix(element: Element, text: str) -> Transform:
     """WPF writes it for row vectors."""
     if text.strip() == "Identity":
         return _IDENTITY
@@ -140,7 +140,7 @@ def _matrix(element: Element, text: str) -> Matrix:
     return tuple(value for column in range(4) for value in values[column::4])
 
 
-def _about_centre(element: Element, linear: tuple[float, ...]) -> Matrix:
+def _about_centre(element: Element, linear: tuple[float, ...]) -> Transform:
     centre = [_number(element, f"Center{axis}") for axis in "XYZ"]
     back = placed(_NO_TURN, [-c for c in centre])
     return compose(placed(_NO_TURN, centre), compose(placed(linear, (0.0, 0.0, 0.0)), back))

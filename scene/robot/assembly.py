@@ -12,8 +12,8 @@ from msgspec.structs import replace
 
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import Primitive
-from satcheck.core.transform import compose
-from satcheck.scene.bodies import Scene, Transform
+from satcheck.core.transform import Transform, compose
+from satcheck.scene.bodies import Scene
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.robot.kinematics import link_poses, scaled

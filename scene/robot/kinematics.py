@@ -10,9 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from satcheck.core.transform import about, about_fixed_axes, compose, of_quaternion, placed
-from satcheck.scene.bodies import IDENTITY, Transform
-from satcheck.scene.robot.model import Joint, Robot, Vector
+from satcheck.core.conventions import Vector
+from satcheck.core.transform import (
+    Transform,
+    about,
+    about_fixed_axes,
+    compose,
+    of_quaternion,
+    placed,
+)
+from satcheck.scene.bodies import IDENTITY
+from satcheck.scene.robot.model import Joint, Robot
 
 # Numbers of one joint: none for a fixed one, (x, y, angle) for a planar one, (x, y, z, roll, pitch,
 # yaw) for a floating one, an angle or a length for the others.

@@ -10,10 +10,10 @@ from typing import Literal
 
 from msgspec import Struct
 
+from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Primitive
-from satcheck.scene.bodies import Transform
+from satcheck.core.transform import Transform
 
-Vector = tuple[float, float, float]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", "planar"]
 
 

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn, get_args
 
+from satcheck.core.conventions import Vector
 from satcheck.core.shapes import Box, Capsule, Cylinder, Sphere
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.issue import Issue, issue
@@ -29,7 +30,6 @@ from satcheck.scene.robot.model import (
     Mimic,
     RefusedShape,
     Robot,
-    Vector,
 )
 from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
 from satcheck.scene.words import meant
@@ -109,10 +109,10 @@ class _Reader:
     def _link(self, element: Element) -> Link:
         name = element.attribute("name")
         self._note_unknown(element, _LINK_PARTS)
-        found = (self._collision(one) for one in element.all("collision"))
+        collisions = (self._collision(inner) for inner in element.all("collision"))
         return Link(
             name=name,
-            collisions=tuple(collision for collision in found if collision is not None),
+            collisions=tuple(collision for collision in collisions if collision is not None),
             visual=bool(element.all("visual")),
         )
 
