@@ -7,10 +7,9 @@ them). A mesh file that cannot be used is reported as `Unreadable`; warnings abo
 """
 
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
-from satcheck.scene.codes import CODES, Code
 from satcheck.scene.errors import MeshFileError, SceneFileError
 from satcheck.scene.health import MeshHealth
-from satcheck.scene.issue import Issue
+from satcheck.scene.issue import CODES, Code, Issue
 from satcheck.scene.loader import load_scene
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.rules import Rule, Selector

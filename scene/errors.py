@@ -1,4 +1,4 @@
-"""Why a file cannot be used. Codes are those of `codes.CODES`."""
+"""Why a file cannot be used. Codes are those of `issue.CODES`."""
 
 from __future__ import annotations
 

@@ -14,7 +14,6 @@ from satcheck.core.transform import Transform
 from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.file_facts import issues_of_files
 from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
 from satcheck.scene.format.joined import JoinedScenes
 from satcheck.scene.issue import Issue, issue
@@ -262,7 +261,7 @@ class SceneBuilder:
             issues=(
                 *self._issues,
                 *_of_lost(self._unreadable),
-                *issues_of_files(self._bodies),
+                *_issues_of_files(self._bodies),
                 *common.issues,
             ),
         )
@@ -288,3 +287,22 @@ def _node_id(path: str | None, file_id: str, alone: bool) -> str:
     if path.startswith(COMPONENT_MARK):  # of a file without nodes
         return file_id + path
     return path if alone else f"{file_id}/{path}"
+
+
+def _issues_of_files(bodies: Sequence[Body]) -> list[Issue]:
+    """Each file's warnings once: with the body's id where only one body uses the file."""
+    users: dict[tuple[str, str | None], list[Body]] = {}
+    for body in bodies:
+        users.setdefault((body.file.path, body.file.part), []).append(body)
+    return [
+        _shared(warning, together)
+        for together in users.values()
+        for warning in together[0].file.issues
+    ]
+
+
+def _shared(warning: Issue, bodies: list[Body]) -> Issue:
+    part, message = bodies[0].file.part, warning.message
+    if len(bodies) == 1:
+        return replace(warning, body=bodies[0].id)
+    return warning if part is None else replace(warning, message=f"mesh {part!r}: {message}")

@@ -51,7 +51,7 @@ class DrawnShape(Struct, frozen=True):
 
 
 class RefusedShape(Struct, frozen=True, tag=True):
-    """A shape that cannot be read; the others still can. code: of `codes.CODES`."""
+    """A shape that cannot be read; the others still can. code: of `issue.CODES`."""
 
     name: str
     code: str

@@ -10,8 +10,8 @@ from __future__ import annotations
 import msgspec
 
 from satcheck.core.worker import WorkerError, WorkerFailed, WorkerTimeout
-from satcheck.scene.codes import CODES
 from satcheck.scene.errors import MeshFileError
+from satcheck.scene.issue import CODES
 from satcheck.scene.loading.raw_mesh import Block, RawScene, Refusal, alone
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source

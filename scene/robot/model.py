@@ -25,7 +25,7 @@ class MeshReference(Struct, frozen=True):
 
 
 class RefusedShape(Struct, frozen=True):
-    """Geometry that cannot be used, and why. code: of `codes.CODES`. reason: without the line, so
+    """Geometry that cannot be used, and why. code: of `issue.CODES`. reason: without the line, so
     that bodies that are refused for one reason are told together."""
 
     code: str
