@@ -86,7 +86,9 @@ void find_any_contact(const Surface& a, const Surface& b, const std::vector<Cont
   const Boundary of_b(b);
   std::map<std::uint32_t, std::vector<std::uint32_t>> partners_of;
   for (const ContactPair& c : contacts) partners_of[c.a].push_back(c.b);
-  for (const auto& [t, partners] : partners_of) {
+  for (const auto& entry : partners_of) {  // a lambda may not capture the names of a structured binding in older Clang
+    const std::uint32_t t = entry.first;
+    const std::vector<std::uint32_t>& partners = entry.second;
     const Corners c = corners(a.mesh, t);
     if (is_collinear(c)) continue;
     const auto own = irregular_partners(a, t);
