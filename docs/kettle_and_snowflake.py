@@ -6,11 +6,10 @@ kettle, and where satcheck moves it. Triangles of the snowflake that are not cle
 
 from __future__ import annotations
 
-import struct
-import zlib
 from pathlib import Path
 
 import numpy as np
+from matplotlib.image import imsave
 from numpy.typing import NDArray
 
 from sample_meshes.kitchen import kettle_parts, snowflake_parts
@@ -94,24 +93,6 @@ def drawn(triangles: Floats, colours: Floats, low: Floats, scale: float) -> Floa
     return averaged
 
 
-def png(image: Floats) -> bytes:
-    """8 bits a channel, no filter."""
-    rows = image.round().astype(np.uint8)
-    raw = b"".join(b"\0" + row.tobytes() for row in rows)
-
-    def chunk(kind: bytes, data: bytes) -> bytes:
-        check_sum = struct.pack(">I", zlib.crc32(kind + data))
-        return struct.pack(">I", len(data)) + kind + data + check_sum
-
-    head = struct.pack(">2I5B", rows.shape[1], rows.shape[0], 8, 2, 0, 0, 0)
-    return (
-        b"\x89PNG\r\n\x1a\n"
-        + chunk(b"IHDR", head)
-        + chunk(b"IDAT", zlib.compress(raw, 9))
-        + chunk(b"IEND", b"")
-    )
-
-
 def main() -> None:
     kettle, snowflake = (body.file.mesh for body in load_scene(FILES).bodies)
     moved = [kettle.translated(t) for t in translations()]
@@ -126,7 +107,8 @@ def main() -> None:
         colours = [COPPER] * len(body) + [RED if hit else ICE for hit in colliding(flake, mesh)]
         triangles = np.concatenate([body, flake])
         views.append(drawn(triangles, np.array(colours, dtype=float), low, SIZE / extent))
-    (HERE / "kettle_and_snowflake.png").write_bytes(png(np.concatenate(views, axis=1)))
+    pixels = np.concatenate(views, axis=1).round().astype(np.uint8)
+    imsave(HERE / "kettle_and_snowflake.png", pixels)
 
 
 if __name__ == "__main__":

@@ -145,8 +145,12 @@ class Labels:
         """Move the label there; the area it then covers of what is taken, or lies outside."""
         label.xy = at
         label.set(position=(dx, dy), ha=across, va=up)
-        box = label.get_window_extent()
-        inside = Bbox.intersection(box, self._axes.bbox)
+        box, frame = label.get_window_extent(), self._axes.bbox
+        if across == "center":  # as far within the frame as it can be
+            inwards = max(frame.x0 - box.x0, 0.0) + min(frame.x1 - box.x1, 0.0)
+            label.set(position=(dx + inwards, dy))
+            box = box.translated(inwards, 0.0)
+        inside = Bbox.intersection(box, frame)
         outside = _area(box) - (0.0 if inside is None else _area(inside))
         covered = (Bbox.intersection(box, other) for other in self._taken)
         return outside + sum(_area(one) for one in covered if one is not None)

@@ -57,9 +57,9 @@ def _print_pair(console: Canvas, pair: PairTradeoff, page: Page) -> None:
         console.print(f"  {line}")
     for line in steps(pair):
         console.print(f"* {line}")
-    if pair.picked is not None:
-        ended = "settled by" if pair.picked.settled else "not settled, ends at"
-        console.print(f"Default: {ended} {pair.picked.rung}. {pair.picked.why}.")
+    if pair.default is not None:
+        ended = "settled by" if pair.default.settled else "not settled, ends at"
+        console.print(f"Default: {ended} {pair.default.rung}. {pair.default.why}.")
     console.print()
 
 

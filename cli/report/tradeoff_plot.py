@@ -25,7 +25,7 @@ from satcheck.studies.tradeoff import choices, labels_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from satcheck.studies.tradeoff import PairTradeoff, Picked, Row, Rung, Truth
+    from satcheck.studies.tradeoff import ClimbEnd, PairTradeoff, Row, Rung, Truth
 
 # Points, 72 to the inch.
 WIDTH = 780.0
@@ -261,7 +261,7 @@ def _marker(standing: int, palette: Palette, *, cached: bool = False) -> dict[st
 
 def _title(pair: PairTradeoff) -> str:
     truth = pair.truth.relation or "truth not known"
-    return f"{pair.a} against {pair.b}: {truth}{_by(pair.truth)}{_end(pair.picked)}"
+    return f"{pair.a} against {pair.b}: {truth}{_by(pair.truth)}{_end(pair.default)}"
 
 
 def _by(truth: Truth) -> str:
@@ -269,10 +269,10 @@ def _by(truth: Truth) -> str:
     return f", {number(abs(value))} {'apart' if value > 0 else 'deep'}" if value else ""
 
 
-def _end(picked: Picked | None) -> str:
-    if picked is None:
+def _end(default: ClimbEnd | None) -> str:
+    if default is None:
         return ""
-    return f"; the default {'settles it by' if picked.settled else 'ends at'}: {picked.rung}"
+    return f"; the default {'settles it by' if default.settled else 'ends at'}: {default.rung}"
 
 
 def _remarks(pair: PairTradeoff, answered: Sequence[Row], drawn: Sequence[Row]) -> Iterator[str]:

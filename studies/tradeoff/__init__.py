@@ -5,20 +5,27 @@ Each rung of the ladder is asked about the same pair and held against what the e
 
 from __future__ import annotations
 
-from satcheck.studies.tradeoff.figure import Figure, Truth
 from satcheck.studies.tradeoff.gauge import Budget
 from satcheck.studies.tradeoff.measure import measure_pair
-from satcheck.studies.tradeoff.result import PairTradeoff, Picked, Row, Tradeoff, choices
+from satcheck.studies.tradeoff.pareto import Times
+from satcheck.studies.tradeoff.result import (
+    ClimbEnd,
+    Figure,
+    PairTradeoff,
+    Row,
+    Tradeoff,
+    Truth,
+    choices,
+)
 from satcheck.studies.tradeoff.rungs import RUNGS, Rung, labels_of
-from satcheck.studies.tradeoff.times import Times
 from satcheck.studies.tradeoff.tradeoff import tradeoff
 
 __all__ = [
     "RUNGS",
     "Budget",
+    "ClimbEnd",
     "Figure",
     "PairTradeoff",
-    "Picked",
     "Row",
     "Rung",
     "Times",

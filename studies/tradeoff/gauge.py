@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass, field
 from time import monotonic
 
-from satcheck.studies.tradeoff.asking import Asked, Measured
 from satcheck.studies.tradeoff.result import State
 from satcheck.studies.tradeoff.rungs import Rung
+from satcheck.studies.tradeoff.runs import LadderRun, VolumeRun
 
 SPENT = "budget"
 
@@ -41,7 +41,7 @@ class Gauge:
     rung: Rung
     state: State = "not run"
     reason: str | None = SPENT
-    answer: Asked | Measured | None = None
+    answer: LadderRun | VolumeRun | None = None
     cold: list[float] = field(default_factory=list)
     cached: list[float] = field(default_factory=list)
     cpu: list[float] = field(default_factory=list)
@@ -67,11 +67,11 @@ class Gauge:
     def fail(self, reason: str) -> None:
         self.state, self.reason = "failed", reason
 
-    def saw(self, answer: Asked | Measured, cold: float, cached: float | None) -> None:
+    def saw(self, answer: LadderRun | VolumeRun, cold: float, cached: float | None) -> None:
         self.state, self.reason = "answered", None
         self.answer = self.answer or answer
         self.cold.append(cold)
-        if isinstance(answer, Asked) and answer.cpu is not None:
+        if isinstance(answer, LadderRun) and answer.cpu is not None:
             self.cpu.append(answer.cpu)
         if cached is not None:
             self.cached.append(cached)

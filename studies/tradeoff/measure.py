@@ -13,13 +13,14 @@ from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.report.report import OVERLAPS
-from satcheck.studies.tradeoff.asking import Asked, Bodies, ask, ask_parts, ask_volume, own_rooms
-from satcheck.studies.tradeoff.climbed import picked
+from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import SPENT, Budget, Gauge
-from satcheck.studies.tradeoff.memory import OwnMemory
+from satcheck.studies.tradeoff.reading import climb_end
+from satcheck.studies.tradeoff.resources import OwnMemory
 from satcheck.studies.tradeoff.result import PairTradeoff, with_front
 from satcheck.studies.tradeoff.rows import row_of, truth_by
 from satcheck.studies.tradeoff.rungs import BOOLEAN, EXACT, GROUPS, RUNGS, Rung
+from satcheck.studies.tradeoff.runs import LadderRun, ask, ask_parts, ask_volume, body_volumes
 
 # What one run of convex parts may take whatever the budget: the default of a check.
 PART_SECONDS = Settings().part_seconds
@@ -29,7 +30,7 @@ def measure_pair(
     bodies: Bodies,
     repeat: int,
     budget: Budget,
-    told: Callable[[], None] | None = None,
+    on_run: Callable[[], None] | None = None,
     rungs: Sequence[Rung] | None = None,
 ) -> PairTradeoff:
     """repeat: runs of each rung; what does not fit the budget is left away, and said. rungs: None
@@ -37,7 +38,7 @@ def measure_pair(
 
     Rungs take turns, so that what slows the machine down for a while slows all of them. Convex
     parts run cold with an empty cache of their own, then with what they have left in it; the cache
-    of the user is neither read nor written. told: called after each run.
+    of the user is neither read nor written. on_run: called after each run.
     """
     a, b = (body.id for body in bodies)
     gauges = {rung: Gauge(rung) for rung in rungs or RUNGS}
@@ -50,12 +51,12 @@ def measure_pair(
                 _warm_up(bodies, budget)
                 _run(gauge, bodies, budget, apart=apart)
                 _weigh(gauge, bodies, budget, apart=apart)
-            if told is not None:
-                told()
+            if on_run is not None:
+                on_run()
     truth = truth_by(gauges[EXACT])
-    own = (None, None) if plainly is None else own_rooms(bodies)
+    own = (None, None) if plainly is None else body_volumes(bodies)
     rows = [row_of(gauge, truth, own) for gauge in gauges.values()]
-    default = None if plainly is None else picked(plainly.finding)
+    default = None if plainly is None else climb_end(plainly.finding)
     return PairTradeoff(a, b, truth, default, with_front(rows, truth.pad))
 
 
@@ -73,7 +74,7 @@ def _leave_out(gauge: Gauge, gauges: dict[Rung, Gauge]) -> None:
                 gauge.reason = f"{SPENT}: {rung.label} was stopped after {limit}"
 
 
-def _plain_check(bodies: Bodies, budget: Budget) -> Asked | None:
+def _plain_check(bodies: Bodies, budget: Budget) -> LadderRun | None:
     """What `satcheck A B` finds; None where the budget is spent, or the exact rung will fail."""
     if budget.left <= 0:
         return None
@@ -170,7 +171,7 @@ def _run_parts(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
     gauge.saw(cold, cold.seconds, cached.seconds if cached is not None and reread else None)
 
 
-def _fail_parts(gauge: Gauge, asked: Asked, limit: float) -> None:
+def _fail_parts(gauge: Gauge, asked: LadderRun, limit: float) -> None:
     if limit < PART_SECONDS and asked.seconds >= limit:
         gauge.stop(limit)
         return

@@ -9,14 +9,57 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.report.report import OVERLAPS, Relation, Tool
-from satcheck.studies.tradeoff.figure import Figure, Truth
-from satcheck.studies.tradeoff.pareto import front
+from satcheck.studies.tradeoff.pareto import Times, front
 from satcheck.studies.tradeoff.rungs import Rung
-from satcheck.studies.tradeoff.times import Times
 
 SCHEMA = "satcheck.tradeoff/1"
 
 State = Literal["answered", "failed", "not run"]
+
+
+class Figure(Struct, frozen=True):
+    """value: the figure a rung gives. low, high: what it leaves open; None: no bound."""
+
+    value: float
+    low: float | None
+    high: float | None
+
+    @property
+    def width(self) -> float | None:
+        return None if self.low is None or self.high is None else self.high - self.low
+
+
+class Truth(Struct, frozen=True):
+    """What the exact rung has proven; relation, figure: None where it has not, reason says why.
+
+    pad: what the rounding of a coordinate can make of a length.
+    """
+
+    relation: Relation | None
+    figure: Figure | None
+    pad: float
+    reason: str | None = None
+
+    def error(self, said: Figure | None) -> float | None:
+        """The figure minus the nearest signed distance that is possible; 0.0 within rounding.
+        Negative: closer or deeper than the bodies are."""
+        if said is None or self.figure is None:
+            return None
+        low, high = self.figure.low, self.figure.high
+        if low is None or high is None:
+            return None
+        nearest = min(max(said.value, low), high)
+        error = said.value - nearest
+        return 0.0 if abs(error) <= self.pad else error
+
+    def is_right(self, overlap: bool | None, relation: Relation | None) -> bool | None:
+        """Whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
+        `inside` and `coincident` are overlaps like any. relation: None where only that is said."""
+        if self.relation is None or overlap is None:
+            return None
+        if overlap != (self.relation in OVERLAPS):
+            return False
+        return overlap or relation in (None, self.relation)
 
 
 class Row(Struct, frozen=True, kw_only=True):
@@ -98,7 +141,7 @@ class Row(Struct, frozen=True, kw_only=True):
         }
 
 
-class Picked(Struct, frozen=True):
+class ClimbEnd(Struct, frozen=True):
     """The rung at which a plain check ends its climb, whether that settles the relation, and what
     each step said."""
 
@@ -111,12 +154,12 @@ class Picked(Struct, frozen=True):
 
 
 class PairTradeoff(Struct, frozen=True):
-    """picked: None where the budget was spent before anything ran."""
+    """default: None where the budget was spent before anything ran."""
 
     a: str
     b: str
     truth: Truth
-    picked: Picked | None
+    default: ClimbEnd | None
     rows: tuple[Row, ...]
 
     @property
@@ -133,7 +176,7 @@ class PairTradeoff(Struct, frozen=True):
                 "bounds": None if figure is None else [figure.low, figure.high],
                 "reason": truth.reason,
             },
-            "default": None if self.picked is None else self.picked.to_dict(),
+            "default": None if self.default is None else self.default.to_dict(),
             "rungs": [row.to_dict() for row in self.rows],
         }
 

@@ -5,22 +5,22 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from satcheck.report.report import OVERLAPS
-from satcheck.studies.tradeoff.asking import Asked, Measured, Rooms
-from satcheck.studies.tradeoff.figure import Truth, figure_of, is_of_bodies, plain, truth_of
 from satcheck.studies.tradeoff.gauge import Gauge
-from satcheck.studies.tradeoff.result import Row
+from satcheck.studies.tradeoff.pareto import Times
+from satcheck.studies.tradeoff.reading import figure_of, is_of_bodies, plain, truth_of
+from satcheck.studies.tradeoff.result import Row, Truth
 from satcheck.studies.tradeoff.rungs import EXACT
-from satcheck.studies.tradeoff.times import Times
+from satcheck.studies.tradeoff.runs import LadderRun, VolumeRun, Volumes
 
 
 def truth_by(exact: Gauge) -> Truth:
     answer = exact.answer
-    if not isinstance(answer, Asked):
+    if not isinstance(answer, LadderRun):
         return Truth(None, None, 0.0, f"the exact rung was not run: {exact.reason}")
     return truth_of(answer.finding, figure_of(answer.finding, answer.verdict), answer.pad)
 
 
-def row_of(gauge: Gauge, truth: Truth, own: Rooms) -> Row:
+def row_of(gauge: Gauge, truth: Truth, own: Volumes) -> Row:
     """own: volumes of the bodies."""
     row = Row(
         rung=gauge.rung,
@@ -34,7 +34,7 @@ def row_of(gauge: Gauge, truth: Truth, own: Rooms) -> Row:
     answer = gauge.answer
     if gauge.state != "answered" or answer is None:
         return row
-    if isinstance(answer, Measured):
+    if isinstance(answer, VolumeRun):
         return _with_volume(row, answer, truth)
     finding = answer.finding
     relation = plain(finding.relation)
@@ -50,13 +50,13 @@ def row_of(gauge: Gauge, truth: Truth, own: Rooms) -> Row:
         figure=figure,
         error=truth.error(figure),
         hulls=answer.hulls,
-        excess=_excess(own if answer.ended == EXACT.name else answer.room, own),
+        excess=_excess(own if answer.ended == EXACT.name else answer.volumes, own),
         settled_by=answer.ended,
         reason=None if known else finding.reason,
     )
 
 
-def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
+def _with_volume(row: Row, answer: VolumeRun, truth: Truth) -> Row:
     """A volume within its own error says nothing, except that there is none to be seen."""
     overlap = None if 0 < answer.volume <= answer.error else answer.volume > 0
     return replace(
@@ -69,9 +69,9 @@ def _with_volume(row: Row, answer: Measured, truth: Truth) -> Row:
     )
 
 
-def _excess(room: Rooms, own: Rooms) -> tuple[float | None, float | None]:
+def _excess(volumes: Volumes, own: Volumes) -> tuple[float | None, float | None]:
     a, b = (
         None if taken is None or not true else taken / true - 1.0
-        for taken, true in zip(room, own, strict=True)
+        for taken, true in zip(volumes, own, strict=True)
     )
     return a, b

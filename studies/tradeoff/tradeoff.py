@@ -12,7 +12,7 @@ from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.other_unit import require_in_range
-from satcheck.studies.tradeoff.asking import Bodies
+from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import Budget
 from satcheck.studies.tradeoff.measure import measure_pair
 from satcheck.studies.tradeoff.result import PairTradeoff, Tradeoff
@@ -44,7 +44,7 @@ def tradeoff(
         raise SatcheckError("no-pair", "no two bodies have boxes that meet: nothing to compare")
     done, total = 0, min(len(met), pairs) * repeat * len(RUNGS)
 
-    def told() -> None:
+    def on_run() -> None:
         nonlocal done
         done += 1
         if progress is not None:
@@ -53,7 +53,7 @@ def tradeoff(
     found: list[PairTradeoff] = []
     for bodies in met[:pairs]:
         waiting = min(len(met), pairs) - len(found)
-        found.append(measure_pair(bodies, repeat, clock.share(waiting), told))
+        found.append(measure_pair(bodies, repeat, clock.share(waiting), on_run))
     return Tradeoff(
         tool(), scene.units, repeat, budget, clock.spent, tuple(found), len(met) - len(found)
     )

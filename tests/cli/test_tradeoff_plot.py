@@ -15,9 +15,9 @@ from satcheck.cli.report.plot_style import DARK, FORMS, LIGHT, file_of
 from satcheck.cli.report.tradeoff_plot import draw
 from satcheck.studies.tradeoff import (
     RUNGS,
+    ClimbEnd,
     Figure,
     PairTradeoff,
-    Picked,
     Row,
     Times,
     Truth,
@@ -47,7 +47,7 @@ def made(**of_rung: tuple[float, float | None]) -> PairTradeoff:
                 cached=Times((0.5 * seconds,)) if rung.name == "parts" else None,
             )
         )
-    return PairTradeoff("a & <b>", "c", TRUTH, Picked("exact", True, ""), tuple(rows))
+    return PairTradeoff("a & <b>", "c", TRUTH, ClimbEnd("exact", True, ""), tuple(rows))
 
 
 def markers(figure: plots.Figure, panel: int = 0) -> dict[str, Line2D]:

@@ -49,9 +49,9 @@ def test_boxes_are_exact_on_every_rung_from_oriented_boxes_on() -> None:
     assert {label for label, row in seen.items() if row.on_front} <= {"aabb", "obb", "hull"}
     assert seen["hull"].on_front
     assert seen["boolean"].volume == pytest.approx(1.0 * 1.75 * 1.5, abs=1e-9)
-    assert pair.picked is not None
-    assert (pair.picked.rung, pair.picked.settled) == ("hull", True)
-    assert "both convex" in pair.picked.why
+    assert pair.default is not None
+    assert (pair.default.rung, pair.default.settled) == ("hull", True)
+    assert "both convex" in pair.default.why
 
 
 def test_a_peg_in_a_notch_is_apart_for_the_finer_rungs_only(
@@ -86,8 +86,8 @@ def test_a_peg_in_a_notch_is_apart_for_the_finer_rungs_only(
     assert seen["boolean"].excess is None
     assert seen["exact"].error == 0.0
     assert seen["exact"].on_front
-    assert pair.picked is not None
-    assert pair.picked.rung == "exact"
+    assert pair.default is not None
+    assert pair.default.rung == "exact"
 
 
 def test_a_spent_budget_is_said_of_every_rung() -> None:

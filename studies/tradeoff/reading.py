@@ -1,4 +1,4 @@
-"""Signed distances: what a rung says, what is proven, and how far the two are apart.
+"""What a finding says: where its climb ended, and the signed distance.
 
 Signed distance: > 0 a gap, < 0 an overlap, as deep as the shortest translation that ends it.
 """
@@ -7,55 +7,29 @@ from __future__ import annotations
 
 import math
 
-from msgspec import Struct
-
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.report.report import OVERLAPS, Finding, Relation
+from satcheck.report.report import Finding, Relation
+from satcheck.studies.tradeoff.result import ClimbEnd, Figure, Truth
+
+# Stages of a trace that are rungs, and how they are called here.
+STAGES = {"aabb": "aabb", "obb": "obb", "sat": "hull", "hull": "hull", "curved": "hull"}
+STAGES |= {"curved-exact": "hull", "parts": "parts", "triangles": "exact"}
+# What a stage records that had nothing to add to the one below.
+SKIPPED = "skipped"
 
 
-class Figure(Struct, frozen=True):
-    """value: the figure a rung gives. low, high: what it leaves open; None: no bound."""
-
-    value: float
-    low: float | None
-    high: float | None
-
-    @property
-    def width(self) -> float | None:
-        return None if self.low is None or self.high is None else self.high - self.low
-
-
-class Truth(Struct, frozen=True):
-    """What the exact rung has proven; relation, figure: None where it has not, reason says why.
-
-    pad: what the rounding of a coordinate can make of a length.
-    """
-
-    relation: Relation | None
-    figure: Figure | None
-    pad: float
-    reason: str | None = None
-
-    def error(self, said: Figure | None) -> float | None:
-        """The figure minus the nearest signed distance that is possible; 0.0 within rounding.
-        Negative: closer or deeper than the bodies are."""
-        if said is None or self.figure is None:
-            return None
-        low, high = self.figure.low, self.figure.high
-        if low is None or high is None:
-            return None
-        nearest = min(max(said.value, low), high)
-        error = said.value - nearest
-        return 0.0 if abs(error) <= self.pad else error
-
-    def is_right(self, overlap: bool | None, relation: Relation | None) -> bool | None:
-        """Whether an answer agrees. That bodies overlap is what a rung can know: `contains`,
-        `inside` and `coincident` are overlaps like any. relation: None where only that is said."""
-        if self.relation is None or overlap is None:
-            return None
-        if overlap != (self.relation in OVERLAPS):
-            return False
-        return overlap or relation in (None, self.relation)
+def climb_end(finding: Finding) -> ClimbEnd:
+    """The last stage that is a rung ended the climb; those before say why they could not."""
+    climbed = [stage for stage in finding.plan if stage.stage in STAGES]
+    said = [
+        f"{stage.stage} {stage.result}" + (f" ({stage.detail})" if stage.detail else "")
+        for stage in climbed
+    ]
+    ran = [STAGES[stage.stage] for stage in climbed if stage.result != SKIPPED]
+    settled = finding.exact_relation is not None and is_of_bodies(finding)
+    if not settled and finding.reason is not None:
+        said.append(finding.reason)
+    return ClimbEnd(ran[-1] if ran else "none", settled, "; ".join(said))
 
 
 def is_of_bodies(finding: Finding) -> bool:

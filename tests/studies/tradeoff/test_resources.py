@@ -1,4 +1,4 @@
-"""The memory of this process and of its children, as the system tells it."""
+"""CPU time and memory of this process and of its children, as the system tells them."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ import os
 import platform
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
 from satcheck.core.worker import Worker
-from satcheck.studies.tradeoff.memory import ChildMemory, OwnMemory
+from satcheck.studies.tradeoff.resources import ChildMemory, CpuClock, OwnMemory
 
 SERVERS = Path(__file__).resolve().parents[2] / "core" / "serve_modules"
 EATEN, LIMIT = 96, 1024
@@ -31,7 +32,7 @@ def test_the_peak_of_a_worker_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_without_a_worker_there_is_none() -> None:
     # In a process of its own: other tests leave workers that later files are read by.
     look = """
-from satcheck.studies.tradeoff.memory import ChildMemory
+from satcheck.studies.tradeoff.resources import ChildMemory
 with ChildMemory() as memory:
     memory.look()
 print(memory.megabytes)
@@ -52,3 +53,26 @@ def test_what_was_taken_and_given_back_is_seen() -> None:
     nothing = OwnMemory().grown
     assert nothing is not None
     assert nothing < COUNTED_LATE
+
+
+WORK = "import time\nwhile time.process_time() < 0.2: pass"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows counts no children")
+def test_a_child_counts_where_it_is_asked_for() -> None:
+    clock = CpuClock()
+    subprocess.run([sys.executable, "-c", WORK], check=True)
+    alone, together = clock.seconds(children=False), clock.seconds(children=True)
+    assert alone is not None
+    assert together is not None
+    # Of CPU time, which waits for no other process: the child worked 0.2 s, by its own account.
+    assert together - alone >= 0.19
+
+
+def test_what_waits_does_not_work() -> None:
+    before = time.process_time()
+    clock = CpuClock()
+    time.sleep(0.05)
+    used = clock.seconds(children=False)
+    assert used is not None
+    assert used <= time.process_time() - before

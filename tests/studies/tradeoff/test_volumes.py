@@ -11,7 +11,7 @@ from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.scene import Body, load_scene
-from satcheck.studies.tradeoff.room import own_room, room
+from satcheck.studies.tradeoff.volumes import body_volume, stand_in_volume
 
 SAMPLES = Path(__file__).resolve().parents[3] / "sample_meshes"
 # Areas: arms of 6 by 2 and 2 by 4; with the triangle between them; of the square around.
@@ -32,11 +32,11 @@ def turned(angle: float, scale: float) -> tuple[float, ...]:
 
 def test_of_an_l_as_it_stands() -> None:
     body = placed("l_bracket.obj")
-    known = {rung: room(rung, body) for rung in ("aabb", "obb", "hull")}
+    known = {rung: stand_in_volume(rung, body) for rung in ("aabb", "obb", "hull")}
     expected = {"aabb": L_BOX * THICK, "obb": L_BOX * THICK, "hull": L_HULL * THICK}
     assert known == pytest.approx(expected, rel=ROUNDOFF)
-    assert own_room(body) == pytest.approx(L * THICK, rel=ROUNDOFF)
-    assert room("parts", body) is None  # nobody has made any
+    assert body_volume(body) == pytest.approx(L * THICK, rel=ROUNDOFF)
+    assert stand_in_volume("parts", body) is None  # nobody has made any
 
 
 @pytest.mark.parametrize("scale", [0.5, 3.0])
@@ -44,13 +44,15 @@ def test_turned_and_scaled_the_box_of_the_world_alone_takes_more(scale: float) -
     still = placed("l_bracket.obj")
     body = placed("l_bracket.obj", turned(math.pi / 4, scale))
     for rung in ("obb", "hull"):
-        assert room(rung, body) == pytest.approx(scale**3 * (room(rung, still) or 0), rel=ROUNDOFF)
-    assert own_room(body) == pytest.approx(scale**3 * (own_room(still) or 0), rel=ROUNDOFF)
+        assert stand_in_volume(rung, body) == pytest.approx(
+            scale**3 * (stand_in_volume(rung, still) or 0), rel=ROUNDOFF
+        )
+    assert body_volume(body) == pytest.approx(scale**3 * (body_volume(still) or 0), rel=ROUNDOFF)
     # Turned by an eighth, y runs from 0 at the outer corner to 8 / sqrt(2) at the ends of the arms.
     area = (12.0 * math.sqrt(0.5)) * (8.0 * math.sqrt(0.5))
-    assert room("aabb", body) == pytest.approx(scale**3 * area * THICK, rel=ROUNDOFF)
+    assert stand_in_volume("aabb", body) == pytest.approx(scale**3 * area * THICK, rel=ROUNDOFF)
 
 
 @pytest.mark.parametrize("name", ["open_box.off", "kettle.obj"])
 def test_what_is_no_solid_or_overlaps_itself_has_none(name: str) -> None:
-    assert own_room(placed(name)) is None
+    assert body_volume(placed(name)) is None

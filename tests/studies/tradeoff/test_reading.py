@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from satcheck.report.report import Finding, Stage
-from satcheck.studies.tradeoff.climbed import picked
+from satcheck.studies.tradeoff.reading import climb_end
 
 MEET = Stage("aabb", "meet", 1.0, "world boxes meet")
 UNTURNED = Stage("obb", "skipped", 1.0, "not turned")
@@ -20,14 +20,14 @@ def finding(*plan: Stage, **known: Any) -> Finding:
 
 
 def test_the_last_rung_that_ran_ends_the_climb() -> None:
-    found = picked(finding(MEET, UNTURNED, APART, Stage("verify", "separated", 1.0, "moved")))
+    found = climb_end(finding(MEET, UNTURNED, APART, Stage("verify", "separated", 1.0, "moved")))
     assert (found.rung, found.settled) == ("hull", True)
     assert found.why == "aabb meet (world boxes meet); obb skipped (not turned); hull separated"
 
 
 def test_what_was_skipped_ended_nothing() -> None:
-    assert picked(finding(MEET, UNTURNED)).rung == "aabb"
-    assert picked(finding()).rung == "none"
+    assert climb_end(finding(MEET, UNTURNED)).rung == "aabb"
+    assert climb_end(finding()).rung == "none"
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ def test_what_was_skipped_ended_nothing() -> None:
     ],
 )
 def test_what_is_not_proven_of_the_bodies_is_not_settled(known: dict[str, Any]) -> None:
-    found = picked(
+    found = climb_end(
         finding(MEET, Stage("triangles", "separated", 1.0, ""), reason="made up", **known)
     )
     assert (found.rung, found.settled) == ("exact", False)

@@ -1,4 +1,4 @@
-"""How much room bodies take, and the shapes that a rung puts in their place: volumes, in the world.
+"""Volumes of bodies in the world, and of the shapes that a rung puts in their place.
 
 None: there is no such volume, or it is unknown.
 """
@@ -12,7 +12,7 @@ from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.core.errors import SatcheckError
 
 
-def own_room(body: PlacedBody) -> float | None:
+def body_volume(body: PlacedBody) -> float | None:
     """Of solids that cover no point twice."""
     if body.curved is not None or not body.solid or not body.shared.covers_once():
         return None
@@ -20,7 +20,7 @@ def own_room(body: PlacedBody) -> float | None:
     return math.ldexp(abs(file.health.volume), -3 * file.exponent) * _growth(body)
 
 
-def room(rung: str, body: PlacedBody) -> float | None:
+def stand_in_volume(rung: str, body: PlacedBody) -> float | None:
     """rung: by its name. Of convex parts, which have been made, the sum: what two of them share
     counts twice."""
     if body.curved is not None:

@@ -3,42 +3,36 @@
 from __future__ import annotations
 
 from time import perf_counter
-from typing import TYPE_CHECKING
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.planner import asked_by
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
-from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.figures.volume import common_volume
 from satcheck.audit.finding import examine
 from satcheck.core.errors import SatcheckError
+from satcheck.core.overlap_volume import VolumeMeter
 from satcheck.core.tolerances import rounding_pad
 from satcheck.report.report import Finding
-from satcheck.scene import Body
-from satcheck.studies.tradeoff.climbed import picked
-from satcheck.studies.tradeoff.cpu import CpuClock
-from satcheck.studies.tradeoff.memory import ChildMemory, OwnMemory
-from satcheck.studies.tradeoff.room import own_room, room
+from satcheck.studies.pair import Bodies, pair_of
+from satcheck.studies.tradeoff.reading import climb_end
+from satcheck.studies.tradeoff.resources import ChildMemory, CpuClock, OwnMemory
+from satcheck.studies.tradeoff.volumes import body_volume, stand_in_volume
 
-if TYPE_CHECKING:
-    from satcheck.core.overlap_volume import VolumeMeter
-
-Bodies = tuple[Body, Body]
-Rooms = tuple[float | None, float | None]
+Volumes = tuple[float | None, float | None]
 
 
-class Asked(Struct, frozen=True):
+class LadderRun(Struct, frozen=True):
     """The answer of a ladder.
 
     verdict: of the same ladder, for what it proves and nobody asked to report. pad: what rounding
     can make of a length here. seconds: from the meshes in memory to the finding, hulls and
     hierarchies made anew; reading the files is not in it. cpu: of these the processor was at work
     so long, on all threads and in child processes together; None: not known. ended: the rung at
-    which the climb ended. room: volume of the shapes that it put in the place of A and of B. hulls:
+    which the climb ended. volumes: of the shapes that it put in the place of A and of B. hulls:
     how many convex bodies stood for A and for B, where hulls answered. split: convex parts were
     asked for; from_cache: and found there. megabytes: of the child that made them, or by which this
     process grew, whichever is more. failure: why there are none.
@@ -50,7 +44,7 @@ class Asked(Struct, frozen=True):
     seconds: float
     cpu: float | None
     ended: str
-    room: Rooms
+    volumes: Volumes
     hulls: tuple[int, int] | None
     split: bool = False
     from_cache: bool = False
@@ -58,7 +52,7 @@ class Asked(Struct, frozen=True):
     failure: str | None = None
 
 
-class Measured(Struct, frozen=True):
+class VolumeRun(Struct, frozen=True):
     """The volume in common, and about how far it is off.
 
     cold: seconds with the start of the child process; cached: when it runs already.
@@ -71,93 +65,87 @@ class Measured(Struct, frozen=True):
     megabytes: float | None
 
 
-def ask(bodies: Bodies, settings: Settings) -> Asked:
+def ask(bodies: Bodies, settings: Settings) -> LadderRun:
     """As far up the ladder as the settings let it, nothing known from before."""
     return _climb(bodies, settings, children=False)[0]
 
 
-def ask_parts(bodies: Bodies, settings: Settings) -> Asked:
+def ask_parts(bodies: Bodies, settings: Settings) -> LadderRun:
     """The same of a ladder that ends with convex parts."""
     with ChildMemory() as memory:
         own = OwnMemory()
         asked, pair = _climb(bodies, settings, children=True)
         taken = [size for size in (memory.megabytes, own.grown) if size is not None]
-    known = [body.shared.decomposition.known for body in (pair.a, pair.b)]
-    made = [one for one in known if one is not None]
+    results = [body.shared.decomposition.known for body in (pair.a, pair.b)]
+    made = [result for result in results if result is not None]
     if not made:  # the hulls of the bodies are all there is
         return replace(asked, ended="hull") if asked.ended == "parts" else asked
-    failures = [str(one) for one in made if isinstance(one, SatcheckError)]
+    failures = [str(result) for result in made if isinstance(result, SatcheckError)]
     if failures:
         return replace(asked, split=True, failure=failures[0])
-    a, b = (1 if one is None or isinstance(one, SatcheckError) else len(one.parts) for one in known)
+    parts = [result for result in made if not isinstance(result, SatcheckError)]
+    a, b = (
+        1 if result is None or isinstance(result, SatcheckError) else len(result.parts)
+        for result in results
+    )
     return replace(
         asked,
         hulls=(a, b),
         split=True,
-        from_cache=all(one.from_cache for one in made if not isinstance(one, SatcheckError)),
+        from_cache=all(result.from_cache for result in parts),
         megabytes=max(taken, default=None),
     )
 
 
-def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[Asked, Pair]:
+def _climb(bodies: Bodies, settings: Settings, *, children: bool) -> tuple[LadderRun, Pair]:
     """children: some are at work."""
     clock, start = CpuClock(), perf_counter()
-    pair = _pair(bodies, settings)
+    pair = pair_of(bodies, settings)
     examined = examine(pair, Trace())
     finding = examined.finding
     seconds, cpu = perf_counter() - start, clock.seconds(children=children)
-    stages, ended = {stage.stage for stage in finding.plan}, picked(finding).rung
-    asked = Asked(
+    stages, ended = {stage.stage for stage in finding.plan}, climb_end(finding).rung
+    asked = LadderRun(
         finding=finding,
         verdict=examined.verdict,
         pad=rounding_pad(pair.largest_coordinate),
         seconds=seconds,
         cpu=cpu,
         ended=ended,
-        room=(room(ended, pair.a), room(ended, pair.b)),
+        volumes=(stand_in_volume(ended, pair.a), stand_in_volume(ended, pair.b)),
         # Where the hulls of the whole meshes answered.
         hulls=(1, 1) if "hull" in stages and "triangles" not in stages else None,
     )
     return asked, pair
 
 
-def own_rooms(bodies: Bodies) -> Rooms:
+def body_volumes(bodies: Bodies) -> Volumes:
     """Volumes of the bodies themselves."""
-    a, b = (own_room(BodyCache().place(body, Settings(), None)) for body in bodies)
-    return a, b
+    pair = pair_of(bodies, Settings())
+    return body_volume(pair.a), body_volume(pair.b)
 
 
-def ask_volume(bodies: Bodies, settings: Settings) -> Measured | str:
+def ask_volume(bodies: Bodies, settings: Settings) -> VolumeRun | str:
     """Of the Boolean of manifold3d, in a child process of its own; or why there is none."""
-    from satcheck.core.overlap_volume import VolumeMeter
-
     times: list[float] = []
     volume = error = 0.0
     seconds, megabytes = settings.volume_seconds, settings.volume_megabytes
     with ChildMemory() as memory, VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
         for _ in ("cold", "cached"):
             start = perf_counter()
-            found = _volume(_pair(bodies, settings, meter))
+            found = _volume(pair_of(bodies, settings, meter))
             times.append(perf_counter() - start)
             if isinstance(found, str):
                 return found
             volume, error = found
         memory.look()
-    return Measured(volume, error, times[0], times[1], memory.megabytes)
+    return VolumeRun(volume, error, times[0], times[1], memory.megabytes)
 
 
 def _volume(pair: Pair) -> tuple[float, float] | str:
-    from satcheck.audit.figures.volume import common_volume
-
     if pair.curved:
         return "a curved shape has no triangles"
     found = common_volume(pair, Verdict("penetrating", False), Trace())
     if found.volume is None or found.error is None:
         return found.refusal or "no volume"
     return found.volume, found.error
-
-
-def _pair(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) -> Pair:
-    cache = BodyCache()
-    a, b = (cache.place(body, settings, None) for body in bodies)
-    return Pair(a, b, settings, asked_by(settings), meter)

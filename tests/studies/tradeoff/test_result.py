@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from satcheck.report.report import Relation
-from satcheck.studies.tradeoff.figure import Figure, Truth
+from satcheck.studies.tradeoff.result import Figure, Truth
 
 DEEP = Truth("penetrating", Figure(-2.0, -2.0, -1.5), pad=1e-9)
 

@@ -1,9 +1,14 @@
-"""How much memory this process and its children took, where the system says so (Linux)."""
+"""CPU time and memory that this process and its children take.
+
+Memory is known on Linux alone.
+"""
 
 from __future__ import annotations
 
 import ctypes
+import sys
 import threading
+import time
 from contextlib import suppress
 from pathlib import Path
 
@@ -14,6 +19,31 @@ _PEAK = "VmHWM:"  # the high-water mark of the resident set, in KiB
 _WORKER = b"satcheck.core.worker_child"
 _KIB_PER_MIB = 1024.0
 _PERIOD = 0.02  # seconds; the mark only rises, so no more than the last rise is missed
+
+
+class CpuClock:
+    """Runs from where it is made, on all threads; what a child takes counts when it has ended."""
+
+    def __init__(self) -> None:
+        self._own, self._children = time.process_time(), _children_seconds()
+
+    def seconds(self, *, children: bool) -> float | None:
+        """children: some have been at work. None: the system does not say what they took."""
+        own, theirs = time.process_time() - self._own, _children_seconds()
+        if not children:
+            return own
+        if theirs is None or self._children is None:
+            return None
+        return own + theirs - self._children
+
+
+def _children_seconds() -> float | None:
+    if sys.platform == "win32":
+        return None
+    from resource import RUSAGE_CHILDREN, getrusage
+
+    used = getrusage(RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 class OwnMemory:
