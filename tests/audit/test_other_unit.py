@@ -11,6 +11,7 @@ import pytest
 from satcheck.audit import Report, Settings, check
 from satcheck.cli.report.json import render
 from satcheck.core.errors import SatcheckError
+from satcheck.report.bodies import Sphere
 from satcheck.scene import load_scene
 from satcheck.verify import verify
 from tests.audit.shapes import Mesh, bracket, moved, open_box, unit_box, write
@@ -123,7 +124,7 @@ def test_curved_shapes_and_motions(tmp_path: Path, scale: float) -> None:
     assert sweep is not None
     assert sweep.relation == "penetrating"
     assert sweep.at[0].value == pytest.approx(3 * scale, rel=1e-6)
-    assert report.bodies[0].shape == {"type": "sphere", "radius": scale}
+    assert report.bodies[0].shape == Sphere(radius=scale)
     assert report.bodies[0].transform is None
 
 
