@@ -231,6 +231,10 @@ class Exempt(Value, frozen=True):
 JointValues = Annotated[list[float], Meta(min_length=3, max_length=6)]
 
 
+# A glob of ids, or "group:" and a glob of groups.
+SelectorText = Annotated[str, Meta(min_length=1, pattern="^(?!group:$)")]
+
+
 class RuleReport(Value, frozen=True):
     """What the scene asks of the pairs with one body in each selector. None: the rule does not say.
 
@@ -240,8 +244,8 @@ class RuleReport(Value, frozen=True):
     of these pairs. where: it is written.
     """
 
-    a: Annotated[str, Meta(min_length=1)]
-    b: Annotated[str, Meta(min_length=1)]
+    a: SelectorText
+    b: SelectorText
     allowed: bool | None
     max_depth: Length | None
     max_volume: Length | None

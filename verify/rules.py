@@ -6,7 +6,6 @@ solver's, which compiles the same rules to sets of bodies.
 
 from __future__ import annotations
 
-import math
 import re
 from collections import Counter
 from collections.abc import Mapping
@@ -16,13 +15,12 @@ from itertools import combinations
 from typing import Any
 
 from satcheck.verify.bodies import Placed
-from satcheck.verify.exact import Rejected
 
 GROUP = "group:"
 NUMBERS = ("max_depth", "max_volume", "clearance", "tolerance")
 # Of findings, from the least; `silenced` is an error of a pair whose rule says `none`.
 SEVERITIES = ("none", "silenced", "note", "warning", "error")
-RULE_SEVERITIES = ("none", "note", "warning", "error")
+
 KEYS = ("allowed", *NUMBERS, "severity")
 
 
@@ -64,15 +62,8 @@ class Rules:
     """bodies: those of the report, by id."""
 
     def __init__(self, document: Json, bodies: Mapping[str, Placed]) -> None:
-        exempt = document.get("exempt")
-        if not isinstance(exempt, dict) or not isinstance(exempt.get("groups"), list):
-            raise Rejected("not a report: 'exempt' names no groups")
-        listed = document.get("rules")
-        if not isinstance(listed, list):
-            raise Rejected("not a report: 'rules' is no list")
-        self._rules = [_checked(rule) for rule in listed]
-        groups = {group for group in exempt["groups"] if isinstance(group, str)}
-        static = exempt.get("static_pairs") is True
+        self._rules = document["rules"]
+        groups, static = {*document["exempt"]["groups"]}, document["exempt"]["static_pairs"]
         about = self._about(bodies)
         self._kinds: dict[str, Kind] = {
             id_: (tuple(about[id_]), body.groups & groups, static and body.static)
@@ -171,22 +162,3 @@ def _escaped(name: str) -> str:
 def _name(rule: Json) -> str:
     """Where it is written, or else which pairs it is about."""
     return rule.get("where") or f"{rule['a']} and {rule['b']}"
-
-
-def _checked(rule: Any) -> Json:
-    if not isinstance(rule, dict) or not all(
-        isinstance(rule.get(side), str) and rule[side].removeprefix(GROUP) for side in "ab"
-    ):
-        raise Rejected("not a report: a rule has two selectors")
-    for key in NUMBERS:
-        value = rule.get(key)
-        known = isinstance(value, int | float) and not isinstance(value, bool)
-        if value is not None and not (known and math.isfinite(value) and value >= 0):
-            raise Rejected(f"not a report: {key} of a rule is no length or volume")
-    if rule.get("severity") not in (None, *RULE_SEVERITIES) or rule.get("allowed") not in (
-        None,
-        True,
-        False,
-    ):
-        raise Rejected("not a report: a rule says what no rule can")
-    return rule
