@@ -7,7 +7,8 @@ few lines, each next to the code that checks it, so that it can be read in one s
 numbers), `surfaces` (which triangles meet), `cells` (contact) and `exact` (numbers).
 """
 
-from satcheck.verify.document import Checked, Verification, verify
+from satcheck.report.verification import Checked
+from satcheck.verify.document import Verification, verify
 from satcheck.verify.exact import Rejected
 from satcheck.verify.strict_json import parse
 

@@ -9,12 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
-# proven: from the mesh files and the certificates. follows: checked against what is proven.
-# stated: what was asked, taken as it stands. certified: proven where the certificate of a finding
-# says so, else not covered. not covered: only its type is checked.
-Kind = Literal["proven", "follows", "stated", "certified", "not covered"]
+from satcheck.report.verification import Kind, Uncovered
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,16 +107,6 @@ COVERAGE: dict[str, Cover] = {
     "truncated.pairs": FOLLOWS,
     "truncated.reason": _not("reasons"),
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Uncovered:
-    """field: as in COVERAGE. findings: of how many, where it is a matter of the finding."""
-
-    field: str
-    kind: Kind
-    called: str
-    findings: int | None = None
 
 
 def uncovered(document: dict[str, Any], left: Iterable[str]) -> tuple[Uncovered, ...]:

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
+from satcheck.report.verification import Checked, Outcome, Uncovered
 from satcheck.verify.bodies import Bodies, Placed
-from satcheck.verify.coverage import Uncovered, uncovered
+from satcheck.verify.coverage import uncovered
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import Proven, check_finding, default_tolerance
@@ -30,23 +31,6 @@ UNDECIDED = (
 )
 EFFECTS = ("overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate")
 CERTAINLY = 1 + 1e-12  # far more than a difference of two numbers can be off by
-Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
-
-
-@dataclass(frozen=True, slots=True)
-class Checked:
-    """One finding. open: indeterminate, so nothing is claimed. no file: that of a body is not
-    there, so nothing is known. depth, mtv: proven too. left: what it says besides and is not
-    proven, fields as in `coverage.COVERAGE`."""
-
-    a: str
-    b: str
-    relation: str
-    outcome: Outcome
-    reason: str | None = None
-    depth: bool = False
-    mtv: bool = False
-    left: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

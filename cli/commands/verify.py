@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +25,11 @@ from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import counted
 from satcheck.core.errors import SatcheckError
+from satcheck.report.values import Tool
+from satcheck.report.verification import Outcome, VerificationReport
 from satcheck.scene.loading.regular_file import size_of
 from satcheck.verify import Checked, Rejected, Verification, parse, verify
-from satcheck.verify.document import Outcome
 
-SCHEMA = "satcheck.verification/1"
 MOST_BYTES = 1 << 30
 # At most this many files that are not there are named.
 MOST_NAMED = 3
@@ -81,7 +80,7 @@ def command(
             result = verify(content, root, bar, allow_outside=allow_outside)
     except Rejected as why:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
-    text = json_document(_values(result)) if form == "json" else _table(result)
+    text = json_document(_report(result)) if form == "json" else _table(result)
     document.deliver(lambda _: text, output, utf8=form == "json")
     if result.missing:
         talk(f"satcheck: {_missing(result, root)}")
@@ -110,19 +109,18 @@ def _read(report: Path) -> Any:
         raise SatcheckError("bad-report", f"{report}: {why}") from None
 
 
-def _values(result: Verification) -> dict[str, Any]:
-    return {
-        "schema": SCHEMA,
-        "tool": {"name": "satcheck", "version": __version__},
-        "accepted": result.accepted and result.certified,
-        "findings": [asdict(finding) for finding in result.findings],
-        "faults": list(result.faults),
-        "not_certified": list(result.beyond),
-        "pruned": result.pruned,
-        "exempt": result.exempt,
-        "missing": list(result.missing),
-        "not_covered": [asdict(field) for field in result.uncovered],
-    }
+def _report(result: Verification) -> VerificationReport:
+    return VerificationReport(
+        tool=Tool("satcheck", __version__),
+        accepted=result.accepted and result.certified,
+        findings=result.findings,
+        faults=result.faults,
+        not_certified=result.beyond,
+        pruned=result.pruned,
+        exempt=result.exempt,
+        missing=result.missing,
+        not_covered=result.uncovered,
+    )
 
 
 def _missing(result: Verification, root: Path) -> str:

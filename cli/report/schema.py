@@ -5,10 +5,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from msgspec import Struct
+
 from satcheck.report.report import Report
 from satcheck.report.schema import schema_of
+from satcheck.report.verification import VerificationReport
 
 HERE = Path(__file__).parent
+STRUCTS: dict[str, type[Struct]] = {"report": Report, "verification": VerificationReport}
 SCENE = HERE.parents[1] / "scene" / "format"
 
 
@@ -17,10 +21,9 @@ def text(name: str = "report") -> str:
     `stability`, `suggestions`, `tradeoff`, `verification`; `scene`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
-    report = schema_of("report", Report)
-    if name == "report":
-        return json.dumps(report, indent=2) + "\n"
+    if name in STRUCTS:
+        return json.dumps(schema_of(name, STRUCTS[name]), indent=2) + "\n"
     found = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")
     document = json.loads(found)
-    document["$defs"] = {**document.get("$defs", {}), "report": report}
+    document["$defs"] = {**document.get("$defs", {}), "report": schema_of("report", Report)}
     return json.dumps(document, indent=2) + "\n"
