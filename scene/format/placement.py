@@ -71,32 +71,22 @@ def moved(turn: Rotation, scale: Sequence[float], position: Sequence[float]) -> 
     )
 
 
-def is_4x4(rows: Any) -> bool:
-    """Lists of the right lengths; the numbers are another question."""
-    return (
-        isinstance(rows, list)
-        and len(rows) == 4
-        and all(isinstance(row, list) and len(row) == 4 for row in rows)
-    )
-
-
 def matrix(rows: Any) -> Transform:
-    """Four rows of four numbers, affine and not singular."""
-    if not is_4x4(rows):
+    """Four rows of four numbers, affine and not singular. Wrong names the first that is no finite
+    number."""
+    if not isinstance(rows, list) or [_length(row) for row in rows] != [4, 4, 4, 4]:
         raise Wrong(f"4 rows of 4 numbers expected, not {shown(rows)}")
-    entries = sixteen(rows)
-    if (fault := singular(entries)) is not None:
-        raise Wrong(fault, code="singular-transform")
-    return entries
-
-
-def sixteen(rows: list[list[Any]]) -> Transform:
-    """Row by row, of rows that are 4x4; Wrong names the first that is no finite number."""
-    first, second, third, fourth = rows
-    entries = numbers([*first, *second, *third, *fourth])
+    entries = numbers([entry for row in rows for entry in row])
     if entries is None:
         entries = [value for row in items(rows, lambda row: items(row, number)) for value in row]
-    return tuple(entries)
+    transform = tuple(entries)
+    if (fault := singular(transform)) is not None:
+        raise Wrong(fault, code="singular-transform")
+    return transform
+
+
+def _length(row: Any) -> int:
+    return len(row) if isinstance(row, list) else -1
 
 
 def singular(transform: Transform) -> str | None:
