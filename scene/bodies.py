@@ -159,7 +159,7 @@ class Scene(Struct, frozen=True):
         """All that was asked for; what `order` does not name comes last."""
         rank = {id_: number for number, id_ in enumerate(self.order)}
         everything: list[Body | Unreadable] = [*self.bodies, *self.unreadable]
-        return sorted(everything, key=lambda one: rank.get(one.id, len(rank)))
+        return sorted(everything, key=lambda body: rank.get(body.id, len(rank)))
 
 
 def resolution_in_world(file: MeshFile, transform: Transform | None, largest: float) -> float:

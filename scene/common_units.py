@@ -63,39 +63,39 @@ def in_one_unit(
     """
     by_id = {body.id: body for body in bodies}
     known_rules = {path: unit for path, text in rules.items() if (unit := stated_unit(text))}
-    for one in inputs:
-        _infer(one, [by_id[id_] for id_ in one.ids if id_ in by_id], known_rules)
+    for source in inputs:
+        _infer(source, [by_id[id_] for id_ in source.ids if id_ in by_id], known_rules)
     unit = _common(inputs) or next(iter(known_rules.values()), None)
     converted = {
-        id_: _converted(by_id[id_], one.unit, unit)
-        for one in inputs
-        for id_ in one.ids
+        id_: _converted(by_id[id_], source.unit, unit)
+        for source in inputs
+        for id_ in source.ids
         if id_ in by_id
     }
     scaled = [converted.get(body.id, body) for body in bodies]
-    units = {one.path: one.unit for one in inputs if one.kind == "scene"} | known_rules
+    units = {source.path: source.unit for source in inputs if source.kind == "scene"} | known_rules
     scales = {path: ratio(own, unit) for path, own in units.items() if own and unit}
-    declared = [*(one.declares for one in inputs), *rules.values()]
-    stated_by = {id_: one.path for one in inputs for id_ in one.ids}
+    declared = [*(source.declares for source in inputs), *rules.values()]
+    stated_by = {id_: source.path for source in inputs for id_ in source.ids}
     issues = (*_conversions(scaled, stated_by), *_unknown(scaled, inputs))
     return InOneUnit(tuple(scaled), unit, _label(scaled, declared, unit), scales, issues)
 
 
-def _infer(one: Input, bodies: Sequence[Body], rules: Mapping[str, str]) -> None:
-    if one.unit is not None:
+def _infer(source: Input, bodies: Sequence[Body], rules: Mapping[str, str]) -> None:
+    if source.unit is not None:
         return
     stated = {body.units for body in bodies if body.shape is None}
     if len(stated - {None}) == 0:
-        one.unit = next(iter(rules.values()), None)
+        source.unit = next(iter(rules.values()), None)
     elif len(stated) == 1:
-        (one.unit,) = stated
+        (source.unit,) = stated
 
 
 def _common(inputs: Iterable[Input]) -> str | None:
     units: dict[Kind, set[str]] = {}
-    for one in inputs:
-        if one.unit is not None:
-            units.setdefault(one.kind, set()).add(one.unit)
+    for source in inputs:
+        if source.unit is not None:
+            units.setdefault(source.kind, set()).add(source.unit)
     kind = next((kind for kind in ("robot", "scene", "mesh") if kind in units), None)
     return min(units[kind], key=MICROMETRES.__getitem__) if kind else None
 
@@ -161,8 +161,10 @@ def _unknown(bodies: Sequence[Body], inputs: Sequence[Input]) -> list[Issue]:
     """A warning where the units of two bodies cannot be compared."""
     if len({body.units for body in bodies}) < 2:
         return []
-    owners = {id_: one for one in inputs for id_ in one.ids}
-    unsaid = next((one.path for one in inputs if one.kind == "scene" and one.unit is None), None)
+    owners = {id_: source for source in inputs for id_ in source.ids}
+    unsaid = next(
+        (source.path for source in inputs if source.kind == "scene" and source.unit is None), None
+    )
     files: dict[str | None, dict[str, None]] = {}
     for body in bodies:
         owner = owners[body.id]

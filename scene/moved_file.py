@@ -79,7 +79,7 @@ def stray_mesh(source: str | None, output: Path, scene: Scene) -> str | None:
         return None
     folder = output.absolute().parent.resolve()
     meshes = (body.file.path for body in scene.bodies if body.shape is None)
-    return next((one for one in meshes if not Path(one).resolve().is_relative_to(folder)), None)
+    return next((mesh for mesh in meshes if not Path(mesh).resolve().is_relative_to(folder)), None)
 
 
 def _is_simple(source: str) -> bool:

@@ -77,7 +77,7 @@ def _of_metres(text: str) -> str | None:
         micrometres = float(text) * MICROMETRES["m"]
     except ValueError:
         return None
-    known = (name for name, one in MICROMETRES.items() if abs(micrometres - one) <= _SAME * one)
+    known = (name for name, size in MICROMETRES.items() if abs(micrometres - size) <= _SAME * size)
     return next(known, None)
 
 

@@ -85,7 +85,7 @@ def _message(drawing: Drawing, whole: bool) -> DrawingMessage:
             raise MeshFileError(shape.code, shape.message)
         return sheet_of(shape)
 
-    def one(shape: DrawnShape | RefusedShape) -> SheetMessage | RefusedShape:
+    def message(shape: DrawnShape | RefusedShape) -> SheetMessage | RefusedShape:
         try:
             return _sheet_message(triangulated(shape))
         except MeshFileError as error:
@@ -97,7 +97,7 @@ def _message(drawing: Drawing, whole: bool) -> DrawingMessage:
     if whole:
         sheets = (_sheet_message(united([triangulated(shape) for shape in drawing.shapes])),)
     else:
-        sheets = tuple(map(one, drawing.shapes))
+        sheets = tuple(map(message, drawing.shapes))
     return DrawingMessage(drawing.units, drawing.ignored, sheets)
 
 

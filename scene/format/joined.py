@@ -113,9 +113,9 @@ def _own_rules(
 
 def _written_out(rule: Rule, a: Sequence[str], b: Sequence[str]) -> Iterator[Rule]:
     seen = set()
-    for one in a:
-        for other in b:
-            pair = frozenset((one, other))
+    for first in a:
+        for second in b:
+            pair = frozenset((first, second))
             if len(pair) == 2 and pair not in seen:
                 seen.add(pair)
-                yield replace(rule, a=Selector.exactly(one), b=Selector.exactly(other))
+                yield replace(rule, a=Selector.exactly(first), b=Selector.exactly(second))

@@ -58,10 +58,10 @@ def _ids(
     moved: dict[str, str],
 ) -> tuple[str, ...]:
     ids: dict[str, None] = {}
-    for one in selectors:
-        chosen = one.select(bodies)
+    for choice in selectors:
+        chosen = choice.select(bodies)
         if not chosen:
-            table.wrong(f"no body matches {shown(one.text)}", "bodies", code="bad-motion")
+            table.wrong(f"no body matches {shown(choice.text)}", "bodies", code="bad-motion")
         fixed = next((body for body in chosen if body.static), None)
         if fixed is not None:
             table.wrong(f"body {shown(fixed.id)} is static", "bodies", code="bad-motion")

@@ -75,7 +75,7 @@ def laid_flat(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene:
         scene,
         bodies=tuple(bodies),
         unreadable=(*scene.unreadable, *lost),
-        issues=(*scene.issues, *(one.issue for one in lost)),
+        issues=(*scene.issues, *(body.issue for body in lost)),
         order=scene.order or tuple(body.id for body in scene.in_order()),
     )
 
@@ -107,7 +107,7 @@ def _covers_fills(body: Body, region: Region, plane: Plane) -> bool:
         if hull.mesh.triangle_count
     ]
     outlines = [convex_region(mesh, plane) for mesh in placed]
-    return all(covers(region, one.points) for one in outlines if len(one.triangles))
+    return all(covers(region, outline.points) for outline in outlines if len(outline.triangles))
 
 
 def _outline(body: Body, plane: Plane) -> Region:
@@ -151,7 +151,7 @@ def _heights(regions: Sequence[Region]) -> list[float]:
 
     They go by the outlines, so that the same bodies in another order have the same prisms.
     """
-    widest = max((float(np.ptp(one.points, axis=0).max()) for one in regions), default=1.0)
+    widest = max((float(np.ptp(region.points, axis=0).max()) for region in regions), default=1.0)
     least = 2.0 ** math.ceil(math.log2(_REACH * widest)) if widest > 0 else 1.0
     step = least / 2.0 ** len(regions).bit_length()  # a power of two: every sum is exact
     ranks = sorted(range(len(regions)), key=lambda k: _coordinates(regions[k]))

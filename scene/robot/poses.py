@@ -68,7 +68,7 @@ def read_poses(given: str) -> list[Pose] | Pose:
         return _pose(document, "the pose", file)
     if not isinstance(document, list) or not document:
         raise _bad('should be an object {"joint": value} or a list of such', file)
-    return [_pose(one, f"pose {k}", file) for k, one in enumerate(document, 1)]
+    return [_pose(pose, f"pose {k}", file) for k, pose in enumerate(document, 1)]
 
 
 def state_named(name: str, states: Iterable[State]) -> State:
