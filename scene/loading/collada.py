@@ -30,6 +30,9 @@ Geometry = tuple[Floats, Indices]  # vertices (n, 3), triangles (m, 3)
 _MOVES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
 _BENDS = frozenset({"lookat", "skew"})
 _MESHES = frozenset({"instance_geometry", "instance_controller"})
+_BESIDE = frozenset(  # what a node or a visual scene has besides what it places
+    ("asset", "extra", "evaluate_scene", "instance_camera", "instance_light", *_MOVES, *_BENDS)
+)
 _LINES = frozenset({"lines", "linestrips"})
 _ONE_P_EACH = frozenset({"polygons", "tristrips", "trifans"})
 _TRIANGLES = frozenset({"triangles", "polylist", *_ONE_P_EACH})
@@ -131,6 +134,8 @@ class _Document:
                 yield child
             elif child.tag == "instance_node":
                 yield self._target(child, "node")
+            elif child.tag not in _BESIDE:
+                child.refuse("could be geometry, and is not read", "unsupported-feature")
 
     def _carries(self, element: Element) -> bool:
         """Whether it has triangles, or something in it does."""

@@ -267,6 +267,8 @@ def test_mirrored_nodes_turn_the_faces_of_what_morphs_too(tmp_path):
         ),
         ('<node id="n">', '<node id="n"><rotate>0 0 0 9</rotate>', "bad-record"),
         ("<geometry ", '<geometry id="g"/><geometry ', "duplicate-id"),
+        ('<node id="n">', '<noode/><node id="n">', "unsupported-feature"),
+        ('<node id="n">', '<node id="n"><translte>1 0 0</translte>', "unsupported-feature"),
         ('meter="1"', 'meter="-1"', "bad-record"),
     ],
 )
