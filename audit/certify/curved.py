@@ -55,11 +55,11 @@ class _Maker:
         self.pair, self.finding = pair, finding
         self.checked = pair.a.checked(), pair.b.checked()
         self.placed = curved_pair_of(*self.checked)
-        found = convex_pair(pair.a, pair.b)
-        if found is None:
+        signed = convex_pair(pair.a, pair.b)
+        if signed is None:
             raise Rejected("the bounds of a curved shape did not close")
-        self.found: Signed = found
-        self.proof, self.bits = proof_of(pair.a, pair.b, found)
+        self.signed: Signed = signed
+        self.proof, self.bits = proof_of(pair.a, pair.b, signed)
 
     def relation(self) -> Json | None:
         exact = self.finding.exact_relation
@@ -79,7 +79,7 @@ class _Maker:
         for axis in range(3):
             for side in (1, -1):
                 yield [side if k == axis else 0 for k in range(3)]
-        for hint in (self.finding.normal, self.found.normal, *hints):
+        for hint in (self.finding.normal, self.signed.normal, *hints):
             if hint is not None and any(hint):
                 yield list(hint)
         if self.proof is not None:
@@ -117,7 +117,7 @@ class _Maker:
     def _inner_points(self) -> Iterator[Point]:
         if self.proof is not None and self.proof.outcome == "penetrating" and self.proof.point:
             yield _rational(self.proof.point, self.bits)
-        a, b = self.found.witness_a, self.found.witness_b
+        a, b = self.signed.witness_a, self.signed.witness_b
         if a is not None and b is not None:
             for share in (Fraction(1, 2), Fraction(1, 4), Fraction(3, 4)):
                 yield _between(_exact(a), _exact(b), share)
@@ -149,7 +149,7 @@ class _Maker:
         for axis in self._axes([-c for c in move]):
             if _at_least(placed, vector(axis), Fraction(0), 0):
                 return {"kind": "axis", "axis": axis}
-        proof, _ = proof_of(self.pair.a, self.pair.b, self.found, move)
+        proof, _ = proof_of(self.pair.a, self.pair.b, self.signed, move)
         return None if proof is None else {"kind": "axis", "axis": _text(proof.axis)}
 
     def band(self) -> Json:
@@ -164,12 +164,12 @@ class _Maker:
             points = {"a": self._on(p, "a"), "b": self._on(q, "b")}
             if None not in points.values():
                 return {"gap": points}
-        elif self.found.witness_a is not None and self.found.witness_b is not None:
+        elif self.signed.witness_a is not None and self.signed.witness_b is not None:
             ends = zip(
                 ("a", "b"),
                 (self.placed.a, self.placed.b),
                 (self.pair.a, self.pair.b),
-                (self.found.witness_a, self.found.witness_b),
+                (self.signed.witness_a, self.signed.witness_b),
                 strict=True,
             )
             points = {key: _pulled_in(_exact(p), body, placed) for key, body, placed, p in ends}

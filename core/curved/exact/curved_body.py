@@ -1,7 +1,7 @@
 """A curved shape: the exact image of a primitive under a matrix.
 
-x = M y + t for y in the primitive, whose support h gives h(M^T n) + t.n. Nothing is asked of M but
-that it is not singular: a rotation of rounded numbers is taken as what it is.
+x = M y + t for y in the primitive, whose support h gives h(M^T n) + t.n. M is any matrix that is
+not singular: a rotation of rounded numbers is taken as what it is.
 """
 
 from __future__ import annotations
@@ -154,8 +154,8 @@ class CurvedBody:
             rows = [self.inverse[2]]
         else:
             return []
-        found = [shortened(row) for row in rows]
-        return [n if dot(n, toward) > 0 else negated(n) for n in found]
+        normals = [shortened(row) for row in rows]
+        return [n if dot(n, toward) > 0 else negated(n) for n in normals]
 
     def lines(self, _toward: Vector) -> list[tuple[Vector, Vector]]:
         if self.kind is Capsule or self.kind is Cylinder:

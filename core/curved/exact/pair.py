@@ -1,4 +1,4 @@
-"""The rung for what bounds leave open: both bodies on one lattice, and what is proven of them."""
+"""What bounds leave open: both bodies on one lattice, and what is proven of them there."""
 
 from __future__ import annotations
 

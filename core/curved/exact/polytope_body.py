@@ -24,13 +24,13 @@ from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 Floats = npt.NDArray[np.float64]
 Triangles = npt.NDArray[np.uint32]
 
-# So many features of a kind are looked at; where a body stands on more of them, a few of them say
+# At most so many features of a kind are tried: where a body stands on more, a few of them prove
 # the same as all.
 MOST = 4
-# What lies this close to the support along an estimated axis, relative to the size, may be what it
-# stands on: far more than the axis is off, since what else is found costs time alone.
+# Vertices this close to the support along an estimated axis, relative to the size, may be those
+# that the body stands on. That is far more than the axis is off: one too many costs only time.
 NEAR = 1e-5
-# So many vertices are asked one by one.
+# Up to so many vertices each one is compared exactly.
 _FEW = 16
 _ROUNDED = CHAIN_ROUNDOFFS * UNIT_ROUNDOFF
 
@@ -45,11 +45,11 @@ class PolytopeBody:
         self._known: dict[int, Vector] = {}
 
     def _vertex(self, k: int) -> Vector:
-        found = self._known.get(k)
-        if found is None:
+        vertex = self._known.get(k)
+        if vertex is None:
             x, y, z = (integer(c, self.bits) for c in self.vertices[k].tolist())
-            found = self._known[k] = (x, y, z)
-        return found
+            vertex = self._known[k] = (x, y, z)
+        return vertex
 
     def _plane(self, triangle: int) -> tuple[Vector, int]:
         """An outward normal, and its product with the points of the plane."""
@@ -82,15 +82,15 @@ class PolytopeBody:
     def side(self, p: Point) -> int:
         if self.flat:
             return 0 if self._is_on_triangle(p) else -1
-        found = 1
+        side = 1
         for triangle in self._faces_near(p):
             n, height = self._plane(triangle)
             beyond = dot(n, p) - height * p[3]
             if beyond > 0:
                 return -1
             if beyond == 0 and any(n):
-                found = 0
-        return found
+                side = 0
+        return side
 
     def _faces_near(self, p: Point) -> list[int]:
         """All but those that float64 proves the point to lie behind."""
@@ -101,8 +101,8 @@ class PolytopeBody:
         heights = np.einsum("ij,ij->i", normals, point - a)
         size = float(np.abs(self.vertices).max() + np.abs(point).max())
         lengths = np.linalg.norm(b - a, axis=1) * np.linalg.norm(c - a, axis=1)
-        found: list[int] = np.flatnonzero(heights >= -_ROUNDED * size * lengths).tolist()
-        return found
+        faces: list[int] = np.flatnonzero(heights >= -_ROUNDED * size * lengths).tolist()
+        return faces
 
     def _is_on_triangle(self, p: Point) -> bool:
         n, height = self._plane(0)
@@ -117,8 +117,8 @@ class PolytopeBody:
 
     def face_normals(self) -> set[Vector]:
         """Outward, exact, each once."""
-        found = {shortened(self._plane(k)[0]) for k in range(len(self.triangles))}
-        return {n for n in found if any(n)}
+        normals = {shortened(self._plane(k)[0]) for k in range(len(self.triangles))}
+        return {n for n in normals if any(n)}
 
     def corners(self) -> list[Point]:
         return [(*self._vertex(k), 1) for k in range(len(self.vertices))]
@@ -127,8 +127,8 @@ class PolytopeBody:
         """Of each vertex, whether it reaches about as far along the axis as any."""
         products = self.vertices @ _floats(toward)
         spread = np.linalg.norm(np.ptp(self.vertices, axis=0))
-        found: npt.NDArray[np.bool_] = products >= products.max() - NEAR * spread
-        return found
+        near: npt.NDArray[np.bool_] = products >= products.max() - NEAR * spread
+        return near
 
     def _edges(self) -> npt.NDArray[np.uint32]:
         ends = np.concatenate([self.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
@@ -144,10 +144,10 @@ class PolytopeBody:
         if self.flat:
             along = np.abs(along)
         order = near[np.argsort(-along, kind="stable")][: 4 * MOST].tolist()
-        found = [shortened(self._plane(k)[0]) for k in order]
+        normals = [shortened(self._plane(k)[0]) for k in order]
         if self.flat:
-            found = [n if dot(n, toward) > 0 else negated(n) for n in found]
-        return list(dict.fromkeys(n for n in found if any(n)))[:MOST]
+            normals = [n if dot(n, toward) > 0 else negated(n) for n in normals]
+        return list(dict.fromkeys(n for n in normals if any(n)))[:MOST]
 
     def lines(self, toward: Vector) -> list[tuple[Vector, Vector]]:
         """Edges, those across the axis first."""
