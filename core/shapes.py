@@ -9,12 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from msgspec import Struct
+from msgspec import Struct, to_builtins
+from msgspec.structs import force_setattr
 
 from satcheck.core.conventions import Vector
 from satcheck.core.power_of_two import times_power
 
-Values = dict[str, str | float | list[float]]
+Values = dict[str, str | float | Vector]
 Columns = tuple[Vector, Vector, Vector]
 
 _TRIPLES = frozenset(("size", "radii"))
@@ -24,12 +25,12 @@ UNTURNED: Columns = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _TURN_ROUNDING = 2.0**-47
 
 
-class Sized(Struct, frozen=True):
+class Sized(Struct, frozen=True, tag_field="type", tag=str.lower):
     """Its fields are sizes: numbers, or tuples of three, positive and finite. Else ValueError."""
 
     def __post_init__(self) -> None:
         for name in self.__struct_fields__:
-            _check_size(name, getattr(self, name))
+            force_setattr(self, name, _checked_size(name, getattr(self, name)))
 
 
 class Box(Sized, frozen=True):
@@ -88,17 +89,27 @@ def is_curved(shape: Primitive) -> bool:
 
 
 def values_of(shape: Primitive) -> Values:
-    """{"type": "box", "size": [x, y, z]} and the like: as a scene file states the shape."""
-    values: Values = {"type": type(shape).__name__.lower()}
-    for name in shape.__struct_fields__:
-        size = getattr(shape, name)
-        values[name] = list(map(float, size)) if name in _TRIPLES else float(size)
-    return values
+    """{"type": "box", "size": (x, y, z)} and the like: as a scene file states the shape."""
+    return to_builtins(shape)  # type: ignore[no-any-return]
 
 
 def sizes_of(shape: Primitive) -> tuple[float, ...]:
+    """As the shape states them."""
     sizes = (getattr(shape, name) for name in shape.__struct_fields__)
     return tuple(s for size in sizes for s in (size if isinstance(size, tuple) else (size,)))
+
+
+def half_sizes(shape: Primitive) -> Vector:
+    """Radius, radius, half height, of a capsule without its caps; of an ellipsoid its radii."""
+    match shape:
+        case Sphere(radius):
+            return radius, radius, 0.0
+        case Capsule(radius, height) | Cylinder(radius, height) | Cone(radius, height):
+            return radius, radius, height / 2
+        case Ellipsoid(radii):
+            return radii
+        case Box((x, y, z)):
+            return x / 2, y / 2, z / 2
 
 
 def times_power_of_two(shape: Primitive, exponent: int) -> Primitive | None:
@@ -182,7 +193,8 @@ def _is_turn(columns: Columns) -> bool:
     return True
 
 
-def _check_size(name: str, value: float | tuple[float, ...]) -> None:
+def _checked_size(name: str, value: float | tuple[float, ...]) -> float | tuple[float, ...]:
+    """In float64."""
     wanted = 3 if name in _TRIPLES else 1
     numbers = value if isinstance(value, tuple) else (value,)
     if isinstance(value, tuple) != (wanted == 3) or len(numbers) != wanted:
@@ -192,6 +204,7 @@ def _check_size(name: str, value: float | tuple[float, ...]) -> None:
         raise ValueError(f"{name} holds something else than numbers")
     if not _are_positive(numbers):
         raise ValueError(f"{name} should be positive and finite")
+    return tuple(map(float, numbers)) if isinstance(value, tuple) else float(value)
 
 
 def _are_positive(numbers: Sequence[float]) -> bool:

@@ -69,15 +69,11 @@ def _nested(pair: Pair, signed: Signed, trace: Trace) -> Verdict:
     """Of convex bodies that overlap: whether one holds the other."""
     nested = nesting(pair.a, pair.b)
     if nested.exact:
-        known = None not in (nested.a_holds_b, nested.b_holds_a)
-        trace.record(PROOF, "known" if known else "undecided", "which holds which")
-    relation: Relation = "contains" if nested.a_holds_b else "penetrating"
-    if nested.b_holds_a and not nested.a_holds_b:
-        relation = "inside"
-    if relation != "penetrating":
-        trace.record("containment", relation, "one shape holds the other")
+        trace.record(PROOF, "known" if nested.known else "undecided", "which holds which")
+    if nested.relation != "penetrating":
+        trace.record("containment", nested.relation, "one shape holds the other")
     reason = None if nested.known else TOO_CLOSE
-    return Verdict(relation, nested.known, 0.0, signed, reason=reason, overlaps=True)
+    return Verdict(nested.relation, nested.known, 0.0, signed, reason=reason, overlaps=True)
 
 
 def _settle_mesh(pair: Pair, trace: Trace) -> Verdict:
@@ -126,6 +122,6 @@ def _open(result: InMesh, mesh: PlacedBody, seen: Nearest) -> str:
     """Why the relation is undecided."""
     if result.hole is None:
         return _OPEN_TRIANGLES if seen.undecided else _NO_POINT
-    number, count = result.hole.number, result.hole.count
+    number, count = result.hole
     which = "the hole" if count == 1 else f"hole {number + 1} of {count}"
     return f"{which} of {mesh.id} meets the curved shape: what fills it decides"

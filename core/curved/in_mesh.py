@@ -15,6 +15,7 @@ from satcheck.core.curved.placed import Body, CurvedShape
 from satcheck.core.curved.signed import Signed
 from satcheck.core.curved.triangles import Nearest, against_triangles
 
+Hole = tuple[int, int]  # its number, from 0 on, and how many the mesh has
 # Points of the unit ball, the middle first: where that lies on the surface another one may not.
 _TRIED: tuple[Vector, ...] = (
     (0.0, 0.0, 0.0),
@@ -22,13 +23,6 @@ _TRIED: tuple[Vector, ...] = (
     (-0.59, 0.31, -0.47),
     (0.23, -0.71, 0.41),
 )
-
-
-class Hole(Struct, frozen=True):
-    """number: of `count` holes of the mesh, from 0 on."""
-
-    number: int
-    count: int
 
 
 class InMesh(Struct, frozen=True):
@@ -102,7 +96,7 @@ def hole_in_the_way(curved: CurvedShape, mesh: Body, outcome: str) -> Hole | Non
         seen = against_triangles(curved, hull.mesh, 0.0)
         harmless = _outcome(seen) in ("separated", "touching" if outcome == "touching" else "")
         if seen.undecided or not harmless or _holds_middle(hull, curved):
-            return Hole(number, len(hulls))
+            return number, len(hulls)
     return None
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ from satcheck.core.curved.exact.curved_body import CurvedBody
 from satcheck.core.curved.exact.lattice import Vector, negated, sign_of_difference
 from satcheck.core.curved.exact.pair import on_lattice
 from satcheck.core.curved.exact.polytope_body import PolytopeBody
+from satcheck.core.curved.exact.proof import ExactBody
 from satcheck.core.curved.placed import Body, CurvedShape, Quaternion, rows_of
 from satcheck.core.shape_mesh import mesh_around
 from satcheck.core.shapes import (
@@ -32,30 +34,25 @@ Floats = npt.NDArray[np.float64]
 
 
 class Nesting(Struct, frozen=True):
-    """Whether A holds B, and B holds A; None: not known. exact: exact arithmetic was asked."""
+    """relation: of A to B, which overlap. known: else it may be another one of these. exact: exact
+    arithmetic was asked."""
 
-    a_holds_b: bool | None
-    b_holds_a: bool | None
-    exact: bool = False
-
-    @property
-    def known(self) -> bool:
-        return True in (self.a_holds_b, self.b_holds_a) or self.neither
-
-    @property
-    def neither(self) -> bool:
-        return self.a_holds_b is False and self.b_holds_a is False
+    relation: Literal["contains", "inside", "penetrating"]
+    known: bool
+    exact: bool
 
 
 def nesting(a: Body, b: Body) -> Nesting:
-    """Of two convex bodies of which one at least is curved."""
+    """Of two convex bodies that overlap, of which one at least is curved."""
     forth, back = _holds(a, b), _holds(b, a)
-    if forth is not None and back is not None:
-        return Nesting(forth, back)
-    exact = exact_nesting(a, b)
-    return Nesting(
-        exact[0] if forth is None else forth, exact[1] if back is None else back, exact=True
-    )
+    exact = forth is None or back is None
+    if exact:
+        exact_forth, exact_back = exact_nesting(a, b)
+        forth = exact_forth if forth is None else forth
+        back = exact_back if back is None else back
+    if forth or back:
+        return Nesting("contains" if forth else "inside", True, exact)
+    return Nesting("penetrating", forth is False and back is False, exact)
 
 
 def _holds(outer: Body, inner: Body) -> bool | None:
@@ -161,7 +158,7 @@ def exact_nesting(a: Body, b: Body) -> tuple[bool | None, bool | None]:
     return _holds_exactly(first, second), _holds_exactly(second, first)
 
 
-def _holds_exactly(outer: CurvedBody | PolytopeBody, inner: CurvedBody | PolytopeBody) -> bool:
+def _holds_exactly(outer: ExactBody, inner: ExactBody) -> bool:
     if isinstance(outer, PolytopeBody):
         return all(
             sign_of_difference(inner.reach(n), outer.reach(n)) < 0 for n in outer.face_normals()

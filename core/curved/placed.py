@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Protocol
 
 from msgspec import Struct
@@ -19,6 +20,7 @@ from satcheck.core.shapes import (
     Primitive,
     ShapeImage,
     Sphere,
+    half_sizes,
     image_of,
     support,
 )
@@ -28,6 +30,11 @@ Pose = tuple[float, ...]  # (tx, ty, tz, qx, qy, qz, qw)
 Quaternion = tuple[float, float, float, float]
 _NO_TURN = (0.0, 0.0, 0.0, 1.0)
 _PAIRS = ((0, 1), (0, 2), (1, 2))
+_UPRIGHT: dict[type, Callable[[float, float], native.Shape]] = {
+    Capsule: native.Capsule,
+    Cylinder: native.Cylinder,
+    Cone: native.Cone,
+}
 
 
 class CurvedShape(Struct, frozen=True):
@@ -126,33 +133,24 @@ def curved_shape(primitive: Primitive, transform: tuple[float, ...] | None) -> C
 
 
 def _native_shape(primitive: Primitive) -> native.Shape:
-    match primitive:
-        case Sphere(radius):
-            return native.Sphere(radius)
-        case Capsule(radius, length):
-            return native.Capsule(radius, length / 2)
-        case Cylinder(radius, height):
-            return native.Cylinder(radius, height / 2)
-        case Cone(radius, height):
-            return native.Cone(radius, height / 2)
-        case Ellipsoid(radii):
-            return native.Ellipsoid(radii)
-        case _:
-            raise ValueError("a box is its mesh")
+    sizes = half_sizes(primitive)
+    if isinstance(primitive, Ellipsoid):
+        return native.Ellipsoid(sizes)
+    radius, _, half_height = sizes
+    if isinstance(primitive, Sphere):
+        return native.Sphere(radius)
+    return _UPRIGHT[type(primitive)](radius, half_height)
 
 
 def _inner_radius(primitive: Primitive) -> float:
+    a, b, half_height = half_sizes(primitive)
     match primitive:
-        case Cylinder(radius, height):
-            return min(radius, height / 2)
+        case Sphere() | Capsule():
+            return a
         case Cone(radius, height):  # half way up, by the slope of its side
-            return min(height / 2, radius / 2 * (height / math.hypot(radius, height)))
-        case Ellipsoid(radii):
-            return min(radii)
-        case Sphere(radius) | Capsule(radius, _):
-            return radius
+            return min(half_height, radius / 2 * (height / math.hypot(radius, height)))
         case _:
-            raise ValueError("a box is its mesh")
+            return min(a, b, half_height)
 
 
 def _extent(primitive: Primitive) -> float:

@@ -45,7 +45,7 @@ def test_values_are_those_of_a_scene_file(shape: Primitive) -> None:
 
 
 def test_whole_numbers_state_the_same_shape() -> None:
-    assert values_of(Box((1, 2, 3))) == values_of(BOX) == {"type": "box", "size": [1.0, 2.0, 3.0]}
+    assert values_of(Box((1, 2, 3))) == values_of(BOX) == {"type": "box", "size": (1.0, 2.0, 3.0)}
     assert Box((1, 2, 3)) == BOX
 
 

@@ -21,24 +21,9 @@ from satcheck.core.curved.exact.lattice import (
     negated,
     shortened,
 )
-from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, Primitive, ShapeImage, Sphere
+from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, ShapeImage, Sphere, half_sizes
 
-Sizes = tuple[int, int, int]  # radius, radius, half height; of an ellipsoid its radii
-
-
-def sizes_of(primitive: Primitive) -> tuple[float, ...]:
-    """Radius, radius, half height, of a capsule without its caps; of an ellipsoid its radii."""
-    match primitive:
-        case Sphere(radius):
-            return float(radius), float(radius), 0.0
-        case Capsule(radius, length):
-            return float(radius), float(radius), length / 2
-        case Cylinder(radius, height) | Cone(radius, height):
-            return float(radius), float(radius), height / 2
-        case Ellipsoid(radii):
-            return tuple(map(float, radii))
-        case _:
-            raise ValueError("a box is its mesh")
+Sizes = tuple[int, int, int]  # as of half_sizes
 
 
 class CurvedBody:
@@ -51,7 +36,7 @@ class CurvedBody:
         x, y, z = (_integers(column, matrix_bits) for column in image.columns)
         self.columns = x, y, z
         self.origin: Vector = _integers(image.origin, bits)
-        a, b, c = (integer(s, bits - matrix_bits) for s in sizes_of(image.primitive))
+        a, b, c = (integer(s, bits - matrix_bits) for s in half_sizes(image.primitive))
         self.sizes = a, b, c
         # Rows of the inverse of M, times its determinant.
         self.inverse = cross(y, z), cross(z, x), cross(x, y)
@@ -62,6 +47,7 @@ class CurvedBody:
         return (*self.origin, 1)
 
     def reach(self, n: Vector) -> Reach:
+        """The largest product of n with a point of the body."""
         x, y, z = self._turned(n)
         a, b, c = self.sizes
         base = dot(self.origin, n)
@@ -87,6 +73,8 @@ class CurvedBody:
         return 4 * c * c * z * z - a * a * (x * x + y * y)
 
     def face(self, n: Vector) -> Face:
+        """The points that reach farthest along n; points very close to them where they are
+        irrational."""
         x, y, z = self._turned(n)
         a, b, c = self.sizes
         if self.kind is Ellipsoid:
@@ -128,6 +116,7 @@ class CurvedBody:
         return x, y, z, p[3]
 
     def side(self, p: Point) -> int:
+        """1 inside, 0 on the border, -1 outside."""
         w = p[3] * abs(self.determinant)
         step = tuple(p[k] - p[3] * self.origin[k] for k in range(3))
         x, y, z = (dot(row, step) for row in self.inverse)
@@ -158,11 +147,13 @@ class CurvedBody:
         return [n if dot(n, toward) > 0 else negated(n) for n in normals]
 
     def lines(self, _toward: Vector) -> list[tuple[Vector, Vector]]:
+        """Lines that a contact may depend on, each a point and a direction."""
         if self.kind is Capsule or self.kind is Cylinder:
             return [(self.origin, shortened(self.columns[2]))]
         return []
 
     def points(self, _toward: Vector) -> list[Vector]:
+        """Points that a contact may depend on."""
         if self.kind is Sphere or self.kind is Ellipsoid or self.kind is Cylinder:
             return [self.origin]
         half = combined([self.columns[2]], [self.sizes[2]])

@@ -12,7 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.core.conventions import Vector as WorldVector
-from satcheck.core.curved.exact.curved_body import CurvedBody, sizes_of
+from satcheck.core.curved.exact.curved_body import CurvedBody
 from satcheck.core.curved.exact.lattice import (
     Point,
     Vector,
@@ -22,10 +22,10 @@ from satcheck.core.curved.exact.lattice import (
     root_bounds,
 )
 from satcheck.core.curved.exact.polytope_body import Floats, PolytopeBody, Triangles
-from satcheck.core.curved.exact.proof import Proof, candidates, prove
+from satcheck.core.curved.exact.proof import ExactBody, Proof, candidates, prove
 from satcheck.core.curved.placed import Body
 from satcheck.core.curved.signed import ORIGIN, Signed
-from satcheck.core.shapes import ShapeImage
+from satcheck.core.shapes import ShapeImage, half_sizes
 
 
 class Faces(Struct, frozen=True):
@@ -47,12 +47,12 @@ class Lattice:
     def __init__(self, sides: Sequence[Side]) -> None:
         images = [side for side in sides if isinstance(side, ShapeImage)]
         self.matrix_bits = max(bits_of(c for column in g.columns for c in column) for g in images)
-        sizes = max(bits_of(sizes_of(g.primitive)) for g in images)
+        sizes = max(bits_of(half_sizes(g.primitive)) for g in images)
         origins = max(bits_of(g.origin) for g in images)
         corners = [bits_of_array(side.vertices) for side in sides if isinstance(side, Faces)]
         self.bits = max(origins, self.matrix_bits + sizes, *corners)
 
-    def body(self, side: Side) -> CurvedBody | PolytopeBody:
+    def body(self, side: Side) -> ExactBody:
         if isinstance(side, ShapeImage):
             return CurvedBody(side, self.bits, self.matrix_bits)
         return PolytopeBody(side.vertices, side.triangles, self.bits)
@@ -85,7 +85,7 @@ def proof_of(
 
 def on_lattice(
     a: Body, b: Body, move: WorldVector = ORIGIN
-) -> tuple[CurvedBody | PolytopeBody, CurvedBody | PolytopeBody, Lattice]:
+) -> tuple[ExactBody, ExactBody, Lattice]:
     """Both as exact bodies, A moved. One of them at least is curved."""
     sides = _side_of(a, move), _side_of(b, ORIGIN)
     lattice = Lattice(sides)

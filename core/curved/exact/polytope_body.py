@@ -73,6 +73,7 @@ class PolytopeBody:
         return Polygon(tuple(self.corners())).middle
 
     def reach(self, n: Vector) -> Reach:
+        """The largest product of n with a point of the body."""
         return Reach(self._farthest(n)[0])
 
     def face(self, n: Vector) -> Polygon:
@@ -80,6 +81,7 @@ class PolytopeBody:
         return Polygon(tuple((*self._vertex(k), 1) for k in farthest))
 
     def side(self, p: Point) -> int:
+        """1 inside, 0 on the border, -1 outside. A triangle has no inside: 0 on it."""
         if self.flat:
             return 0 if self._is_on_triangle(p) else -1
         side = 1
@@ -135,6 +137,7 @@ class PolytopeBody:
         return np.unique(np.sort(ends, axis=1), axis=0)
 
     def normals(self, toward: Vector) -> list[Vector]:
+        """Of faces, outward, those that look along `toward` most."""
         near = np.flatnonzero(self._near(toward)[self.triangles].any(axis=1))
         a, b, c = (self.vertices[self.triangles[near, k]] for k in range(3))
         crossed = np.cross(b - a, c - a)
@@ -161,6 +164,7 @@ class PolytopeBody:
         return [(p, shortened(sub(q, p))) for p, q in ends]
 
     def points(self, toward: Vector) -> list[Vector]:
+        """Vertices that a contact may depend on."""
         return [self._vertex(k) for k in np.flatnonzero(self._near(toward))[:MOST].tolist()]
 
 

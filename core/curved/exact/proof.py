@@ -10,14 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import product
-from typing import Literal, Protocol
+from typing import Literal
 
 from msgspec import Struct
 
-from satcheck.core.curved.exact.faces import Disc, Face, Polygon, common_points
+from satcheck.core.curved.exact.curved_body import CurvedBody
+from satcheck.core.curved.exact.faces import Disc, Polygon, common_points
 from satcheck.core.curved.exact.lattice import (
     Point,
-    Reach,
     Vector,
     between,
     cross,
@@ -29,6 +29,7 @@ from satcheck.core.curved.exact.lattice import (
     sign_of_gap,
     sub,
 )
+from satcheck.core.curved.exact.polytope_body import PolytopeBody
 
 # "free": the axis separates them with no gap, and no common point was found.
 Outcome = Literal["separated", "touching", "penetrating", "free"]
@@ -44,33 +45,7 @@ _NEXT_TO = Fraction(1, 1 << 100)
 NO_GAP: Bounds = (Fraction(0), Fraction(0))
 
 
-class ExactBody(Protocol):
-    """Closed and convex, on the lattice of a pair. flat: it has no inside."""
-
-    @property
-    def flat(self) -> bool: ...
-
-    @property
-    def middle(self) -> Point:
-        """A point inside; of a flat body on it."""
-
-    def reach(self, n: Vector) -> Reach:
-        """The largest product of n with one of its points."""
-
-    def face(self, n: Vector) -> Face:
-        """The points that reach so far; where they are irrational, points very close to them."""
-
-    def side(self, p: Point) -> int:
-        """1 inside, 0 on the border, -1 outside. A flat body has no inside: 0 on it."""
-
-    def normals(self, toward: Vector, /) -> list[Vector]:
-        """Of flat parts of its border, outward, those that look along `toward` most."""
-
-    def lines(self, toward: Vector, /) -> list[tuple[Vector, Vector]]:
-        """Straight lines in or along it that a contact may depend on: a point, a direction."""
-
-    def points(self, toward: Vector, /) -> list[Vector]:
-        """Points in it that a contact may depend on."""
+ExactBody = CurvedBody | PolytopeBody
 
 
 class Proof(Struct, frozen=True):
