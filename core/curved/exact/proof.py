@@ -33,7 +33,7 @@ from satcheck.core.curved.exact.polytope_body import PolytopeBody
 
 # "free": the axis separates them with no gap, and no common point was found.
 Outcome = Literal["separated", "touching", "penetrating", "free"]
-Bounds = tuple[Fraction, Fraction]
+Gap = tuple[Fraction, Fraction]
 
 # Of the axes along which they overlap, those with the least overlap are looked at for a common
 # point inside.
@@ -42,7 +42,7 @@ MOST_OVERLAPS = 4
 PULLS = tuple(Fraction(1, 1 << k) for k in (48, 52, 56, 60, 64))
 # Far beyond the bits of irrational roots that are left out.
 _NEXT_TO = Fraction(1, 1 << 100)
-NO_GAP: Bounds = (Fraction(0), Fraction(0))
+NO_GAP: Gap = (Fraction(0), Fraction(0))
 
 
 ExactBody = CurvedBody | PolytopeBody
@@ -55,7 +55,7 @@ class Proof(Struct, frozen=True):
 
     outcome: Outcome
     axis: Vector
-    gap: Bounds
+    gap: Gap
     point: Point | None = None
     ends: tuple[Point, Point] | None = None
 
@@ -103,7 +103,7 @@ def _contact(a: ExactBody, b: ExactBody, n: Vector) -> Proof:
     return Proof("free" if both_discs else "separated", n, NO_GAP)
 
 
-def _ends(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> tuple[Point, Point] | None:
+def _ends(a: ExactBody, b: ExactBody, n: Vector, gap: Gap) -> tuple[Point, Point] | None:
     """Points of both that the axis joins, where there are some; if their coordinates are
     irrational, points next to them."""
     step = gap[0] / dot(n, n)
@@ -117,7 +117,7 @@ def _ends(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> tuple[Point, Po
     return None
 
 
-def _point_inside(a: ExactBody, b: ExactBody, n: Vector, gap: Bounds) -> Point | None:
+def _point_inside(a: ExactBody, b: ExactBody, n: Vector, gap: Gap) -> Point | None:
     """Half way between their faces; of a flat B on it."""
     # B's face is moved into the plane of A's; from there the way back is along -n.
     step = -gap[0] / dot(n, n)
