@@ -76,9 +76,8 @@ void triangles_have_the_last_word() {
 
 }  // namespace
 
-int main() {
+UNIT(verdict) {
   boxes_settle_what_is_beyond_the_question();
   hulls_say_all_of_convex_bodies_and_separation_of_others();
   triangles_have_the_last_word();
-  return testing::exit_status();
 }
