@@ -42,4 +42,7 @@ def gap_around(pair: Pair, verdict: Verdict) -> float:
     surfaces meet. 0.0 for other pairs."""
     if verdict.relation not in ("contains", "inside"):
         return 0.0
+    climb = verdict.climb
+    if climb is not None and climb.relation == verdict.relation and climb.least_depth is not None:
+        return climb.least_depth  # no triangles of nested bodies cross
     return core.nested_depth(pair.a.geometry, pair.b.geometry)

@@ -57,7 +57,7 @@ def questions(bodies: list[core.PlacedGeometry], tolerance: float = 1e-9) -> lis
 
 
 def climbed(pairs: list[Question]) -> list[core.Climb]:
-    found = core.climb_all(pairs)
+    found = core.Climbing(pairs).results()
     return [one for one in found if one is not None]
 
 
@@ -104,7 +104,8 @@ def test_threads_change_nothing(threads: int) -> None:
             if one is not None
         ]
 
-    assert said(core.climb_all(pairs, threads=threads)) == said(core.climb_all(pairs, threads=1))
+    many, one = core.Climbing(pairs, threads=threads), core.Climbing(pairs, threads=1)
+    assert said(many.results()) == said(one.results())
 
 
 def test_a_capped_climb_settles_nothing_that_it_cannot_prove() -> None:
@@ -155,7 +156,8 @@ def test_a_pair_that_fails_takes_no_other_with_it() -> None:
     sheet = core.Mesh(np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0.5)]), np.array([(0, 1, 2)]))
     bodies.append(core.PlacedGeometry(core.Geometry(sheet, True), None, sheet.bounds, 0.0))
     pairs = questions(bodies)
-    failed = [pair for pair, one in zip(pairs, core.climb_all(pairs), strict=True) if one is None]
+    climbs = core.Climbing(pairs).results()
+    failed = [pair for pair, climb in zip(pairs, climbs, strict=True) if climb is None]
     assert failed
     assert all(pair[1] is bodies[-1] for pair in failed)
     with pytest.raises(ValueError, match="not a solid"):
@@ -165,9 +167,9 @@ def test_a_pair_that_fails_takes_no_other_with_it() -> None:
 def test_arguments_are_checked() -> None:
     (pair, *_) = questions(crowd(2))
     with pytest.raises(ValueError, match="a rung is"):
-        core.climb_all([pair], "parts")  # type: ignore[arg-type]
+        core.Climbing([pair], "parts")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="lacks a body"):
-        core.climb_all([(pair[0], None, 0.0, 0.0, False)])  # type: ignore[list-item]
+        core.Climbing([(pair[0], None, 0.0, 0.0, False)])  # type: ignore[list-item]
     a, b = pair[0].surface(), pair[1].surface()
     with pytest.raises(IndexError):
         core.crossing_depth(a, b, 10**6, 0)

@@ -217,21 +217,17 @@ class Climbing {
 void bind_climb(nb::module_& m) {
   bind_geometry(m);
   bind_result(m);
-  nb::class_<Climbing>(m, "Climbing", "Pairs on their way up the ladder; while they climb, the caller can do something else.")
-      .def(nb::init<nb::list, const std::string&, unsigned, bool>(), "pairs"_a, "last"_a = "triangles", "threads"_a = 0,
-           "alone"_a = false, "As climb_all; on one thread a batch climbs when its result is taken.")
-      .def("results", &Climbing::results, "Waits, and hands over once.");
-  m.def("climb_all",
-        [](nb::list pairs, const std::string& last, unsigned threads, bool alone) {
-          return Climbing(std::move(pairs), last, threads, alone).results();
-        },
-        "pairs"_a, "last"_a = "triangles", "threads"_a = 0, "alone"_a = false,
-        R"(Each pair (a, b, asked_gap, tolerance, wants_distance) up the ladder, on `threads` threads (0: one a core).
+  nb::class_<Climbing>(m, "Climbing", R"(Pairs on their way up the ladder; while they climb, the caller can do something else.
 
-A rung that proves the bodies apart by more than asked_gap ends the climb, and so does the rung `last`: "aabb", "obb",
-"hull" or "triangles". A Climb a pair; None where its climb failed: asked alone it raises. The same at any thread
-count. tolerance: half width of the touch band. wants_distance: of bodies apart, however far. alone: of one pair, that
-no other will ask for anything of its bodies.)");
+A pair is (a, b, asked_gap, tolerance, wants_distance). A rung that proves the bodies apart by more than asked_gap ends
+its climb, and so does the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
+wants_distance: of bodies apart, however far. threads: 0: one a core; on one thread the pairs climb when the results are
+taken. alone: of one pair, that no other will ask for anything of its bodies.)")
+      .def(nb::init<nb::list, const std::string&, unsigned, bool>(), "pairs"_a, "last"_a = "triangles", "threads"_a = 0,
+           "alone"_a = false)
+      .def("results", &Climbing::results,
+           R"(Waits, and hands over once: a Climb a pair, the same at any thread count; None where a climb failed: by itself it
+raises.)");
   m.def("climb",
         [](const PairTuple& pair, const std::string& first, const std::string& last) {
           const ClimbRequest request = request_from(pair);
@@ -239,7 +235,7 @@ no other will ask for anything of its bodies.)");
           const nb::gil_scoped_release release;
           return climb(request, from, to);
         },
-        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "One pair of climb_all, from the rung `first` on.");
+        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "One pair of Climbing, from the rung `first` on.");
   m.def("crossing_depth",
         [](const Surface& a, const Surface& b, std::size_t triangle_a, std::size_t triangle_b) {
           if (triangle_a >= a.mesh.triangles.size() || triangle_b >= b.mesh.triangles.size()) {

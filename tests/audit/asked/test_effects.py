@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec import UNSET
 from msgspec.structs import replace
 
 from satcheck import core, decompose
@@ -157,6 +158,20 @@ def test_the_rest_runs_where_it_is_asked_for(tmp_path, effect):
     scene = concave(tmp_path)
     assert effect not in ran(check(scene, Settings(depth=False)))
     assert ran(check(scene, EFFECTS_ASKED[effect]))[effect] == 1
+
+
+def test_a_certificate_takes_the_crossing_from_the_verdict(tmp_path, monkeypatch):
+    relations = Counter(monkeypatch, core, "mesh_relation")
+    report = check(concave(tmp_path), Settings(certificate=True, depth=False))
+    assert report.findings[0].certificate is not None
+    assert relations.calls == 0
+
+
+def test_a_certificate_takes_the_nearest_triangles_from_the_verdict(tmp_path, monkeypatch):
+    distances = Counter(monkeypatch, core, "mesh_distance")
+    report = check(notched(tmp_path), Settings(certificate=True, clearance=3.0))
+    assert report.findings[0].certificate.distance is not UNSET
+    assert distances.calls == 0
 
 
 def test_who_asked_and_why_not(tmp_path):
