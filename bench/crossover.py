@@ -5,7 +5,7 @@
 Random hulls of 4 to 64 vertices on ellipsoids, a third of the pairs apart by 0.01 to 0.5, a third
 overlapping by 0.0001 to 0.03, a third deep (lengths relative to a size of 2). CPU nanoseconds per
 query on one thread, the fastest of the rounds; the two methods alternate. Below the figure where
-"depth" changes sides SAT is faster; that figure stands in core/native/convex/narrow_phase.hpp.
+"depth" changes sides SAT is faster. What came of it stands in core/native/convex/narrow_phase.hpp.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
+from satcheck.audit.asked.settings import METHODS
 from satcheck.cli.output import Document
 from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
@@ -170,6 +171,14 @@ tolerance_option = click.option(
     default=DEFAULTS.tolerance,
     help="Call it touching when gap or depth is at most this. "
     "[default: the precision of the input files]",
+)
+method_option = click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    default=DEFAULTS.method,
+    show_default=True,
+    help="How convex hulls are compared: by the separating axis test, or by portals, GJK and EPA. "
+    "auto takes the faster one.",
 )
 open_option = click.option(
     "--allow-open",

@@ -409,7 +409,12 @@ class Climb:
     @property
     def band_nanoseconds(self) -> int: ...
 
-def climb(pair: Question, first: Rung = "aabb", last: Rung = "triangles") -> Climb: ...
+def climb(
+    pair: Question,
+    first: Rung = "aabb",
+    last: Rung = "triangles",
+    method: str = "auto",
+) -> Climb: ...
 
 class Climbing:
     def __init__(
@@ -418,6 +423,7 @@ class Climbing:
         last: Rung = "triangles",
         threads: int = 0,
         alone: bool = False,
+        method: str = "auto",
     ) -> None: ...
     def results(self) -> list[Climb | None]: ...
 

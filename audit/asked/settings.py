@@ -14,6 +14,9 @@ from satcheck.report.settings import StatedSettings
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
 ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
 
+Method = Literal["auto", "sat", "gjk"]
+METHODS: tuple[Method, ...] = ("auto", "sat", "gjk")
+
 FailOn = Literal["error", "warning", "note"]
 FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
 
@@ -39,6 +42,8 @@ class Settings(Struct, frozen=True):
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
     accuracy: the highest rung of the ladder that may be climbed.
+    method: of the convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster of them.
+    Changes no relation, and no depth beyond its last digits.
     fail_on: the least severity that makes a check fail.
     allow_open: a body that may lie in another one without an inside is a note, not a warning.
     cross_check: other libraries are asked too; cross_check_*: what one question may cost.
@@ -61,6 +66,7 @@ class Settings(Struct, frozen=True):
     clearance: float | None = None
     tolerance: float | None = None
     accuracy: Accuracy = "exact"
+    method: Method = "auto"
     fail_on: FailOn = "error"
     allow_open: bool = False
     cross_check: bool = False
@@ -91,6 +97,8 @@ class Settings(Struct, frozen=True):
                 raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
         if self.accuracy not in ACCURACIES:
             raise _refused(f"accuracy must be one of {', '.join(ACCURACIES)}")
+        if self.method not in METHODS:
+            raise _refused(f"method must be one of {', '.join(METHODS)}")
         if self.fail_on not in FAIL_ON:
             raise _refused(f"fail_on must be one of {', '.join(FAIL_ON)}")
         for name in ("contacts", "volume"):

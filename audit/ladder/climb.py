@@ -38,7 +38,7 @@ def climb_pair(pair: Pair, first: Rung = "aabb", last: Rung | None = None) -> co
         last = "aabb"
     elif pair.outlined and first == "aabb" and last != "aabb":
         last = "obb"  # between the boxes and the hulls come the outlines
-    return core.climb(_request(pair), first, last)
+    return core.climb(_request(pair), first, last, pair.settings.method)
 
 
 def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.Climb | None]]:
@@ -49,7 +49,9 @@ def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.
     plain = [k for k, pair in enumerate(pairs) if not (pair.curved or pair.outlined)]
     last = LAST[pairs[0].settings.accuracy]
     alone = len(pairs) == 1 and pairs[0].alone
-    climbing = core.Climbing([_request(pairs[k]) for k in plain], last, threads, alone)
+    climbing = core.Climbing(
+        [_request(pairs[k]) for k in plain], last, threads, alone, pairs[0].settings.method
+    )
     if len(plain) == len(pairs):
         return climbing.results
 

@@ -27,6 +27,7 @@ from satcheck.cli.options import (
     form_option,
     jobs_option,
     length,
+    method_option,
     open_option,
     output_option,
     outside_option,
@@ -136,6 +137,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
     "All but exact may report false overlaps, and call them possible.",
 )
+@method_option
 @click.option(
     "--depth-width",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),

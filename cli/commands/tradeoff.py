@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from satcheck.audit.asked.settings import Method
 from satcheck.cli import exit_codes
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
@@ -16,6 +17,7 @@ from satcheck.cli.options import (
     debug_option,
     form_of,
     form_option,
+    method_option,
     output_option,
     outside_option,
     paths_argument,
@@ -63,6 +65,7 @@ PLOTS = (".svg", ".png", ".pdf")
     help="Draw error against time: FILE.svg, FILE.png or FILE.pdf.",
 )
 @click.option("--dark", is_flag=True, help="Draw the plot on dark paper.")
+@method_option
 @form_option
 @output_option
 @split_option
@@ -76,6 +79,7 @@ def command(
     budget: float,
     pairs: int,
     plot: Path | None,
+    method: Method,
     dark: bool,
     **options: Any,
 ) -> int:
@@ -97,7 +101,9 @@ def command(
     if scene.unreadable:
         raise click.ClickException("an input could not be used: nothing is compared without it")
     with Bar("runs") as bar:
-        result = tradeoff(scene, repeat=repeat, budget=budget, pairs=pairs, progress=bar)
+        result = tradeoff(
+            scene, repeat=repeat, budget=budget, pairs=pairs, method=method, progress=bar
+        )
     if plot:
         _write_plot(result, plot, dark=dark)
     document.deliver(lambda page: _render(result, form, page), output, utf8=form == "json")

@@ -15,10 +15,18 @@ from satcheck.cli.report.words import counted
 from satcheck.studies.tradeoff import labels_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from satcheck.cli.output import Page
-    from satcheck.studies.tradeoff import Figure, PairTradeoff, Row, Rung, Times, Tradeoff
+    from satcheck.studies.tradeoff import (
+        Figure,
+        MethodCost,
+        PairTradeoff,
+        Row,
+        Rung,
+        Times,
+        Tradeoff,
+    )
 
 _MICROSECONDS = 1e6
 _RIGHT = {True: "right", False: "WRONG", None: ""}
@@ -60,7 +68,25 @@ def _print_pair(console: Canvas, pair: PairTradeoff, page: Page) -> None:
     if pair.default is not None:
         ended = "settled by" if pair.default.settled else "not settled, ends at"
         console.print(f"Default: {ended} {pair.default.rung}. {pair.default.why}.")
+    if pair.methods:
+        console.print("The depth of convex hulls, of some of the vertices and of all:")
+        console.print(_methods(pair.methods, page))
     console.print()
+
+
+def _methods(costs: Sequence[MethodCost], page: Page) -> Table:
+    table = Table(header_style="bold", box=box.ROUNDED if page.unicode else box.ASCII)
+    for name in ("vertices", "SAT", "GJK + EPA", "ratio", "verdicts"):
+        table.add_column(name, justify="right")
+    for cost in costs:
+        table.add_row(
+            " and ".join(map(str, cost.vertices)),
+            duration(cost.sat / 1000),
+            duration(cost.gjk / 1000),
+            f"{cost.sat / cost.gjk:.1f}",
+            "agree" if cost.agree else "DISAGREE",
+        )
+    return table
 
 
 def _remarks(pair: PairTradeoff) -> list[str]:

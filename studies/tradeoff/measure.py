@@ -11,7 +11,7 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.settings import Settings
+from satcheck.audit.asked.settings import Method, Settings
 from satcheck.report.report import OVERLAPS
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import SPENT, Budget, Gauge
@@ -32,9 +32,10 @@ def measure_pair(
     budget: Budget,
     on_run: Callable[[], None] | None = None,
     rungs: Sequence[Rung] | None = None,
+    method: Method = "auto",
 ) -> PairTradeoff:
     """repeat: runs of each rung; what does not fit the budget is left away, and said. rungs: None
-    for all; the exact one has to be among them.
+    for all; the exact one has to be among them. method: of the convex hulls, see Settings.
 
     Rungs take turns, so that what slows the machine down for a while slows all of them. Convex
     parts run cold with an empty cache of their own, then with what they have left in it; the cache
@@ -49,8 +50,8 @@ def measure_pair(
             _leave_out(gauge, gauges)
             if gauge.wants_more and gauge.left(budget) > gauge.longest:
                 _warm_up(bodies, budget)
-                _run(gauge, bodies, budget, apart=apart)
-                _weigh(gauge, bodies, budget, apart=apart)
+                _run(gauge, bodies, budget, apart=apart, method=method)
+                _weigh(gauge, bodies, budget, apart=apart, method=method)
             if on_run is not None:
                 on_run()
     truth = truth_by(gauges[EXACT])
@@ -100,7 +101,7 @@ def _import_early() -> None:
     import satcheck.decompose.computation  # noqa: F401
 
 
-def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
+def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool, method: Method) -> None:
     start = budget.spent
     with _failing_alone(gauge):
         if gauge.rung == BOOLEAN:
@@ -108,18 +109,18 @@ def _run(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
         elif gauge.rung.threshold is not None:
             _run_parts(gauge, bodies, budget)
         else:
-            answer = ask(bodies, _settings(gauge.rung, bodies, apart=apart))
+            answer = ask(bodies, _settings(gauge.rung, bodies, apart=apart, method=method))
             gauge.saw(answer, answer.seconds, None)
     took = budget.spent - start
     gauge.longest, gauge.spent = max(gauge.longest, took), gauge.spent + took
 
 
-def _weigh(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool) -> None:
+def _weigh(gauge: Gauge, bodies: Bodies, budget: Budget, *, apart: bool, method: Method) -> None:
     """One more run of a rung that starts no child process, not timed: for its memory."""
     first = len(gauge.cold) == 1 and gauge.state == "answered"
     if not first or gauge.rung.accuracy in (None, "parts") or gauge.left(budget) < gauge.longest:
         return
-    start, settings = budget.spent, _settings(gauge.rung, bodies, apart=apart)
+    start, settings = budget.spent, _settings(gauge.rung, bodies, apart=apart, method=method)
     memory = OwnMemory()
     with _failing_alone(gauge):
         ask(bodies, settings)
@@ -136,11 +137,11 @@ def _failing_alone(gauge: Gauge) -> Iterator[None]:
         gauge.fail(f"internal error: {type(error).__name__}: {error}")
 
 
-def _settings(rung: Rung, bodies: Bodies, *, apart: bool) -> Settings:
+def _settings(rung: Rung, bodies: Bodies, *, apart: bool, method: Method) -> Settings:
     """The exact rung is asked for the gap of bodies that are apart, by a clearance beyond any; the
     others say what their test has shown."""
     assert rung.accuracy is not None
-    settings = Settings(depth=True, accuracy=rung.accuracy)
+    settings = Settings(depth=True, accuracy=rung.accuracy, method=method)
     if not apart or rung != EXACT:
         return settings
     corners = [corner for body in bodies for corner in body.world_mesh().bounds]

@@ -9,6 +9,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.report.report import OVERLAPS, Relation, Tool
+from satcheck.studies.tradeoff.methods import MethodCost
 from satcheck.studies.tradeoff.pareto import Times, front
 from satcheck.studies.tradeoff.rungs import Rung
 
@@ -154,13 +155,15 @@ class ClimbEnd(Struct, frozen=True):
 
 
 class PairTradeoff(Struct, frozen=True):
-    """default: None where the budget was spent before anything ran."""
+    """default: None where the budget was spent before anything ran. methods: SAT against GJK
+    and EPA on convex hulls of the two."""
 
     a: str
     b: str
     truth: Truth
     default: ClimbEnd | None
     rows: tuple[Row, ...]
+    methods: tuple[MethodCost, ...] = ()
 
     @property
     def overlap(self) -> bool | None:
@@ -178,6 +181,15 @@ class PairTradeoff(Struct, frozen=True):
             },
             "default": None if self.default is None else self.default.to_dict(),
             "rungs": [row.to_dict() for row in self.rows],
+            "methods": [
+                {
+                    "vertices": list(cost.vertices),
+                    "sat_nanoseconds": cost.sat,
+                    "gjk_nanoseconds": cost.gjk,
+                    "agree": cost.agree,
+                }
+                for cost in self.methods
+            ],
         }
 
 

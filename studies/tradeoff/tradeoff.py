@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from satcheck import core
 from satcheck.audit.asked.planner import Planner
-from satcheck.audit.asked.settings import Settings
+from satcheck.audit.asked.settings import Method, Settings
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.check import Progress
 from satcheck.audit.ladder.broad_phase import close_pairs
@@ -15,6 +17,7 @@ from satcheck.scene.other_unit import require_in_range
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import Budget
 from satcheck.studies.tradeoff.measure import measure_pair
+from satcheck.studies.tradeoff.methods import method_costs
 from satcheck.studies.tradeoff.result import PairTradeoff, Tradeoff
 from satcheck.studies.tradeoff.rungs import RUNGS
 
@@ -25,6 +28,7 @@ def tradeoff(
     repeat: int = 5,
     budget: float = 60.0,
     pairs: int = 10,
+    method: Method = "auto",
     progress: Progress | None = None,
 ) -> Tradeoff:
     """Every rung on the two bodies of the scene, or on the first pairs whose boxes meet.
@@ -32,6 +36,7 @@ def tradeoff(
     repeat: runs of each rung. budget: seconds for everything after the files are read; each pair
     has its share of what those before it have left. pairs: at most so many. Bodies stand as the
     scene places them; of its rules only exemptions are followed.
+    method: of the convex hulls, see Settings.
     progress(done, total) counts runs.
     Raises SatcheckError (`no-pair`, `units-unknown`, `planar-only`) where no boxes meet, and for a
     drawing.
@@ -53,7 +58,9 @@ def tradeoff(
     found: list[PairTradeoff] = []
     for bodies in met[:pairs]:
         waiting = min(len(met), pairs) - len(found)
-        found.append(measure_pair(bodies, repeat, clock.share(waiting), on_run))
+        share = clock.share(waiting)
+        measured = measure_pair(bodies, repeat, share, on_run, method=method)
+        found.append(replace(measured, methods=method_costs(*bodies, share.left)))
     return Tradeoff(
         tool(), scene.units, repeat, budget, clock.spent, tuple(found), len(met) - len(found)
     )

@@ -44,10 +44,10 @@ Rung rung_from(const std::string& name) {
   throw std::invalid_argument("a rung is \"aabb\", \"obb\", \"hull\" or \"triangles\", not \"" + name + "\"");
 }
 
-ClimbRequest request_from(const PairTuple& pair, bool alone = false) {
+ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone = false) {
   const auto& [a, b, asked_gap, tolerance, wants_distance] = pair;
   if (!a || !b) throw std::invalid_argument("a pair lacks a body");
-  return {a, b, asked_gap, tolerance, wants_distance, alone};
+  return {a, b, asked_gap, tolerance, wants_distance, alone, method};
 }
 
 void bind_geometry(nb::module_& m) {
@@ -183,10 +183,12 @@ band_nanoseconds  what the touch band or the gap took. stages() says what the ru
 // A batch on its way up, in threads of its own; on one thread it climbs when its result is taken.
 class Climbing {
  public:
-  Climbing(nb::list pairs, const std::string& last, unsigned threads, bool alone) : pairs_(std::move(pairs)) {
+  Climbing(nb::list pairs, const std::string& last, unsigned threads, bool alone, const std::string& method)
+      : pairs_(std::move(pairs)) {
+    const MethodChoice choice = method_from(method);
     std::vector<ClimbRequest> requests;
     requests.reserve(pairs_.size());
-    for (const nb::handle pair : pairs_) requests.push_back(request_from(nb::cast<PairTuple>(pair), alone));
+    for (const nb::handle pair : pairs_) requests.push_back(request_from(nb::cast<PairTuple>(pair), choice, alone));
     const auto climb = [requests = std::move(requests), rung = rung_from(last), threads] {
       return climb_all(requests, rung, threads);
     };
@@ -222,20 +224,22 @@ void bind_climb(nb::module_& m) {
 A pair is (a, b, asked_gap, tolerance, wants_distance). A rung that proves the bodies apart by more than asked_gap ends
 its climb, and so does the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
 wants_distance: of bodies apart, however far. threads: 0: one a core; on one thread the pairs climb when the results are
-taken. alone: of one pair, that no other will ask for anything of its bodies.)")
-      .def(nb::init<nb::list, const std::string&, unsigned, bool>(), "pairs"_a, "last"_a = "triangles", "threads"_a = 0,
-           "alone"_a = false)
+taken. alone: of one pair, that no other will ask for anything of its bodies. method: between convex
+hulls, as that of check_pairs.)")
+      .def(nb::init<nb::list, const std::string&, unsigned, bool, const std::string&>(), "pairs"_a,
+           "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto")
       .def("results", &Climbing::results,
            R"(Waits, and hands over once: a Climb a pair, the same at any thread count; None where a climb failed: by itself it
 raises.)");
   m.def("climb",
-        [](const PairTuple& pair, const std::string& first, const std::string& last) {
-          const ClimbRequest request = request_from(pair);
+        [](const PairTuple& pair, const std::string& first, const std::string& last, const std::string& method) {
+          const ClimbRequest request = request_from(pair, method_from(method));
           const Rung from = rung_from(first), to = rung_from(last);
           const nb::gil_scoped_release release;
           return climb(request, from, to);
         },
-        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "One pair of Climbing, from the rung `first` on.");
+        "pair"_a, "first"_a = "aabb", "last"_a = "triangles", "method"_a = "auto",
+        "One pair of Climbing, from the rung `first` on.");
   m.def("crossing_depth",
         [](const Surface& a, const Surface& b, std::size_t triangle_a, std::size_t triangle_b) {
           if (triangle_a >= a.mesh.triangles.size() || triangle_b >= b.mesh.triangles.size()) {

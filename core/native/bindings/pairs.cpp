@@ -58,13 +58,6 @@ Query query_from(const std::string& name) {
   throw std::invalid_argument("query is \"overlap\", \"depth\" or \"distance\", not \"" + name + "\"");
 }
 
-MethodChoice method_from(const std::string& name) {
-  if (name == "auto") return MethodChoice::automatic;
-  if (name == "sat") return MethodChoice::sat;
-  if (name == "gjk") return MethodChoice::gjk;
-  throw std::invalid_argument("method is \"auto\", \"sat\" or \"gjk\", not \"" + name + "\"");
-}
-
 const char* name_of(Reason reason) { return reason == Reason::none ? "" : "bounds-not-closed"; }
 
 nb::object optional_number(const PairResult& r, double value) {

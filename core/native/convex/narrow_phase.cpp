@@ -1,6 +1,7 @@
 #include "convex/narrow_phase.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "base/tolerances.hpp"
 #include "convex/box_pair.hpp"
@@ -41,10 +42,7 @@ bool are_boxes(const Shape& a, const Shape& b) { return a.kind == ShapeKind::box
 
 bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
   if (method == MethodChoice::gjk) return false;
-  if (are_boxes(m.a, m.b)) return true;
-  if (!solid_polytopes(m)) return false;
-  if (method == MethodChoice::sat) return true;
-  return std::max(m.a.polytope.vertices.size(), m.b.polytope.vertices.size()) <= kSatVertexLimit;
+  return are_boxes(m.a, m.b) || (method == MethodChoice::sat && solid_polytopes(m));
 }
 
 CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
@@ -336,6 +334,13 @@ PairResult check_boxes(const Shape& a, const Pose& pose_a, const Shape& b, const
 }
 
 }  // namespace
+
+MethodChoice method_from(const std::string& name) {
+  if (name == "auto") return MethodChoice::automatic;
+  if (name == "sat") return MethodChoice::sat;
+  if (name == "gjk") return MethodChoice::gjk;
+  throw std::invalid_argument("method is \"auto\", \"sat\" or \"gjk\", not \"" + name + "\"");
+}
 
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,
                       MethodChoice method) {

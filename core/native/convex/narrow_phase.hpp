@@ -1,6 +1,8 @@
 // One convex pair in, one result out: the dispatch between SAT, portals, GJK, EPA and the exact stage.
 #pragma once
 
+#include <string>
+
 #include "convex/sat.hpp"
 
 namespace satcheck {
@@ -9,7 +11,14 @@ enum class Outcome : std::uint8_t { separated, touching, penetrating, undecided 
 enum class Reason : std::uint8_t { none, bounds_not_closed };
 enum class Method : std::uint8_t { none, sat, gjk, epa, exact, portal };
 enum class Query : std::uint8_t { overlap, depth, distance };
+// automatic: SAT for two boxes, else portals for overlap and GJK + EPA for figures. Two boxes have 15 axes. Other
+// polytopes have an axis for each pair of edges whose arcs cross, and bench/crossover.py finds no number of vertices
+// at which SAT pays: with 4 on each side, the fewest that a solid has, it takes 2.6 times as long for overlap and 2.4
+// times for depth, with 12 vertices 29 and 14 times. sat: of two solid polytopes. gjk: portals, GJK and EPA for all.
 enum class MethodChoice : std::uint8_t { automatic, sat, gjk };
+
+// "auto", "sat" or "gjk"; std::invalid_argument for another name.
+MethodChoice method_from(const std::string& name);
 
 struct PairResult {
   Outcome outcome = Outcome::undecided;
@@ -25,12 +34,6 @@ struct PairResult {
   Vec3 witness_b{NAN, NAN, NAN};
   int portal_rounds = 0, gjk_iterations = 0, epa_iterations = 0, axes_tested = 0;
 };
-
-// Up to this many vertices on the larger of two polytopes, SAT over faces and arcs would be faster than
-// portals, for overlap, and GJK + EPA. Measured by bench/crossover.py: already at 4 vertices a side (the
-// smallest solid) SAT takes 3 times as long for overlap and 2 times for depth, at 12 vertices 26 and 12 times. So 3: only
-// boxes, whose 15 axes need no arcs, take SAT; `MethodChoice::sat` asks for it by name.
-inline constexpr std::size_t kSatVertexLimit = 3;
 
 // Poses are rigid. Query overlap gives the outcome only and stops at the first proof.
 PairResult check_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, Query query,

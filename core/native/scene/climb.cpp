@@ -110,7 +110,7 @@ class Climber {
   }
 
   PairResult ask_hulls(Query query) {
-    return check_pair(*q_.a->hull_shape(), {}, *q_.b->hull_shape(), {}, query);
+    return check_pair(*q_.a->hull_shape(), {}, *q_.b->hull_shape(), {}, query, q_.method);
   }
 
   bool hulls_settle() {

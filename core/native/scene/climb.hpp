@@ -26,6 +26,7 @@ struct ClimbRequest {
   bool wants_distance;
   // No other pair asks for anything of these bodies: what is made for this one serves no other.
   bool alone = false;
+  MethodChoice method = MethodChoice::automatic;  // between the convex hulls
 };
 
 // sheared, unturned: why oriented boxes say no more than the world boxes.
