@@ -10,17 +10,15 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from msgspec import convert
+from msgspec import Struct, convert
 from msgspec.structs import replace
 
 from satcheck.audit.asked.settings import Settings
 from satcheck.audit.summary import rule_reports, stated_health, stated_shape
 from satcheck.core.power_of_two import held_times_power, limit_times_power
 from satcheck.report.certificate import Certificate
-from satcheck.report.contacts import Contacts
-from satcheck.report.report import BodyReport, Finding, Issue, Report, Stage, Witness, plain
-from satcheck.report.sweep import Place, Sweep, WorstPose
-from satcheck.report.values import Interval, Vector
+from satcheck.report.report import BodyReport, Finding, Issue, Report, Stage, plain
+from satcheck.report.sweep import Place, Sweep
 from satcheck.scene import Scene
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
@@ -28,6 +26,12 @@ from satcheck.scene.mesh_units import placing_file, shape_of_file
 STAGE = "unit"
 # What states lengths in a certificate; all else are directions, weights and numbers of vertices.
 POINTS_OF_CERTIFICATES = frozenset({"both", "a_alone", "b_alone", "move", "point"})
+# The fields of a finding, and of what it holds, that state lengths and areas. Volumes: _finding.
+DIMENSIONS = {
+    **dict.fromkeys(("tolerance", "distance", "distance_bounds", "depth", "depth_bounds"), 1),
+    **dict.fromkeys(("mtv", "witness", "points", "outlines", "length"), 1),
+    "area": 2,
+}
 
 
 class OtherUnit:
@@ -79,39 +83,66 @@ class OtherUnit:
                 transform=placing_file(own.file, own.transform),
                 health=stated_health(own.file.health),
                 shape=stated_shape(shape),
-                resolution=self._length(body.resolution),
+                resolution=self._scaled(body.resolution, 1),
             )
 
     def _finding(self, found: Finding) -> Finding:
-        contacts = found.contacts and self._contacts(found.contacts)
-        volume = self._volume(found.volume)
-        lost = {
-            "contacts": found.contacts is not None and contacts is None,
-            "volume": found.volume is not None and volume is None,
+        motion = found.motion
+        figures = {
+            "contacts": found.contacts and self._held(found.contacts),
+            "volume": self._held(found.volume, 3),
+            "volume_error": self._held(found.volume_error, 3),
         }
         left_out = [
             Stage(name, "left out", 0.0, "float64 cannot hold it in the unit of the files")
-            for name, is_lost in lost.items()
-            if is_lost
+            for name in ("contacts", "volume")
+            if getattr(found, name) is not None and figures[name] is None
         ]
+        scaled: Finding = self._scaled(replace(found, contacts=None, certificate=None))
         return replace(
-            found,
-            tolerance=self._length(found.tolerance),
-            distance=self._length(found.distance),
-            depth=self._length(found.depth),
-            distance_bounds=self._interval(found.distance_bounds),
-            depth_bounds=self._interval(found.depth_bounds),
-            mtv=found.mtv and self._vector(found.mtv),
-            witness=found.witness and self._witness(found.witness),
-            volume=volume,
-            volume_error=self._volume(found.volume_error),
-            contacts=contacts,
+            scaled,
+            **figures,
             reason=found.reason and self._words(found.reason),
-            motion=found.motion and self._sweep(found.motion),
+            motion=motion and self._scaled(self._sweep(motion)),
             certificate=found.certificate
             and convert(self._certificate(plain(found.certificate)), Certificate),
             plan=(self._stage(), *found.plan, *left_out),
         )
+
+    def _sweep(self, sweep: Sweep) -> Sweep:
+        return replace(sweep, reason=sweep.reason and self._words(sweep.reason))
+
+    def _scaled(self, value: Any, dimension: int = 0) -> Any:
+        """A part of a finding with the lengths and areas in it in the unit of the files.
+
+        dimension: of the numbers in it. Raises OverflowError where float64 cannot hold one.
+        """
+        if isinstance(value, float) and dimension:
+            return self._number(value, dimension)
+        if isinstance(value, tuple):
+            return tuple(self._scaled(member, dimension) for member in value)
+        if isinstance(value, Place) and value.term == "length":
+            return replace(value, value=self._number(value.value, 1))
+        if isinstance(value, Struct):
+            names = value.__struct_fields__
+            members = ((name, dimension or DIMENSIONS.get(name, 0)) for name in names)
+            return replace(value, **{n: self._scaled(getattr(value, n), d) for n, d in members})
+        return value
+
+    def _number(self, value: float, dimension: int) -> float:
+        if dimension == 1:
+            return math.ldexp(value, -self._exponent)
+        held = held_times_power(value, -dimension * self._exponent)
+        if not math.isfinite(held):
+            raise OverflowError
+        return held
+
+    def _held(self, value: Any, dimension: int = 0) -> Any:
+        """`_scaled`; None where float64 cannot hold it."""
+        try:
+            return self._scaled(value, dimension)
+        except OverflowError:
+            return None
 
     def _stage(self) -> Stage:
         detail = self._words("coordinates are beyond the range of products")
@@ -120,30 +151,6 @@ class OtherUnit:
     def _words(self, text: str) -> str:
         """With a remark on the lengths that it may state."""
         return f"{text} (lengths here are times 2^{self._exponent})"
-
-    def _length(self, length: float | None) -> float | None:
-        return None if length is None else math.ldexp(length, -self._exponent)
-
-    def _volume(self, volume: float | None) -> float | None:
-        """None, too, where float64 cannot hold it."""
-        return None if volume is None else self._held(volume, 3)
-
-    def _held(self, value: float, dimension: int) -> float | None:
-        held = held_times_power(value, -dimension * self._exponent)
-        return held if math.isfinite(held) else None
-
-    def _interval(self, interval: Interval | None) -> Interval | None:
-        if interval is None:
-            return None
-        low, high = interval
-        return math.ldexp(low, -self._exponent), math.ldexp(high, -self._exponent)
-
-    def _vector(self, vector: Vector) -> Vector:
-        x, y, z = (math.ldexp(c, -self._exponent) for c in vector)
-        return x, y, z
-
-    def _witness(self, witness: Witness) -> Witness:
-        return Witness(self._vector(witness.a), self._vector(witness.b))
 
     def _certificate(self, part: Any) -> Any:
         if not isinstance(part, Mapping):
@@ -158,54 +165,3 @@ class OtherUnit:
     def _exact(self, number: float | str) -> str:
         scaled = Fraction(number) * Fraction(2) ** -self._exponent
         return str(scaled)
-
-    def _contacts(self, contacts: Contacts) -> Contacts | None:
-        """None where float64 cannot hold an area of them."""
-        areas = [self._held(patch.area, 2) for patch in contacts.patches]
-        totals = contacts.totals
-        area = self._held(totals.area, 2)
-        if area is None or None in areas:
-            return None
-        return replace(
-            contacts,
-            curves=tuple(
-                replace(
-                    curve,
-                    points=tuple(map(self._vector, curve.points)),
-                    length=math.ldexp(curve.length, -self._exponent),
-                )
-                for curve in contacts.curves
-            ),
-            patches=tuple(
-                replace(
-                    patch,
-                    outlines=tuple(tuple(map(self._vector, line)) for line in patch.outlines),
-                    area=own,
-                )
-                for patch, own in zip(contacts.patches, areas, strict=True)
-            ),
-            points=tuple(map(self._vector, contacts.points)),
-            totals=replace(totals, length=math.ldexp(totals.length, -self._exponent), area=area),
-        )
-
-    def _sweep(self, sweep: Sweep) -> Sweep:
-        return replace(
-            sweep,
-            tolerance=math.ldexp(sweep.tolerance, -self._exponent),
-            at=tuple(map(self._place, sweep.at)),
-            worst=sweep.worst and self._worst(sweep.worst),
-            reason=sweep.reason and self._words(sweep.reason),
-        )
-
-    def _worst(self, worst: WorstPose) -> WorstPose:
-        return replace(
-            worst,
-            at=tuple(map(self._place, worst.at)),
-            distance=self._interval(worst.distance),
-            depth=self._interval(worst.depth),
-        )
-
-    def _place(self, place: Place) -> Place:
-        if place.term != "length":
-            return place
-        return replace(place, value=math.ldexp(place.value, -self._exponent))
