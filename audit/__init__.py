@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check
+from satcheck.audit.request.settings import Settings
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 from satcheck.report.report import (
     BodyReport,

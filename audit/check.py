@@ -11,10 +11,6 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, convert
 from msgspec.structs import replace
 
-from satcheck.audit.asked.effects import effects_of
-from satcheck.audit.asked.planner import Asked, Planner
-from satcheck.audit.asked.settings import LISTED_PAIRS, Settings
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.doubtful_sizes import doubtful_sizes
@@ -22,6 +18,10 @@ from satcheck.audit.finding import Examined, apart_by_boxes, examine, indetermin
 from satcheck.audit.ladder.broad_phase import close_pairs
 from satcheck.audit.ladder.climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import PairQueue, Steps
+from satcheck.audit.request.effects import effects_of
+from satcheck.audit.request.planner import Planner, Request
+from satcheck.audit.request.settings import LISTED_PAIRS, Settings
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.summary import (
     body_reports,
     count,
@@ -50,7 +50,7 @@ Progress = Callable[[int, int], None]
 
 class CheckedPair(Struct, frozen=True):
     finding: Finding
-    asked: Asked
+    request: Request
     issues: tuple[Issue, ...] = ()
 
 
@@ -95,11 +95,11 @@ def _in_other_unit(
     if exponent == 0:
         return None
     unit = OtherUnit(exponent)
-    scaled, asked = in_other_unit(scene, exponent), unit.settings(settings)
-    bodies = place(scaled, asked)
+    scaled, in_unit = in_other_unit(scene, exponent), unit.settings(settings)
+    bodies = place(scaled, in_unit)
     if len(bodies.placed) <= placed:
         return None
-    return unit.report(_check(scaled, asked, progress, bodies), scene, settings)
+    return unit.report(_check(scaled, in_unit, progress, bodies), scene, settings)
 
 
 def _check(
@@ -178,9 +178,9 @@ def _examine_all(
 ) -> list[CheckedPair]:
     done: dict[int, CheckedPair] = {}
     settings = planner.settings
-    asked = [planner.asked(i, j) for i, j in close]
+    requests = [planner.request(i, j) for i, j in close]
     with ExitStack() as stack:
-        measures = any(one.wants("volume") for one in asked)
+        measures = any(one.wants("volume") for one in requests)
         meter = stack.enter_context(volume_meter(settings)) if measures else None
         peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
         pairs = [
@@ -194,7 +194,7 @@ def _examine_all(
                 None if movers is None else movers.paths(bodies.ids[i], bodies.ids[j]),
                 alone=len(close) == 1 and not queue.keep,
             )
-            for (i, j), one in zip(close, asked, strict=True)
+            for (i, j), one in zip(close, requests, strict=True)
         ]
         for k, one in queue.each(pairs, Steps(start_climbs, _examine, leaves_work)):
             done[k] = one
@@ -203,8 +203,8 @@ def _examine_all(
     return [done[k] for k in range(len(pairs))]
 
 
-def _asked_and_found(one: CheckedPair) -> tuple[Asked, Finding]:
-    return (one.asked if one.finding.motion is None else one.asked.swept()), one.finding
+def _asked_and_found(one: CheckedPair) -> tuple[Request, Finding]:
+    return (one.request if one.finding.motion is None else one.request.swept()), one.finding
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:
@@ -229,16 +229,16 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
 
             examined = with_sweep(examined, pair, pair.paths, trace)
         finding = examined.finding
-        if pair.asked.wants("certificate"):
+        if pair.request.wants("certificate"):
             finding = _with_certificate(pair, examined)
-        return CheckedPair(finding, pair.asked, tuple(trace.issues))
+        return CheckedPair(finding, pair.request, tuple(trace.issues))
     except Exception as error:
         LOG.debug("a pair failed", exc_info=True)
         reason = f"internal error: {type(error).__name__}: {error}"
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)
         finding = indeterminate(pair.a.id, pair.b.id, reason, trace)
-        return CheckedPair(finding, pair.asked, (*trace.issues, issue))
+        return CheckedPair(finding, pair.request, (*trace.issues, issue))
 
 
 def _with_certificate(pair: Pair, examined: Examined) -> Finding:
@@ -276,7 +276,7 @@ def _findings(
     if total - allowed <= LISTED_PAIRS if listed is None else listed:
         for i, j in bodies.book.asked_pairs():
             if (i, j) not in found:
-                pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.asked(i, j))
+                pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))
                 apart = apart_by_boxes(pair)
                 found[i, j] = (
                     _with_certificate(pair, apart) if settings.certificate else apart.finding

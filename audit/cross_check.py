@@ -14,9 +14,9 @@ from typing import Literal
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.request.trace import Trace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.peers import Peers
 from satcheck.report.report import CROSS_CHECK, NO_ANSWER, OVERLAPS

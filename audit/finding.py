@@ -13,7 +13,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.answer import Answer
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.depth import Depth, measure_depth
@@ -22,6 +21,7 @@ from satcheck.audit.figures.touch_band import Band, band_of, touch_band
 from satcheck.audit.figures.volume import NOTHING, common_volume
 from satcheck.audit.ladder.around import open_pieces_around
 from satcheck.audit.ladder.ladder import boxes_verdict, settle
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.severity import Judgement, disputed, judged
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.contacts import Contacts
@@ -79,8 +79,8 @@ def apart_by_boxes(pair: Pair) -> Examined:
         "separated",
         "separated",
         "exact",
-        volume=NOTHING if pair.asked.wants("volume") else None,
-        contacts=Contacts() if pair.asked.wants("contacts") else None,
+        volume=NOTHING if pair.request.wants("volume") else None,
+        contacts=Contacts() if pair.request.wants("contacts") else None,
     )
     return Examined(_finding(pair, answer, Judgement("none"), trace), verdict, answer)
 
@@ -114,7 +114,7 @@ def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> 
 
         reason = without_meshes(answer.reason, pair, trace)
         return answer if reason is answer.reason else replace(answer, reason=reason)
-    asked = pair.asked.by
+    asked = pair.request.by
     if "volume" in asked:
         volume = common_volume(pair, verdict, trace)
         answer = replace(answer, volume=volume, reason=answer.reason or volume.refusal)
@@ -179,7 +179,7 @@ def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | None:
 
 
 def _depth(pair: Pair, verdict: Verdict, move: Vector | None, trace: Trace) -> Depth | None:
-    return measure_depth(pair, verdict, move, trace) if pair.asked.wants("depth") else None
+    return measure_depth(pair, verdict, move, trace) if pair.request.wants("depth") else None
 
 
 def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
@@ -228,7 +228,7 @@ def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
 
 def _is_shown(pair: Pair, gap: Gap) -> bool:
     """Whether the figure goes into the finding."""
-    return pair.asked.clearance is not None and gap.distance is not None
+    return pair.request.clearance is not None and gap.distance is not None
 
 
 def _within_curves(pair: Pair) -> str:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import DEFAULT_SETTINGS, check
+from satcheck.audit.request.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Finding
 from satcheck.scene.meshes import MeshLike, scene_of_meshes

@@ -13,7 +13,7 @@ from typing import Any
 from msgspec import Struct, convert
 from msgspec.structs import replace
 
-from satcheck.audit.asked.settings import Settings
+from satcheck.audit.request.settings import Settings
 from satcheck.audit.summary import rule_reports, stated_health, stated_shape
 from satcheck.core.power_of_two import held_times_power, limit_times_power
 from satcheck.report.certificate import Certificate

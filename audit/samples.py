@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, get_args
 from msgspec import Struct, to_builtins
 from msgspec.structs import replace
 
-from satcheck.audit.asked.rule_book import RuleBook
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
+from satcheck.audit.request.rule_book import RuleBook
+from satcheck.audit.request.settings import Settings
 from satcheck.report.report import (
     OVERLAPS,
     BodyReport,

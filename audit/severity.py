@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.planner import Asked
 from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.request.planner import Request
 from satcheck.audit.tolerances import is_within, keeps
 from satcheck.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
 
@@ -43,19 +43,19 @@ _OVERLAP, _TOUCH, _NOTHING = Judgement("error"), Judgement("note"), Judgement("n
 
 
 def of_clearance(
-    asked: Asked, least: float, most: float, kept: bool | None = None
+    request: Request, least: float, most: float, kept: bool | None = None
 ) -> Judgement | None:
     """Of a gap between these bounds; None: it keeps the clearance, or there is none. kept:
     whether it does, where that is known better than by the bounds."""
-    if not asked.clearance:
+    if not request.clearance:
         return None
-    rule = asked.rule("clearance") or CLEARANCE_RULE
+    rule = request.rule("clearance") or CLEARANCE_RULE
     if kept is None:
-        kept = keeps(asked.clearance, least, most)
+        kept = keeps(request.clearance, least, most)
     if kept is None:
         known = f"at least {least:.9g}" if most == inf else f"between {least:.9g} and {most:.9g}"
         by = f"--{rule}" if rule == CLEARANCE_RULE else rule
-        reason = f"undecided: clearance is {asked.clearance:.9g} ({by}), and the gap is {known}"
+        reason = f"undecided: clearance is {request.clearance:.9g} ({by}), and the gap is {known}"
         return Judgement("warning", rule, "limit", reason)
     return None if kept else Judgement("error", rule)
 
@@ -65,7 +65,7 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
     proven does not pass, and an overlap that is not proven does not fail, unless --accuracy or
     --allow-open asks for less.
     """
-    judgement = by_rule(_judged(answer, pair), pair.asked)
+    judgement = by_rule(_judged(answer, pair), pair.request)
     settings = pair.settings
     if answer.quality != "estimate" or settings.accuracy != "exact" or settings.allow_open:
         return judgement
@@ -74,31 +74,31 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
         is_proven = verified or not judgement.passes
         return judgement if is_proven else _warned(judgement, "relation")
     if answer.relation in OVERLAPS:  # or a gap that may keep no clearance
-        close = of_clearance(pair.asked, 0.0, pair.farther)
+        close = of_clearance(pair.request, 0.0, pair.farther)
         if close is not None and close.severity == "error":
-            return _warned(by_rule(close, pair.asked), "relation")
+            return _warned(by_rule(close, pair.request), "relation")
         return _warned(replace(judgement, severity="warning"), "relation")
     return _warned(judgement, "relation") if judgement.passes else judgement
 
 
-def by_rule(found: Judgement, asked: Asked) -> Judgement:
+def by_rule(found: Judgement, request: Request) -> Judgement:
     """An error gets the severity that a rule sets for its pair."""
-    if found.severity != "error" or asked.severity is None:
+    if found.severity != "error" or request.severity is None:
         return found
-    severity: Severity = "silenced" if asked.severity == "none" else asked.severity
-    return replace(found, severity=severity, rule=asked.rule("severity"))
+    severity: Severity = "silenced" if request.severity == "none" else request.severity
+    return replace(found, severity=severity, rule=request.rule("severity"))
 
 
 def _judged(answer: Answer, pair: Pair) -> Judgement:
-    asked, gap = pair.asked, answer.gap
+    request, gap = pair.request, answer.gap
     if answer.relation in OVERLAPS:
-        return _limited(answer, asked) if asked.limited else _OVERLAP
+        return _limited(answer, request) if request.limited else _OVERLAP
     if answer.relation == "near":
-        return Judgement("error", asked.rule("clearance") or CLEARANCE_RULE)
+        return Judgement("error", request.rule("clearance") or CLEARANCE_RULE)
     if gap is None:  # an overlap within the touch band
-        close = of_clearance(asked, 0.0, pair.farther)
+        close = of_clearance(request, 0.0, pair.farther)
     else:
-        close = of_clearance(asked, gap.lower, gap.upper, gap.kept)
+        close = of_clearance(request, gap.lower, gap.upper, gap.kept)
     return close or (_TOUCH if answer.relation == "touching" else _NOTHING)
 
 
@@ -117,9 +117,9 @@ def _is_at_least(found: Judgement, severity: Severity) -> bool:
     return SEVERITIES.index(found.severity) <= SEVERITIES.index(severity)
 
 
-def _limited(answer: Answer, asked: Asked) -> Judgement:
+def _limited(answer: Answer, request: Request) -> Judgement:
     """Within all limits, beyond one, or undecided."""
-    limits = list(_limits(answer, asked))
+    limits = list(_limits(answer, request))
     for limit in limits:
         if limit.kept is False:
             return Judgement("error", limit.rule)
@@ -155,16 +155,18 @@ class _Limit(Struct, frozen=True):
         return f"{known}, and the {figure} is between {self.least:.6g} and {self.greatest:.6g}"
 
 
-def _limits(answer: Answer, asked: Asked) -> Iterator[_Limit]:
-    if asked.max_depth is not None:
+def _limits(answer: Answer, request: Request) -> Iterator[_Limit]:
+    if request.max_depth is not None:
         depth = answer.depth
         least, greatest = (None, None) if depth is None else (depth.lower, depth.upper)
-        yield _Limit(asked.rule("max_depth") or "", "max_depth", asked.max_depth, least, greatest)
-    if asked.max_volume is not None:
+        yield _Limit(
+            request.rule("max_depth") or "", "max_depth", request.max_depth, least, greatest
+        )
+    if request.max_volume is not None:
         least = greatest = None
         found = answer.volume
         if found is not None and found.volume is not None and found.error is not None:
             least, greatest = found.volume - found.error, found.volume + found.error
         yield _Limit(
-            asked.rule("max_volume") or "", "max_volume", asked.max_volume, least, greatest
+            request.rule("max_volume") or "", "max_volume", request.max_volume, least, greatest
         )

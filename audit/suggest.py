@@ -16,7 +16,7 @@ from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
 
 if TYPE_CHECKING:
-    from satcheck.audit.asked.settings import Settings
+    from satcheck.audit.request.settings import Settings
     from satcheck.audit.samples import PairTally, Samples
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose

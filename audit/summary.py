@@ -35,7 +35,7 @@ from satcheck.report.report import (
 from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 if TYPE_CHECKING:
-    from satcheck.audit.asked.settings import FailOn
+    from satcheck.audit.request.settings import FailOn
     from satcheck.core.shapes import Primitive
     from satcheck.decompose import Decomposition
     from satcheck.scene import Scene

@@ -11,7 +11,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
-from satcheck.audit.asked.settings import METHODS
+from satcheck.audit.request.settings import METHODS
 from satcheck.cli.output import Document
 from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene

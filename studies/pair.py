@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.asked.planner import asked_by
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache
+from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.settings import Settings
 from satcheck.scene import Body
 
 if TYPE_CHECKING:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 from msgspec.structs import force_setattr
 
-from satcheck.audit.asked.planner import Asked
-from satcheck.audit.asked.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.bodies.boxes import diagonal, largest_coordinate
 from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.request.planner import Request
+from satcheck.audit.request.settings import ACCURACIES, Accuracy, Settings
 from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.conventions import axes_of
 
@@ -46,7 +46,7 @@ class Pair(Struct, frozen=True):
     a: PlacedBody
     b: PlacedBody
     settings: Settings
-    asked: Asked
+    request: Request
     meter: VolumeMeter | None = None
     peers: Peers | None = None
     paths: Paths | None = None
@@ -57,14 +57,14 @@ class Pair(Struct, frozen=True):
     farther: float = 0.0  # __post_init__ sets it
 
     def __post_init__(self) -> None:
-        tolerance = self.asked.tolerance
+        tolerance = self.request.tolerance
         if tolerance is None:
             tolerance = self._precision()
         force_setattr(self, "tolerance", tolerance)
         files = (self.a.body.file, self.b.body.file) if self.settings.planar else ()
         closer = sum((file.deviation for file in files), 0.0)
         farther = sum((file.deviation for file in files if not file.inscribed), 0.0)
-        asked_gap = max((self.asked.clearance or 0.0) + closer, tolerance)
+        asked_gap = max((self.request.clearance or 0.0) + closer, tolerance)
         force_setattr(self, "asked_gap", asked_gap)
         force_setattr(self, "closer", closer)
         force_setattr(self, "farther", farther)
@@ -82,7 +82,7 @@ class Pair(Struct, frozen=True):
     @property
     def wants_distance(self) -> bool:
         """The figure is needed, not only whether it is within the touch band."""
-        return self.asked.wants("distance") or self.closer > self.tolerance
+        return self.request.wants("distance") or self.closer > self.tolerance
 
     def may(self, rung: Accuracy) -> bool:
         """Whether --accuracy lets this pair climb to the rung."""

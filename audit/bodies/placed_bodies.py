@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from satcheck.audit.asked.rule_book import RuleBook, Subject
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.placed_body import (
     MeshKey,
@@ -18,6 +16,8 @@ from satcheck.audit.bodies.placed_body import (
     mesh_key,
     world_bounds,
 )
+from satcheck.audit.request.rule_book import RuleBook, Subject
+from satcheck.audit.request.settings import Settings
 from satcheck.report.report import Issue
 from satcheck.scene import Body
 

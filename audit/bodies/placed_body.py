@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Generic, TypeVar
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.boxes import Box, diagonal, largest_coordinate
+from satcheck.audit.request.settings import Settings
 from satcheck.core.curved.placed import CurvedShape, curved_shape
 from satcheck.core.shapes import is_curved
 from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF

@@ -34,13 +34,13 @@ def certified(pair: Pair, examined: Examined) -> Json | str:
         return "the relation is not proven"
     a, b = pair.a.checked(), pair.b.checked()
     asked = Asked(
-        pair.asked.tolerance,
-        pair.asked.clearance,
+        pair.request.tolerance,
+        pair.request.clearance,
         pair.settings.allow_open,
-        pair.asked.max_depth,
-        pair.asked.max_volume,
-        pair.asked.severity,
-        pair.asked.rules or {},
+        pair.request.max_depth,
+        pair.request.max_volume,
+        pair.request.severity,
+        pair.request.rules or {},
         None if (plane := pair.settings.planar) is None else axis_across(plane),
     )
     if pair.curved:
@@ -152,7 +152,7 @@ class _Maker:
         """A separation of the hulls as wide as asked about, or the surfaces themselves."""
         asked = Fraction(0)
         if self.finding.relation == "separated":
-            asked = max(Fraction(self.pair.tolerance), Fraction(self.pair.asked.clearance or 0.0))
+            asked = max(Fraction(self.pair.tolerance), Fraction(self.pair.request.clearance or 0.0))
         asked += self.error.closer
         placed = self.placed
         for axis in self._axes():

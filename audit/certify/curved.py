@@ -90,7 +90,7 @@ class _Maker:
         beyond = least = Fraction(0)
         if self.finding.relation == "separated":
             beyond = Fraction(self.pair.tolerance)
-            least = Fraction(self.pair.asked.clearance or 0.0)
+            least = Fraction(self.pair.request.clearance or 0.0)
         for axis in self._axes():
             n = vector(axis)
             if _at_least(self.placed, n, beyond, 1) and _at_least(self.placed, n, least, 0):

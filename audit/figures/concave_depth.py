@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.triangles import crossing_depth
 from satcheck.audit.bodies.verdict import Verdict
@@ -21,6 +20,7 @@ from satcheck.audit.figures.depth import Depth, frees_boxes
 from satcheck.audit.figures.verify import Escape, verified_escape
 from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.core.conventions import axis_across
 from satcheck.core.tolerances import UNIT_ROUNDOFF
@@ -88,7 +88,7 @@ def _searched(
 
 
 def _straddles(pair: Pair, found: core.DepthInterval) -> bool:
-    limit = pair.asked.max_depth
+    limit = pair.request.max_depth
     return limit is not None and found.lower <= limit < found.upper
 
 
@@ -141,7 +141,7 @@ def depth_by_move(pair: Pair, verdict: Verdict, move: Vector, trace: Trace) -> D
     A wide tolerance must not make the figures coarser: a shorter move is then searched, as without
     a band. Within the input precision there is nothing to refine.
     """
-    if pair.asked.tolerance is None:
+    if pair.request.tolerance is None:
         return depth_of_move(pair, move, crossing_depth(pair, verdict.crossing))
     depth = concave_depth(pair, verdict, trace)
     if depth.escape.verified and depth.upper <= math.hypot(*move):

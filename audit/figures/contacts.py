@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from typing import Protocol, TypeVar
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.request.trace import Trace
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 
 # Pairs of triangles that may meet: a report about more is nothing that anybody could use. Each

@@ -21,7 +21,6 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.bodies.verdict import Verdict
@@ -30,6 +29,7 @@ from satcheck.audit.figures.gap import Gap
 from satcheck.audit.figures.verify import Escape, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.ladder.in_plane import wall_gap
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import keeps
 from satcheck.audit.vectors import added, scaled
 from satcheck.core.conventions import axes_of
@@ -49,7 +49,7 @@ def gap_of_curves(pair: Pair, gap: Gap) -> Gap:
     touch band is wide enough for both."""
     lower = max(math.nextafter(gap.lower - pair.closer, -math.inf), 0.0)
     upper = math.nextafter(gap.upper + pair.farther, math.inf)
-    clearance = pair.asked.clearance
+    clearance = pair.request.clearance
     kept = not clearance or keeps(clearance, lower, upper)
     return replace(gap, lower=lower, upper=upper, kept=kept)
 

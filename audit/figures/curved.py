@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.figures.concave_depth import depth_of_move
 from satcheck.audit.figures.depth import Depth, measure_depth
 from satcheck.audit.ladder.ladder import settle
+from satcheck.audit.request.trace import Trace
 from satcheck.core import Mesh
 from satcheck.core.curved.freeing import move_off
 from satcheck.core.shape_mesh import mesh_around
@@ -84,7 +84,7 @@ def _scaled(mesh: Mesh, by: float) -> Mesh:
 def without_meshes(reason: str | None, pair: Pair, trace: Trace) -> str | None:
     """The reason of a finding; it names the figures that are computed on meshes alone, and so are
     not available for a curved shape."""
-    missing = [effect for effect in ON_TRIANGLES if pair.asked.wants(effect)]
+    missing = [effect for effect in ON_TRIANGLES if pair.request.wants(effect)]
     for effect in missing:
         trace.record(effect, NOT_AVAILABLE, "a curved shape has no triangles")
     if missing:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.figures.verify import Escape, verified_escape
+from satcheck.audit.request.trace import Trace
 from satcheck.report.report import Vector, Witness
 
 if TYPE_CHECKING:

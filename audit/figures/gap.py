@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import keeps
 from satcheck.core.tolerances import rounding_pad
 from satcheck.report.report import Vector, Witness
@@ -45,12 +45,12 @@ class Gap(Struct, frozen=True):
 def measure_gap(pair: Pair, verdict: Verdict, trace: Trace) -> Gap:
     """The distance of a separated or touching pair, as far as the clearance or the band asks."""
     if verdict.signed_distance is not None:
-        if pair.asked.wants("distance"):
+        if pair.request.wants("distance"):
             trace.record("distance", "measured", "with the hulls")
         return _convex_gap(pair, verdict.signed_distance)
     if verdict.relation == "touching":
         witness = verdict.point and Witness(verdict.point, verdict.point)
-        return Gap(0.0, 0.0, True, not pair.asked.clearance, 0.0, None, witness)
+        return Gap(0.0, 0.0, True, not pair.request.clearance, 0.0, None, witness)
     climb = verdict.climb
     if climb is None or climb.gap is None:
         return _at_least(pair, verdict.gap_lower)
@@ -77,7 +77,7 @@ def _surface_gap(pair: Pair, climb: core.Climb, found: core.MeshDistance, trace:
         sign = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
         return sign if of_holes is None or sign in sure else None
 
-    tolerance, clearance = pair.tolerance, pair.asked.clearance
+    tolerance, clearance = pair.tolerance, pair.request.clearance
     within = _is_within(lower, upper, tolerance, lambda length: side(length, sure=(-1, 0)))
     kept = _is_kept(lower, upper, clearance, lambda length: side(length, sure=(-1,)))
     return Gap(
@@ -102,7 +102,7 @@ def _convex_gap(pair: Pair, result: core.PairResult | Signed) -> Gap:
         return compare_convex(pair, length)
 
     within = _is_within(lower, upper, pair.tolerance, compare)
-    kept = _is_kept(lower, upper, pair.asked.clearance, compare)
+    kept = _is_kept(lower, upper, pair.request.clearance, compare)
     distance = _on_its_side(distance, pair, within, kept)
     return Gap(lower, upper, within, kept, distance, result.normal, witness)
 
@@ -110,7 +110,7 @@ def _convex_gap(pair: Pair, result: core.PairResult | Signed) -> Gap:
 def _at_least(pair: Pair, lower: float) -> Gap:
     """Of bodies without a common point, of which no more is known."""
     beyond = lower > pair.tolerance or pair.tolerance == 0
-    kept = True if lower >= (pair.asked.clearance or 0.0) else None
+    kept = True if lower >= (pair.request.clearance or 0.0) else None
     return Gap(lower, math.inf, False if beyond else None, kept)
 
 
@@ -141,7 +141,7 @@ def _is_kept(lower: float, upper: float, clearance: float | None, compare: Compa
 def _on_its_side(distance: float, pair: Pair, within: bool | None, kept: bool | None) -> float:
     """The rounded distance, no further than the tolerance and the clearance that it is proven to be
     at most, or at least."""
-    clearance = pair.asked.clearance or 0.0
+    clearance = pair.request.clearance or 0.0
     if within:
         distance = min(distance, pair.tolerance)
     elif within is False:

@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Literal
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.gap import compare_convex
 from satcheck.audit.figures.verify import FREE, relation_after
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.audit.vectors import scaled
 from satcheck.core.tolerances import UNIT_ROUNDOFF, rounding_pad
@@ -126,7 +126,7 @@ def _move_off_mesh(pair: Pair, trace: Trace) -> Vector | None:
 
 
 def _band(pair: Pair) -> str:
-    source = "the input precision" if pair.asked.tolerance is None else "as asked"
+    source = "the input precision" if pair.request.tolerance is None else "as asked"
     return f"tolerance {pair.tolerance:.3g}, {source}"
 
 

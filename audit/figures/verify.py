@@ -7,8 +7,8 @@ import math
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import LENGTHENING_ULPS
 from satcheck.core.tolerances import UNIT_ROUNDOFF
 from satcheck.report.report import Vector

@@ -6,10 +6,10 @@ import math
 
 from msgspec import Struct
 
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.bodies.verdict import Verdict
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import VOLUME_ROUNDOFFS, is_within
 from satcheck.core.errors import SatcheckError
 from satcheck.core.tolerances import UNIT_ROUNDOFF
@@ -59,7 +59,7 @@ def _require_measurable(body: PlacedBody) -> None:
 
 def _measured(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
     found = _estimated(pair, verdict, trace)
-    limit = pair.asked.max_volume
+    limit = pair.request.max_volume
     if limit is None or found.volume is None or found.error is None:
         return found
     if is_within(limit, found.volume - found.error, found.volume + found.error) is not None:

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 
 from satcheck import core
-from satcheck.audit.asked.planner import Planner
 from satcheck.audit.bodies.placed_bodies import PlacedBodies
+from satcheck.audit.request.planner import Planner
 from satcheck.core.conventions import Bounds
 
 IndexPair = tuple[int, int]

@@ -9,8 +9,8 @@ from satcheck import core
 from satcheck.report.report import OVERLAPS
 
 if TYPE_CHECKING:
-    from satcheck.audit.asked.settings import Accuracy
     from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.request.settings import Accuracy
     from satcheck.report.report import Effect
 
     Request = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, bool]
@@ -66,9 +66,9 @@ def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
     """Whether more than words is left to do after the climb."""
     if climb is None or pair.settings.accuracy == "parts" or pair.paths is not None:
         return True
-    if climb.band in ("open", "hidden") or not _EXTRAS.isdisjoint(pair.asked.by):
+    if climb.band in ("open", "hidden") or not _EXTRAS.isdisjoint(pair.request.by):
         return True
-    return "depth" in pair.asked.by and climb.relation in OVERLAPS
+    return "depth" in pair.request.by and climb.relation in OVERLAPS
 
 
 def _request(pair: Pair) -> Request:

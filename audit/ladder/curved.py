@@ -14,9 +14,9 @@ from satcheck.core.curved.signed import Signed, convex_pair
 from satcheck.core.curved.triangles import Nearest, against_triangles
 
 if TYPE_CHECKING:
-    from satcheck.audit.asked.trace import Trace
     from satcheck.audit.bodies.pair import Pair
     from satcheck.audit.bodies.placed_body import PlacedBody
+    from satcheck.audit.request.trace import Trace
     from satcheck.core.curved.exact.proof import Proof
     from satcheck.report.report import Relation
 

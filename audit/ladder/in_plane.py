@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.request.trace import Trace
 from satcheck.core.conventions import Plane, axes_of, axis_across
 from satcheck.report.report import OVERLAPS, Relation
 

@@ -8,10 +8,10 @@ convex parts of the meshes (satcheck.decompose), each proven to lie inside its m
 from __future__ import annotations
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import box_escape, largest_coordinate
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.parts import Part, inner_parts, split_together
+from satcheck.audit.request.trace import Trace
 from satcheck.core.tolerances import rounding_pad
 
 

@@ -13,10 +13,10 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.ladder.climb import climb_pair
+from satcheck.audit.request.trace import Trace
 from satcheck.core.tolerances import rounding_pad
 
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 
 from satcheck import core
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import largest_coordinate
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.parts import Covering, covering, inner_parts, split_together
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.ladder.inner_bodies import deepest_pair
+from satcheck.audit.request.trace import Trace
 from satcheck.core.tolerances import rounding_pad
 from satcheck.report.report import Relation
 

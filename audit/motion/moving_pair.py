@@ -9,14 +9,14 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.planner import ALWAYS, Asked
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import PADS_IN_BAND, STEPS, VISITS
 from satcheck.audit.motion.track import ORIGIN, PLACING_ROUNDOFFS, WORLD, Frame, Track
+from satcheck.audit.request.planner import ALWAYS, Request
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import TOUCH_FRACTION
 from satcheck.core.curved.placed import rows_of
 from satcheck.core.tolerances import UNIT_ROUNDOFF
@@ -128,7 +128,7 @@ class MovingPair:
             self.pair,
             a=a,
             b=b,
-            asked=Asked({"overlap": ALWAYS}, tolerance=self.tolerance),
+            request=Request({"overlap": ALWAYS}, tolerance=self.tolerance),
             meter=None,
             peers=None,
             paths=None,

@@ -80,7 +80,7 @@ class _Answer:
     def _hit(self, upper: float) -> Sweep:
         pair, impact = self._pair, self._impact
         worst = None
-        if pair.pair.asked.wants("depth"):
+        if pair.pair.request.wants("depth"):
             worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
         return Sweep(
             relation="penetrating",
@@ -112,7 +112,7 @@ class _Answer:
         if not pair.convex and not pair.pair.may("exact"):
             return unknown
         if contact is None or pair.convex:
-            return least_distance(pair, pair.pair.asked.clearance) or unknown
+            return least_distance(pair, pair.pair.request.clearance) or unknown
         try:
             return Worst(contact, 0.0, max(pair.least_gap(contact, contact)[1], 0.0))
         except Unanswerable:
@@ -120,7 +120,7 @@ class _Answer:
 
     def _with_fills(self, worst: Worst) -> Worst:
         """What fills a hole may be nearer than the surfaces, yet no nearer than the hulls."""
-        clearance = self._pair.pair.asked.clearance
+        clearance = self._pair.pair.request.clearance
         if not clearance or not self._holed():
             return worst
         hulls = least_hull_distance(self._pair, worst.upper, clearance)
@@ -130,7 +130,7 @@ class _Answer:
         """Of bodies that the scan has shown to be apart, or within the touch band, all the way."""
         if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
             return "touching"
-        return "near" if worst.upper < (self._pair.pair.asked.clearance or 0.0) else "separated"
+        return "near" if worst.upper < (self._pair.pair.request.clearance or 0.0) else "separated"
 
     def _holed(self) -> list[str]:
         """The bodies of which a fill may matter. Sheets have no inside, and --allow-open reads all

@@ -6,11 +6,11 @@ import math
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.planner import Asked
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair, Paths
 from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
+from satcheck.audit.request.planner import Request
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.severity import Judgement, by_rule, of_clearance
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
@@ -23,7 +23,7 @@ def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Ex
     finding = examined.finding
     found = sweep(pair, paths.a, paths.b)
     trace.record("sweep", found.relation, _detail(found))
-    judged = by_rule(_judged(found, pair), pair.asked)
+    judged = by_rule(_judged(found, pair), pair.request)
     graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
     relation = _worse(finding.relation, found.relation)
     undecided = relation == "indeterminate"
@@ -57,12 +57,12 @@ def _worse(placed: Relation, on_the_way: Relation) -> Relation:
 
 
 def _judged(found: Sweep, pair: Pair) -> Judgement:
-    asked = pair.asked
+    request = pair.request
     if found.relation == "indeterminate":
         return Judgement("warning", undecided="motion")
     if found.relation == "penetrating":
-        return _limited(found, pair) if asked.limited else Judgement("error")
-    clearance = _clearance(found, asked)
+        return _limited(found, pair) if request.limited else Judgement("error")
+    clearance = _clearance(found, request)
     if clearance is not None and clearance.severity == "error":
         return clearance
     if found.reason is not None:
@@ -72,22 +72,22 @@ def _judged(found: Sweep, pair: Pair) -> Judgement:
     return Judgement("note" if found.relation == "touching" else "none")
 
 
-def _clearance(found: Sweep, asked: Asked) -> Judgement | None:
+def _clearance(found: Sweep, request: Request) -> Judgement | None:
     """None where the clearance is kept all the way, or there is none."""
     worst = found.worst
     gap = (0.0, math.inf) if worst is None else worst.distance or (0.0, 0.0)
-    return of_clearance(asked, *gap)
+    return of_clearance(request, *gap)
 
 
 def _limited(found: Sweep, pair: Pair) -> Judgement:
     """Of a pair that may overlap within limits. The volume on the way is not measured."""
-    asked = pair.asked
+    request = pair.request
     depth = None if found.worst is None else found.worst.depth
-    rule = asked.rule("max_depth") or asked.rule("max_volume")
-    if asked.max_depth is not None and depth is not None:
-        if depth[0] > asked.max_depth:
+    rule = request.rule("max_depth") or request.rule("max_volume")
+    if request.max_depth is not None and depth is not None:
+        if depth[0] > request.max_depth:
             return Judgement("error", rule)
-        if depth[1] <= asked.max_depth * (1 + EXACT_WIDTH) and asked.max_volume is None:
+        if depth[1] <= request.max_depth * (1 + EXACT_WIDTH) and request.max_volume is None:
             return Judgement("note", rule)
     reason = "undecided: whether the overlap on the way is within its limits"
     return Judgement("warning", rule, "limit", reason)

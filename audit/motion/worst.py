@@ -16,11 +16,11 @@ from itertools import pairwise
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.planner import ALWAYS
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.finding import examine
 from satcheck.audit.motion.limits import WORST_DEPTHS, WORST_INTERVALS, WORST_REFINED, WORST_WIDTH
 from satcheck.audit.motion.moving_pair import MovingPair, Unanswerable
+from satcheck.audit.request.planner import ALWAYS
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import keeps
 from satcheck.report.report import OVERLAPS
 
@@ -128,9 +128,9 @@ def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | No
 def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     """Proven bounds of the depth; 0.0 where they do not overlap."""
     placed = pair.placed(t)
-    asked = replace(placed.asked, by={**placed.asked.by, "depth": ALWAYS})
+    request = replace(placed.request, by={**placed.request.by, "depth": ALWAYS})
     settings = replace(placed.settings, depth_budget=budget)
-    finding = examine(replace(placed, settings=settings, asked=asked), Trace()).finding
+    finding = examine(replace(placed, settings=settings, request=request), Trace()).finding
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:
         return 0.0, 0.0
     return finding.depth_bounds

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.planner import Planner
-from satcheck.audit.asked.settings import Settings
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
+from satcheck.audit.request.planner import Planner
+from satcheck.audit.request.settings import Settings
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.resolve.pair_state import PairState, is_objected, is_overlap_excused, state_of
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 from satcheck.audit.side_by_side import side_by_side
@@ -118,21 +118,21 @@ class Layout:
 
     def pair(self, pair: BodyPair) -> Pair:
         """Without a touch band."""
-        asked = replace(self._planner.asked(*self._members(pair)), tolerance=0.0)
-        return Pair(self.placed[pair[0]], self.placed[pair[1]], self.settings, asked, self._meter)
+        request = replace(self._planner.request(*self._members(pair)), tolerance=0.0)
+        return Pair(self.placed[pair[0]], self.placed[pair[1]], self.settings, request, self._meter)
 
     def pair_after(self, pair: BodyPair, step: Vector) -> Pair:
         """The same with the first body moved on by this."""
         a, b = self.placed[pair[0]], self.placed[pair[1]]
         moved = PlacedBody(translated(a.body, step), a.shared)
-        return Pair(moved, b, self.settings, self.pair(pair).asked, self._meter)
+        return Pair(moved, b, self.settings, self.pair(pair).request, self._meter)
 
     def clearance(self, pair: BodyPair) -> float:
-        return self._planner.asked(*self._members(pair)).clearance or 0.0
+        return self._planner.request(*self._members(pair)).clearance or 0.0
 
     def is_limited(self, pair: BodyPair) -> bool:
         """Whether the bodies may overlap, within limits."""
-        return self._planner.asked(*self._members(pair)).limited
+        return self._planner.request(*self._members(pair)).limited
 
     def is_asked(self, pair: BodyPair) -> bool:
         return self._bodies.book.is_asked(*self._members(pair))
@@ -185,8 +185,8 @@ class Layout:
         at_home = pair not in self._known and all(self.offsets[i] == ORIGIN for i in pair)
         strict = self.pair(pair)
         if at_home or pair in self._excused:
-            asked = self._planner.asked(*self._members(pair))
-            found = examine(replace(strict, asked=asked), Trace()).finding
+            request = self._planner.request(*self._members(pair))
+            found = examine(replace(strict, request=request), Trace()).finding
             objected = is_objected(found, self.settings.fail_on)
             if not objected and found.relation != "indeterminate":
                 return PairState("free", excused=is_overlap_excused(found))

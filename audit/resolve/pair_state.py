@@ -9,12 +9,12 @@ from typing import Literal
 from msgspec import Struct
 
 from satcheck import core
-from satcheck.audit.asked.settings import FailOn
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import diagonal
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.finding import examine
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
+from satcheck.audit.request.settings import FailOn
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.tolerances import rounding_pad
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Vector
@@ -45,7 +45,7 @@ def is_objected(finding: Finding, fail_on: FailOn) -> bool:
 
 def state_of(pair: Pair, finding: Finding) -> PairState:
     """finding: of the pair where its bodies are."""
-    clearance = pair.asked.clearance or 0.0
+    clearance = pair.request.clearance or 0.0
     if finding.relation == "indeterminate":
         push = None if pair.both_solid or pair.curved else way_outside(pair)
         return PairState("undecided" if push is None else "open", push)
@@ -63,10 +63,10 @@ def state_of(pair: Pair, finding: Finding) -> PairState:
 def may_overlap(pair: Pair) -> float:
     """How deep the bodies may overlap. Where depth is an interval, less than the limit by its
     width, so that the interval can end below the limit. A limit of the volume is no length."""
-    if pair.asked.max_depth is None or pair.asked.max_volume is not None:
+    if pair.request.max_depth is None or pair.request.max_volume is not None:
         return 0.0
     width = 0.0 if pair.both_convex else pair.settings.depth_width
-    return pair.asked.max_depth * (1 - width)
+    return pair.request.max_depth * (1 - width)
 
 
 def is_overlap_excused(finding: Finding) -> bool:
@@ -85,7 +85,7 @@ def separation(pair: Pair) -> tuple[Vector, float] | None:
     found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
     if found.outcome in ("separated", "touching") and found.normal is not None:
         return scaled(found.normal, -1.0), max(found.lower or 0.0, 0.0)
-    if pair.asked.limited:
+    if pair.request.limited:
         way = examine(pair, Trace()).finding.mtv
         if way is not None and any(way):
             return unit(way), -math.hypot(*way)
@@ -117,7 +117,7 @@ def parting_step(pair: Pair, length: float) -> Vector | None:
 def out_of_hull(pair: Pair) -> Vector:
     """The shortest translation of A that parts the hulls and leaves the clearance between them."""
     found = way_out_of_hulls(pair)
-    more = (pair.asked.clearance or 0.0) + rounding_pad(pair.largest_coordinate)
+    more = (pair.request.clearance or 0.0) + rounding_pad(pair.largest_coordinate)
     return scaled(found.normal, -(found.upper + more))
 
 

@@ -12,9 +12,9 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.finding import examine
+from satcheck.audit.request.trace import Trace
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pair_state import may_overlap, separation
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion

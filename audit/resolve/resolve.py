@@ -9,8 +9,8 @@ from contextlib import ExitStack
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check, volume_meter
+from satcheck.audit.request.settings import Settings
 from satcheck.audit.resolve.layout import Layout, translated
 from satcheck.audit.resolve.plain_numbers import write_plainly
 from satcheck.audit.resolve.pull_back import pull_back

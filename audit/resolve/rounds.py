@@ -206,7 +206,7 @@ class Rounds:
             self._size(pair),
         )
         asked = layout.pair(pair)
-        if asked.asked.limited or asked.asked.clearance or self._repairs[pair] > REPAIRS:
+        if asked.request.limited or asked.request.clearance or self._repairs[pair] > REPAIRS:
             return False
         if any(wall.slack(there) < -ROUNDING_SHARE * size for wall in walls):
             return False

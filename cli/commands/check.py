@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from satcheck._version import __version__
 from satcheck.audit import Report, Settings, check
-from satcheck.audit.asked.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
+from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.samples import Samples, check_poses
 from satcheck.cli import exit_codes
 from satcheck.cli.commands import COMMANDS

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from satcheck.audit.asked.settings import Method
+from satcheck.audit.request.settings import Method
 from satcheck.cli import exit_codes
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.audit.asked.settings import LISTED_PAIRS
+from satcheck.audit.request.settings import LISTED_PAIRS
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.columns import columns_of, fit
 from satcheck.cli.report.explain import explain as print_explanation

@@ -8,8 +8,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import check
+from satcheck.audit.request.settings import Settings
 from satcheck.report.report import (
     OVERLAPS,
     Finding,

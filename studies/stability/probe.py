@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.check import Progress
+from satcheck.audit.request.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
 from satcheck.scene.other_unit import require_in_range

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from satcheck.audit.asked.settings import Method, Settings
+from satcheck.audit.request.settings import Method, Settings
 from satcheck.report.report import OVERLAPS
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import SPENT, Budget, Gauge

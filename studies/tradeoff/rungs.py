@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 from msgspec import Struct
 
-from satcheck.audit.asked.settings import Accuracy
+from satcheck.audit.request.settings import Accuracy
 
 
 class Rung(Struct, frozen=True):

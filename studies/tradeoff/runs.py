@@ -7,12 +7,12 @@ from time import perf_counter
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.settings import Settings
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
 from satcheck.audit.figures.volume import common_volume
 from satcheck.audit.finding import examine
+from satcheck.audit.request.settings import Settings
+from satcheck.audit.request.trace import Trace
 from satcheck.core.errors import SatcheckError
 from satcheck.core.overlap_volume import VolumeMeter
 from satcheck.core.tolerances import rounding_pad

@@ -5,11 +5,11 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from satcheck import core
-from satcheck.audit.asked.planner import Planner
-from satcheck.audit.asked.settings import Method, Settings
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.check import Progress
 from satcheck.audit.ladder.broad_phase import close_pairs
+from satcheck.audit.request.planner import Planner
+from satcheck.audit.request.settings import Method, Settings
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.asked.planner import asked_by
-from satcheck.audit.asked.trace import Trace
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.cross_check import DISAGREEMENT, say
 from satcheck.audit.ladder.ladder import settle
+from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.trace import Trace
 from satcheck.cli.report.summary import summary_line
 from satcheck.core import Mesh
 from satcheck.core.overlap_volume import OverlapVolume

@@ -125,7 +125,7 @@ def test_never_is_not_said_of_what_overlaps_as_placed(tmp_path, monkeypatch):
 
 def test_an_internal_error_in_a_random_pose_is_told(monkeypatch):
     def fails(pair, trace, climb=None):
-        if not pair.asked.wants("depth"):
+        if not pair.request.wants("depth"):
             raise RuntimeError("boom")
         return examine(pair, trace, climb)
 

@@ -8,7 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Contacts
-from satcheck.audit.asked.settings import LISTED_PAIRS
+from satcheck.audit.request.settings import LISTED_PAIRS
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
 from satcheck.cli.report.table import render

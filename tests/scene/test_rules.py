@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from satcheck.audit.asked.rule_book import Subject
+from satcheck.audit.request.rule_book import Subject
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Rule, Selector
 

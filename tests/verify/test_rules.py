@@ -11,14 +11,14 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit import Settings, check
-from satcheck.audit.asked.rule_book import RuleBook, Subject
+from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.core.shapes import Box
 from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
 from satcheck.verify.rules import Rules
-from tests.audit.asked.test_rule_book import random_rules, subjects
+from tests.audit.request.test_rule_book import random_rules, subjects
 from tests.cli.process import VALIDATOR
 from tests.verify.reports import Json, is_accepted, verified
 

@@ -7,8 +7,8 @@ from itertools import combinations
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.placed_bodies import BodyCache, place
+from satcheck.audit.request.settings import Settings
 from satcheck.core.shapes import Box
 from satcheck.scene import Body, Scene, Unreadable
 from satcheck.scene.issue import issue

@@ -6,10 +6,10 @@ import math
 
 import pytest
 
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh, world_bounds
 from satcheck.audit.check import check
+from satcheck.audit.request.settings import Settings
 from satcheck.scene import Body, Scene, load_scene
 from tests.audit import shapes
 

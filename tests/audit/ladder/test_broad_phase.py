@@ -6,10 +6,10 @@ from itertools import combinations
 
 import pytest
 
-from satcheck.audit.asked.planner import Planner
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.ladder.broad_phase import close_pairs
+from satcheck.audit.request.planner import Planner
+from satcheck.audit.request.settings import Settings
 from satcheck.core import box_gap
 from satcheck.core.shapes import Box
 from satcheck.scene import Body, Rule, Scene, Selector, Unreadable

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.audit import Settings, check
-from satcheck.audit.asked.settings import METHODS, Method
+from satcheck.audit.request.settings import METHODS, Method
 from satcheck.scene import load_scene
 from satcheck.studies.tradeoff import method_costs
 

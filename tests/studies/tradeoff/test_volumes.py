@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from satcheck.audit.asked.settings import Settings
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.request.settings import Settings
 from satcheck.scene import Body, load_scene
 from satcheck.studies.tradeoff.volumes import body_volume, stand_in_volume
 

@@ -8,7 +8,7 @@ from itertools import combinations
 
 import pytest
 
-from satcheck.audit.asked.rule_book import NO_TERMS, RuleBook, Subject
+from satcheck.audit.request.rule_book import NO_TERMS, RuleBook, Subject
 from satcheck.scene import Rule, Selector
 
 SELECTORS = ["*", "a*", "b?", "a1", "b2", "[ab]3", "nobody", "group:g", "group:h", "group:*"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
-from satcheck.audit.asked.planner import Asked, Planner
+from satcheck.audit.request.planner import Planner, Request
 from satcheck.report.report import (
     EFFECTS,
     OVERLAPS,
@@ -42,10 +42,10 @@ NO_ANSWER = "no answer"
 class _Alike:
     """Findings that differ in nothing that counts here; most are like many others."""
 
-    __slots__ = ("asked", "findings")
+    __slots__ = ("findings", "request")
 
-    def __init__(self, asked: Asked) -> None:
-        self.asked = asked
+    def __init__(self, request: Request) -> None:
+        self.request = request
         self.findings: list[Finding] = []
 
     @property
@@ -59,7 +59,7 @@ class _Alike:
             time = sum([finding.plan[place].microseconds for finding in self.findings])
             effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
             # A step that only the overlap needed belongs to the overlap.
-            yield effect if effect in self.asked.by else "overlap", time
+            yield effect if effect in self.request.by else "overlap", time
 
     @property
     def unanswered(self) -> set[Effect]:
@@ -74,7 +74,7 @@ class _Alike:
 
 def effects_of(
     planner: Planner,
-    close: Iterable[tuple[Asked, Finding]],
+    close: Iterable[tuple[Request, Finding]],
     counts: PairCounts,
     units_unknown: int = 0,
 ) -> tuple[EffectReport, ...]:
@@ -119,11 +119,11 @@ def effects_of(
     )
 
 
-def _grouped(close: Iterable[tuple[Asked, Finding]]) -> list[_Alike]:
+def _grouped(close: Iterable[tuple[Request, Finding]]) -> list[_Alike]:
     groups: dict[tuple[object, ...], _Alike] = {}
-    for asked, finding in close:
+    for request, finding in close:
         key = (
-            id(asked),
+            id(request),
             finding.at_rest,
             finding.exact_relation,
             finding.depth is None,
@@ -134,7 +134,7 @@ def _grouped(close: Iterable[tuple[Asked, Finding]]) -> list[_Alike]:
         )
         group = groups.get(key)
         if group is None:
-            group = groups[key] = _Alike(asked)
+            group = groups[key] = _Alike(request)
         group.findings.append(finding)
     return list(groups.values())
 
@@ -146,17 +146,17 @@ def _reasons(
     beforehand: Mapping[str, int],
     allowed: int,
 ) -> dict[str, int]:
-    asked = bool(planner.who_asks(effect))
+    is_requested = bool(planner.who_asks(effect))
     reasons = Counter(spared)
     for reason, count in beforehand.items():
-        reasons[reason if asked else NOT_ASKED] += count
+        reasons[reason if is_requested else NOT_ASKED] += count
     reasons[ALLOWED] += allowed
     return {reason: count for reason, count in sorted(reasons.items()) if count}
 
 
 def _why_not(effect: Effect, group: _Alike) -> str:
     finding = group.finding
-    if not group.asked.wants(effect):
+    if not group.request.wants(effect):
         return NOT_ASKED
     if finding.at_rest == "indeterminate":
         return FAILED

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from satcheck.audit.asked.planner import ALWAYS, FOR_MESHES, Planner, asked_by
-from satcheck.audit.asked.rule_book import RuleBook, Subject, Terms
-from satcheck.audit.asked.settings import Settings
+from satcheck.audit.request.planner import ALWAYS, FOR_MESHES, Planner, asked_by
+from satcheck.audit.request.rule_book import RuleBook, Subject, Terms
+from satcheck.audit.request.settings import Settings
 from satcheck.scene import Rule, Selector
 
 
@@ -86,9 +86,9 @@ def test_what_may_overlap_keeps_no_clearance(limit) -> None:
 def test_pairs_of_one_kind_share_what_is_asked() -> None:
     book = RuleBook([Subject(f"b{k}") for k in range(4)], [rule("b0", "b*", max_depth=1.0)])
     planner = Planner(Settings(), book, composed=True)
-    assert planner.asked(0, 1) is planner.asked(0, 3)
-    assert planner.asked(0, 1).wants("depth")
-    assert not planner.asked(1, 2).wants("depth")
+    assert planner.request(0, 1) is planner.request(0, 3)
+    assert planner.request(0, 1).wants("depth")
+    assert not planner.request(1, 2).wants("depth")
     assert not planner.depth
 
 
@@ -116,6 +116,6 @@ def test_a_limit_of_nothing_asks_too(effect: str, key: str) -> None:
     none = rule(where="none", clearance=0.0)
     book = RuleBook([Subject("a"), Subject("b")], [rule(where="zero", **{key: 0.0}), none])
     planner = Planner(Settings(), book, composed=True)
-    assert planner.asked(0, 1).by[effect] == "zero"
+    assert planner.request(0, 1).by[effect] == "zero"
     assert planner.who_asks(effect) == ("zero",)
     assert planner.who_asks("distance") == ()

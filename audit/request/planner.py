@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.rule_book import NO_TERMS, RuleBook, Terms
-from satcheck.audit.asked.settings import Settings
+from satcheck.audit.request.rule_book import NO_TERMS, RuleBook, Terms
+from satcheck.audit.request.settings import Settings
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.report import Effect
 from satcheck.scene.rules import Rule, Severity
@@ -27,7 +27,7 @@ MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
 
 
-class Asked(Struct, frozen=True):
+class Request(Struct, frozen=True):
     """What is asked about one pair. Lengths and volumes in the units of the scene.
 
     by: effect -> the flags and rules that need it; no entry: none does.
@@ -47,7 +47,7 @@ class Asked(Struct, frozen=True):
     def wants(self, effect: Effect) -> bool:
         return effect in self.by
 
-    def swept(self) -> Asked:
+    def swept(self) -> Request:
         """The same of a pair of which one body moves against the other."""
         return replace(self, by={**self.by, "sweep": MOTIONS})
 
@@ -75,9 +75,9 @@ class Planner:
         self.moving = moving
         self._book = book
         self._composed = composed
-        self._asked: dict[tuple[int, ...], Asked] = {}
+        self._asked: dict[tuple[int, ...], Request] = {}
 
-    def asked(self, i: int, j: int) -> Asked:
+    def request(self, i: int, j: int) -> Request:
         key = self._book.key(i, j)
         if key not in self._asked:
             terms = self._book.terms(i, j)
@@ -105,10 +105,10 @@ class Planner:
 
     def asked_gap(self, i: int, j: int, resolution: float) -> float:
         """A gap of this pair beyond this is not asked about. resolution: of both together."""
-        asked = self.asked(i, j)
-        band = resolution if asked.tolerance is None else asked.tolerance
+        request = self.request(i, j)
+        band = resolution if request.tolerance is None else request.tolerance
         of_curves = 0.0 if self.settings.planar is None else resolution
-        return max(band, (asked.clearance or 0.0) + of_curves)
+        return max(band, (request.clearance or 0.0) + of_curves)
 
     def reach(self, resolutions: Mapping[int, float]) -> list[float]:
         """Of each of these bodies a length, so that two of them are together no less than any gap
@@ -128,7 +128,7 @@ class Planner:
         ]
 
 
-def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Asked:
+def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Request:
     """What flags and rules ask together. A rule that sets a key stands above the flag, and a pair
     that may overlap within limits has no clearance to keep."""
     limits = {"max_depth": terms.max_depth, "max_volume": terms.max_volume}
@@ -151,7 +151,7 @@ def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = Fa
         "cross-check": "--cross-check" if settings.cross_check else None,
         "certificate": "--certificate" if settings.certificate else None,
     }
-    return Asked(
+    return Request(
         by={effect: who for effect, who in by.items() if who},
         clearance=clearance,
         tolerance=_value(terms.tolerance, "tolerance", settings.tolerance),

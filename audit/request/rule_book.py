@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.audit.asked.pair_rows import A, B, Kind, PairRows, ones
+from satcheck.audit.request.pair_rows import A, B, Kind, PairRows, ones
 from satcheck.scene.rules import KEYS, Rule, Selector
 
 # More pairs of kinds than this are not listed.
