@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -44,7 +43,6 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
 
 DEFAULT_SETTINGS = Settings()
-LOG = logging.getLogger("satcheck")
 Progress = Callable[[int, int], None]
 
 
@@ -233,7 +231,9 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
             finding = _with_certificate(pair, examined)
         return CheckedPair(finding, pair.request, tuple(trace.issues))
     except Exception as error:
-        LOG.debug("a pair failed", exc_info=True)
+        import logging
+
+        logging.getLogger("satcheck").debug("a pair failed", exc_info=True)
         reason = f"internal error: {type(error).__name__}: {error}"
         message = f"{pair.a.id} and {pair.b.id}: {reason}"
         issue = Issue(INTERNAL_ERROR, "error", None, None, message)

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import gc
-import logging
 import os
 import sys
-import traceback
 
 import click
 
@@ -87,6 +85,8 @@ def _internal(error: Exception) -> str:
 
 def _talk_of_faults() -> None:
     """Show the tracebacks of faults that a run survives."""
+    import logging
+
     handler = logging.StreamHandler()
     handler.emit = lambda record: talk(handler.format(record))  # type: ignore[method-assign]
     log = logging.getLogger("satcheck")
@@ -96,6 +96,8 @@ def _talk_of_faults() -> None:
 
 def _failed(line: str, debug: bool) -> int:
     if debug:
+        import traceback
+
         talk(traceback.format_exc().rstrip())
     talk(f"satcheck: {line}")
     return exit_codes.ERROR

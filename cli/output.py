@@ -9,7 +9,6 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from shutil import get_terminal_size
 from typing import NamedTuple, TextIO
 
 import click
@@ -160,11 +159,18 @@ def _talk_descriptor() -> int:
     return 2
 
 
+def _columns() -> int:
+    """Of the terminal; its compression libraries make shutil slow to import."""
+    from shutil import get_terminal_size
+
+    return get_terminal_size().columns
+
+
 def _page(stream: TextIO) -> Page:
     terminal = stream.isatty()
     encoding = (stream.encoding or "").lower().replace("-", "").replace("_", "")
     return Page(
-        width=get_terminal_size().columns if terminal else UNBOUNDED_WIDTH,
+        width=_columns() if terminal else UNBOUNDED_WIDTH,
         # https://no-color.org: any non-empty value
         colour=terminal and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb",
         unicode=encoding.startswith("utf"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from rich.console import Console
@@ -30,10 +29,6 @@ class Canvas(Console):
             emoji=False,
             markup=False,
         )
-
-    def add(self, lines: Iterable[str]) -> None:
-        """Lines that are drawn already, however wide."""
-        self._written.writelines(f"{line}\n" for line in lines)
 
     def text(self) -> str:
         """All of it, without blanks at the ends of lines; final newline included."""

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import at_most, duration, number
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
+    from satcheck.cli.output import Page
     from satcheck.report.report import BodyReport, EffectReport, Finding, Report
 
 
@@ -20,17 +21,19 @@ if TYPE_CHECKING:
 MOST_NAMES = 4
 
 
-def explain(
-    console: Console, report: Report, findings: Sequence[Finding], *, timings: bool
-) -> None:
-    """Prints to the console of the renderer."""
-    console.print(_effects(report.effects, timings=timings))
-    console.print()
-    console.print(_bodies(report.bodies))
+def explanation(
+    page: Page, report: Report, findings: Sequence[Finding], *, timings: bool
+) -> list[str]:
+    """The lines between the table and the remarks."""
+    canvas = Canvas(page)
+    canvas.print(_effects(report.effects, timings=timings))
+    canvas.print()
+    canvas.print(_bodies(report.bodies))
     for finding in findings:
-        console.print(Text(f"\n{finding.a} against {finding.b}: {finding.relation}", style="bold"))
-        console.print(_plan(finding, timings=timings))
-    console.print()
+        canvas.print(Text(f"\n{finding.a} against {finding.b}: {finding.relation}", style="bold"))
+        canvas.print(_plan(finding, timings=timings))
+    canvas.print()
+    return canvas.text().removesuffix("\n").split("\n")
 
 
 def _effects(effects: Sequence[EffectReport], *, timings: bool) -> Table:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from rich.text import Text
-
+from satcheck.cli.report.lines import YELLOW
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
     counted,
@@ -28,13 +27,20 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from satcheck.report.report import BodyReport, Finding, Report, RuleReport
 
-_ISSUE_COLOURS = {"warning": "yellow", "note": ""}
+_ISSUE_STYLES = {"warning": YELLOW, "note": ""}
 
 
-def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
+class Remark(NamedTuple):
+    """One line, and its style (`cli/report/lines.py`)."""
+
+    text: str
+    style: str = ""
+
+
+def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
     """One line a pair for the touch band and for what was not decided, one a body otherwise."""
     lines = [
-        Text(line)
+        Remark(line)
         for finding in shown
         for line in (
             *_band(finding),
@@ -43,10 +49,12 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Text]:
             *_moving(finding, unit_of(report.units)),
         )
     ]
-    lines += [Text(line) for line in (*_curved(report), *_no_opinion(report), *_of_bodies(report))]
+    lines += [
+        Remark(line) for line in (*_curved(report), *_no_opinion(report), *_of_bodies(report))
+    ]
     for issue in report.issues:
         if issue.severity != "error":
-            lines.append(Text(issue_line(issue), style=_ISSUE_COLOURS[issue.severity]))
+            lines.append(Remark(issue_line(issue), _ISSUE_STYLES[issue.severity]))
     return lines
 
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.audit.request.settings import LISTED_PAIRS
-from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.columns import columns_of, fit
-from satcheck.cli.report.explain import explain as print_explanation
 from satcheck.cli.report.grid import Grid
+from satcheck.cli.report.lines import fitted, joined
 from satcheck.cli.report.remarks import is_lost, remarks
 from satcheck.cli.report.summary import summary_line
 from satcheck.cli.report.words import counted, past_holes
@@ -22,21 +21,23 @@ if TYPE_CHECKING:
 
 def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr."""
-    console = Canvas(page)
+    lines: list[str] = []
     shown = _shown(report)
     if shown:
         layout = fit(columns_of(shown, report.units, timings=timings), page.width)
-        console.add(Grid(layout, console, unicode=page.unicode).lines())
+        lines += Grid(layout, page).lines()
     listed = sum(finding.relation == "separated" for finding in shown)
     rest = report.summary.by_relation.get("separated", 0) - listed
     if shown and rest:
-        console.print(f"{counted(rest, 'more pair')}, all separated")
+        lines += fitted(f"{counted(rest, 'more pair')}, all separated", page)
     if explain:
-        print_explanation(console, report, shown, timings=timings)
-    for line in remarks(report, shown):
-        console.print(line)
-    console.print(summary_line(report))
-    return console.text()
+        from satcheck.cli.report.explain import explanation  # rich's tables
+
+        lines += explanation(page, report, shown, timings=timings)
+    for remark in remarks(report, shown):
+        lines += fitted(remark.text, page, remark.style)
+    lines += fitted(summary_line(report), page)
+    return joined(lines, page)
 
 
 def _shown(report: Report) -> Sequence[Finding]:

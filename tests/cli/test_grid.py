@@ -13,6 +13,7 @@ from satcheck.cli.output import Page
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.columns import Column, Layout, fit
 from satcheck.cli.report.grid import Grid
+from satcheck.cli.report.lines import joined
 
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 NAMES = ("box", "歯車_a_longer", "a\x1b[2A", "tab\there", "two\nlines", "\u202eb", "é" * 20, "")
@@ -48,9 +49,8 @@ def of_rich(layout: Layout, page: Page) -> str:
 @pytest.mark.parametrize("width", [10, 40, 50, 60, 70, 80, 90, 100, 120])
 def test_as_rich_draws_it(width: int, unicode: bool, colour: bool) -> None:
     page = Page(width=width, colour=colour, unicode=unicode)
-    layout, canvas = fit(COLUMNS, width), Canvas(page)
-    canvas.add(Grid(layout, canvas, unicode=unicode).lines())
-    drawn = canvas.text()
+    layout = fit(COLUMNS, width)
+    drawn = joined(Grid(layout, page).lines(), page)
     assert ("\x1b[1;31mpenetrating\x1b[0m" in drawn) == colour
     lines = [ESCAPES.sub("", line).rstrip() for line in drawn.splitlines()]
     plain = Page(width=width, colour=False, unicode=unicode)
