@@ -3,7 +3,7 @@
 Nothing here reads files, prints, or keeps state. Signs, frames and units: ``core.conventions``.
 """
 
-from satcheck.core._native import (
+from satcheck._native.core import (
     Box,
     Capsule,
     Climb,

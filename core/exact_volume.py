@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Final
 
-from satcheck.core._native import Mesh
+from satcheck._native.core import Mesh
 
 Point = tuple[Fraction, Fraction, Fraction]
 Polyhedron = list[list[Point]]  # faces, counter-clockwise from outside

@@ -10,7 +10,7 @@ from typing import Final
 import msgspec
 from msgspec import Struct
 
-from satcheck.core._native import Mesh
+from satcheck._native.core import Mesh
 from satcheck.core.errors import SatcheckError
 from satcheck.core.worker import Worker, WorkerError
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, NoReturn, TypeAlias, get_args
 
-from satcheck.core import _native
-from satcheck.core._native import PairResult, PairResults, PolygonResult, Shape
+from satcheck._native import core as native
+from satcheck._native.core import PairResult, PairResults, PolygonResult, Shape
 
 if TYPE_CHECKING:
     from numpy import float64, uint32
@@ -48,7 +48,7 @@ def check_pair(
     (Shewchuk 1997) where float64 cannot tell.
     """
     try:
-        return _native.check_pair(a, b, pose_a, pose_b, query, method)
+        return native.check_pair(a, b, pose_a, pose_b, query, method)
     except TypeError:
         _require_two_shapes(a, b, pose_a, pose_b)
         _require_words(query, method)
@@ -65,7 +65,7 @@ def compare_signed_distance(
     cylinder, cone or ellipsoid takes part.
     """
     try:
-        return _native.compare_signed_distance(a, b, length, pose_a, pose_b)
+        return native.compare_signed_distance(a, b, length, pose_a, pose_b)
     except TypeError:
         _require_two_shapes(a, b, pose_a, pose_b)
         _refuse("length", "a number", length)
@@ -92,7 +92,7 @@ def check_pairs(
     pose is not finite.
     """
     try:
-        return _native.check_pairs(
+        return native.check_pairs(
             shapes,
             index_a,
             index_b,
@@ -120,7 +120,7 @@ def sat_polygons(a: NDArray[float64], b: NDArray[float64]) -> PolygonResult:
     ValueError for polygons that are not convex or not counter-clockwise.
     """
     try:
-        return _native.sat_polygons(a, b)
+        return native.sat_polygons(a, b)
     except TypeError:
         for name, corners in (("a", a), ("b", b)):
             _require_array(name, corners, "float64", (-1, 2))

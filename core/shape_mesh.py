@@ -6,7 +6,7 @@ import math
 from array import array
 from collections.abc import Iterator
 
-from satcheck.core._native import Mesh
+from satcheck._native.core import Mesh
 from satcheck.core.conventions import Vector
 from satcheck.core.shapes import (
     Box,

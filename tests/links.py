@@ -20,7 +20,7 @@ def make_links(folder: Path) -> None:
     package = folder / "satcheck"
     package.mkdir(parents=True, exist_ok=True)
     (package / "_version.py").write_text('__version__ = "0"\n', encoding="utf-8")
-    for source in (*PACKAGE.glob("*.py"), *(ROOT / room for room in ROOMS)):
+    for source in (*PACKAGE.glob("*.py"), PACKAGE / "_native", *(ROOT / room for room in ROOMS)):
         link = package / source.name
         if link.is_symlink() or link.is_file():
             link.unlink()

@@ -1,4 +1,7 @@
-"""The committed stubs name what the native modules hold: a stub that drifts lies to mypy."""
+"""The committed stubs name what the native module holds, and each room imports only its own part.
+
+import-linter sees no compiled module, so the arrows to it are checked here.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,13 @@ from pathlib import Path
 
 import pytest
 
+from tests.links import ROOMS
+
 ROOT = Path(__file__).resolve().parent.parent
+PART_OF_ROOM = {"core": "core", "scene": "readers"}
 STUBS = {
-    "satcheck.core._native": ROOT / "core" / "_native.pyi",
-    "satcheck.scene._readers": ROOT / "scene" / "_readers.pyi",
+    f"satcheck._native.{part}": ROOT / "api" / "satcheck" / "_native" / f"{part}.pyi"
+    for part in PART_OF_ROOM.values()
 }
 
 
@@ -44,3 +50,25 @@ def test_the_stub_names_what_is_there(name: str) -> None:
     for class_name in classes:
         there = public(getattr(module, class_name))
         assert inherited(classes, class_name) == there, class_name
+
+
+def imported_parts(source: Path) -> set[str]:
+    """What a file imports of satcheck._native, by full names; "satcheck._native" for the whole."""
+    imported: set[str] = set()
+    for node in ast.walk(ast.parse(source.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            imported |= {name.name for name in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module == "satcheck._native":
+            imported |= {f"satcheck._native.{name.name}" for name in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module == "satcheck":
+            imported |= {f"satcheck.{name.name}" for name in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            imported.add(node.module)
+    return {name for name in imported if name.startswith("satcheck._native")}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_imports_only_its_own_part(room: str) -> None:
+    imported = {name for source in (ROOT / room).rglob("*.py") for name in imported_parts(source)}
+    own = {f"satcheck._native.{PART_OF_ROOM[room]}"} if room in PART_OF_ROOM else set()
+    assert imported == own

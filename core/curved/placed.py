@@ -9,7 +9,7 @@ from typing import Protocol
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.core import _native as native
+from satcheck._native import core as native
 from satcheck.core.conventions import Bounds, Vector
 from satcheck.core.shapes import (
     UNTURNED,

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from satcheck._native.readers import ReadError, cut_polygons
 from satcheck.core.transform import Transform, about, compose, cos_sin, placed
-from satcheck.scene._readers import ReadError, cut_polygons
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.collada_skin import Floats, morphed, skinned

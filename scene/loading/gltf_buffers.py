@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from satcheck.scene._readers import ReadError, unpack_meshopt
+from satcheck._native.readers import ReadError, unpack_meshopt
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from msgspec import Struct
 
+from satcheck._native import readers
 from satcheck.core.errors import SatcheckError
-from satcheck.scene import _readers
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.regular_file import size_of
 
@@ -142,7 +142,7 @@ def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
             if _is_binary_stl(size, head):
                 return size, head
             file.seek(0)
-        data = _readers.read_file(file.fileno(), size)
+        data = readers.read_file(file.fileno(), size)
         more = file.read()
     data = data + more if more else data
     return len(data), data

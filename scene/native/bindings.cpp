@@ -1,4 +1,4 @@
-// The Python face of the readers: `satcheck.scene._readers`. Only it knows nanobind.
+// The Python face of the readers: `satcheck._native.readers`. Only it knows nanobind.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
@@ -159,9 +159,11 @@ const char* precision_name(const MeshData& mesh) {
 
 }  // namespace
 
-NB_MODULE(_readers, m) {
-  m.doc() = "Strict readers for OBJ, STL, PLY and OFF: bytes in, coordinates and vertex numbers out.";
+namespace satcheck {
+void bind_readers(nb::module_& m);
+}
 
+void satcheck::bind_readers(nb::module_& m) {
   nb::class_<Warning>(m, "Warning", "Something the reader passed over, with a stable code.")
       .def_ro("code", &Warning::code)
       .def_ro("message", &Warning::message);

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from satcheck._native.readers import ReadError, unpack_meshopt
 from satcheck.scene import load_scene
-from satcheck.scene._readers import ReadError, unpack_meshopt
 from tests.scene import files, meshopt
 from tests.scene.loading import loaded, refusal, warnings
 

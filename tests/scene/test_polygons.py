@@ -7,8 +7,9 @@ from fractions import Fraction
 
 import pytest
 
+from satcheck._native import readers
 from satcheck.audit import check
-from satcheck.scene import _readers, load_scene
+from satcheck.scene import load_scene
 from tests.scene import files
 
 U = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
@@ -49,7 +50,7 @@ def test_triangles_turn_as_their_polygon_and_have_its_area(name, plane):
             (polygon[shift:] + polygon[:shift])[::-1],
         ):
             points = [PLANES[plane](x, y) for x, y in corners]
-            mesh = _readers.read_obj(files.obj(points, [range(len(points))]))
+            mesh = readers.read_obj(files.obj(points, [range(len(points))]))
             numbers = array("I", bytes(mesh.triangles))
             areas = [
                 area([corners[k] for k in numbers[i : i + 3]]) for i in range(0, len(numbers), 3)
@@ -63,8 +64,8 @@ def test_triangles_turn_as_their_polygon_and_have_its_area(name, plane):
 def test_a_face_may_name_corners_that_come_later():
     points = [(x, y, 0) for x, y in U]
     later = files.obj(points, [range(len(points))]).splitlines(keepends=True)
-    mesh = _readers.read_obj(b"".join([*later[8:], *later[:8]]))
-    assert sorted(mesh.triangles) == sorted(_readers.read_obj(b"".join(later)).triangles)
+    mesh = readers.read_obj(b"".join([*later[8:], *later[:8]]))
+    assert sorted(mesh.triangles) == sorted(readers.read_obj(b"".join(later)).triangles)
 
 
 @pytest.mark.parametrize("shift", range(len(U)))
@@ -89,12 +90,12 @@ def test_those_of_collada_are_cut_alike(tmp_path, shift):
 
 
 def test_a_polygon_that_crosses_itself_keeps_all_its_corners():
-    mesh = _readers.read_obj(files.obj([(0, 0, 0), (2, 2, 0), (2, 0, 0), (0, 2, 0)], [range(4)]))
+    mesh = readers.read_obj(files.obj([(0, 0, 0), (2, 2, 0), (2, 0, 0), (0, 2, 0)], [range(4)]))
     assert set(array("I", bytes(mesh.triangles))) == {0, 1, 2, 3}
 
 
 def test_thousands_of_corners():
     teeth = [(i, (i * 7919) % 97 + 1, 0) for i in range(3000)]
     comb = [*teeth, (2999, -1, 0), (0, -1, 0)]
-    mesh = _readers.read_obj(files.obj(comb, [range(len(comb))]))
+    mesh = readers.read_obj(files.obj(comb, [range(len(comb))]))
     assert len(mesh.triangles) == 12 * (len(comb) - 2)

@@ -1,4 +1,4 @@
-// The Python face of the narrow phase: `satcheck.core._native`. Arguments are checked here for shape
+// The Python face of the narrow phase: `satcheck._native.core`. Arguments are checked here for shape
 // and type, in C++ for meaning; results are read-only.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -29,6 +29,7 @@ void bind_depth(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_motion(nb::module_& m);
 void bind_pairs(nb::module_& m);
+void bind_core(nb::module_& m);
 }
 
 namespace {
@@ -158,9 +159,7 @@ lower bound of the distance. normal: unit, A to B; edge_a or edge_b: the edge it
 
 }  // namespace
 
-NB_MODULE(_native, m) {
-  // Shapes held by a module that lives until the interpreter ends are no leak, and no news for stderr.
-  nb::set_leak_warnings(false);
+void satcheck::bind_core(nb::module_& m) {
   bind_mesh(m);
   bind_surface(m);
   bind_broad_phase(m);
