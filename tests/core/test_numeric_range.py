@@ -9,7 +9,7 @@ import pytest
 
 from satcheck import core
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+LIMITS = Path(__file__).resolve().parents[2] / "docs" / "limits.md"
 TETRAHEDRON = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], dtype=np.int64)
 
@@ -38,12 +38,12 @@ def test_beyond_it_meshes_hulls_and_poses_are_refused(coordinate: float) -> None
         core.check_pair(ball, ball, pose_b=(coordinate, 0, 0))
 
 
-def test_the_limits_are_those_of_the_readme() -> None:
+def test_the_limits_are_those_of_the_docs() -> None:
     corner = np.array([[5e-324, 0, 0], [1e-45, 0, 0], [0, 1e-45, 0], [0, 0, 1e45]])
     assert len(core.Mesh(corner, FACES).vertices) == 4
     with pytest.raises(OverflowError, match="below 1e-45"):
         core.Mesh(TETRAHEDRON * 9e-46, FACES)
-    limits = next(line for line in README.read_text("utf-8").splitlines() if "1e45" in line)
+    limits = next(line for line in LIMITS.read_text("utf-8").splitlines() if "1e45" in line)
     assert "beyond 1e45, or less than 1e-45 across" in limits
 
 

@@ -18,7 +18,7 @@ struct Extent {
   Aabb box;
 
   void include(Vec3 p) {
-    all_in_range &= in_range(p.x) & in_range(p.y) & in_range(p.z);
+    all_in_range = all_in_range && in_range(p.x) && in_range(p.y) && in_range(p.z);
     box.include(p);
   }
 };
