@@ -7,7 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from msgspec import Struct, convert
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.pair import Pair
@@ -32,7 +32,6 @@ from satcheck.audit.summary import (
     truncated_of,
 )
 from satcheck.core.errors import SatcheckError
-from satcheck.report.certificate import Certificate
 from satcheck.report.report import INTERNAL_ERROR, Finding, Issue, Report
 
 if TYPE_CHECKING:
@@ -243,21 +242,21 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
 
 def _with_certificate(pair: Pair, examined: Examined) -> Finding:
     """The finding with its evidence, or with a stage that says why there is none."""
-    from satcheck.audit.certify import certified
+    from satcheck.audit.certify import NoCertificate, certified
 
     trace, finding = Trace(), examined.finding
     if finding.motion is not None:
         trace.record("certificate", "none", "a sweep of moving bodies leaves no evidence")
         return replace(finding, plan=(*finding.plan, *trace.stages))
     try:
-        found = certified(pair, examined)
+        certificate = certified(pair, examined)
     except Exception as error:  # noqa: BLE001 the verdict stands whatever becomes of its evidence
-        found = f"internal error: {type(error).__name__}: {error}"
-    if isinstance(found, str):
-        trace.record("certificate", "none", found)
+        certificate = NoCertificate(f"internal error: {type(error).__name__}: {error}")
+    if isinstance(certificate, NoCertificate):
+        trace.record("certificate", "none", certificate.reason)
         return replace(finding, plan=(*finding.plan, *trace.stages))
-    trace.record("certificate", found["relation"]["kind"], "accepted by the checker")
-    certificate = convert(found, Certificate)
+    kind = certificate.relation.__struct_config__.tag
+    trace.record("certificate", str(kind), "accepted by the checker")
     return replace(finding, certificate=certificate, plan=(*finding.plan, *trace.stages))
 
 

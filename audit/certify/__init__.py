@@ -4,5 +4,6 @@ Nothing here is trusted. What it makes is handed to `satcheck.verify` before it 
 """
 
 from satcheck.audit.certify.certificate import certified
+from satcheck.audit.certify.values import NoCertificate
 
-__all__ = ["certified"]
+__all__ = ["NoCertificate", "certified"]

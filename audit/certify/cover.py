@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from satcheck.report.certificate import Cover
+from satcheck.report.report import plain
 from satcheck.verify import Rejected
 from satcheck.verify.cover import (
     LEVELS,
@@ -27,7 +29,6 @@ from satcheck.verify.cover import (
 from satcheck.verify.relations import Pair
 from satcheck.verify.surfaces import near_pairs
 
-Json = dict[str, Any]
 Floats = NDArray[np.float64]
 # So many pairs of triangles are candidates at most.
 MOST_PAIRS = 200_000
@@ -37,7 +38,7 @@ MOST_SEARCHES = 4
 ROOM = 1e-6
 
 
-def cover(pair: Pair, depth: Fraction) -> Json | None:
+def cover(pair: Pair, depth: Fraction) -> Cover | None:
     """None: no cover was found within the limits."""
     if depth <= 0 or not (pair.a.world.solid and pair.b.world.solid):
         return None
@@ -59,15 +60,15 @@ def cover(pair: Pair, depth: Fraction) -> Json | None:
             break
         search.leave_out(np.isin(i, unfit_a) | np.isin(j, unfit_b))
     number = {leaf: place for place, leaf in enumerate(used)} | {SPLIT: SPLIT}
-    found: Json = {
-        "pairs": [[int(i[leaf]), int(j[leaf])] for leaf in used],
-        "cubes": [number[leaf] for leaf in search.cubes],
-    }
+    certificate = Cover(
+        tuple((int(i[leaf]), int(j[leaf])) for leaf in used),
+        tuple(number[leaf] for leaf in search.cubes),
+    )
     try:
-        depth_is_at_least(found, pair.a, pair.b, depth)
+        depth_is_at_least(plain(certificate), pair.a, pair.b, depth)
     except Rejected:
         return None
-    return found
+    return certificate
 
 
 def _corners(pair: Pair, side: int, triangles: Any) -> Floats:

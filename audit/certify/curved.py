@@ -10,9 +10,28 @@ import numpy as np
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.certify.overlaps import as_json
+from satcheck.audit.certify.values import (
+    AXES,
+    NoCertificate,
+    exact_number,
+    exact_point,
+    integer_axis,
+    leading_axes,
+    or_unset,
+)
 from satcheck.core.curved.exact.pair import proof_of
 from satcheck.core.curved.signed import Signed, convex_pair
+from satcheck.report.certificate import (
+    AxisProof,
+    Band,
+    Certificate,
+    Ends,
+    ExactVector,
+    NestedProof,
+    OnBody,
+    PointProof,
+    Proof,
+)
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.verify import Rejected
 from satcheck.verify.curved import Curved
@@ -23,31 +42,34 @@ from satcheck.verify.findings import curved_pair_of
 from satcheck.verify.roots import sign_of
 from satcheck.verify.world import Exact
 
-Json = dict[str, Any]
 Move = tuple[float, float, float]
 
 # A point is pulled this far towards the middle of its body to be found inside, in turn.
 PULLS = tuple(Fraction(1, 1 << k) for k in (128, 64, 40))
 
 
-def make(pair: Pair, finding: Finding) -> Json | str:
-    """A certificate, or why there is none."""
+def curved_certificate(pair: Pair, finding: Finding) -> Certificate | NoCertificate:
     try:
         maker = _Maker(pair, finding)
     except Rejected as why:
-        return str(why)
+        return NoCertificate(str(why))
     relation = maker.relation()
     if relation is None:
-        return f"no evidence was found for {finding.exact_relation!r}"
-    certificate: Json = {"relation": relation}
+        return NoCertificate(f"no evidence was found for {finding.exact_relation!r}")
+    free = None
     if finding.mtv_verified and finding.mtv is not None:
         free = maker.free(finding.mtv)
         if free is None:
-            return "no axis was found that shows that the translation ends the overlap"
-        certificate["mtv"] = free
+            return NoCertificate(
+                "no axis was found that shows that the translation ends the overlap"
+            )
+    gap = band = None
     if finding.relation != finding.exact_relation:
-        certificate |= maker.band()
-    return certificate
+        if finding.exact_relation in OVERLAPS:
+            band = maker.band()
+        else:
+            gap = maker.gap()
+    return Certificate(relation, mtv=or_unset(free), gap=or_unset(gap), band=or_unset(band))
 
 
 class _Maker:
@@ -61,58 +83,52 @@ class _Maker:
         self.signed: Signed = signed
         self.proof, self.bits = proof_of(pair.a, pair.b, signed)
 
-    def relation(self) -> Json | None:
+    def relation(self) -> Proof | None:
         exact = self.finding.exact_relation
         if exact in ("contains", "inside"):
-            return {"kind": "nested"}
+            return NestedProof()
         if exact == "separated":
             return self._apart()
         if exact == "touching":
             if self.proof is None or self.proof.point is None:
                 return None
             contact = self._shared(_rational(self.proof.point, self.bits))
-            return contact and {"kind": "axis", "axis": _text(self.proof.axis), "contact": contact}
+            return None if contact is None else AxisProof(integer_axis(self.proof.axis), contact)
         return self._overlap() if exact == "penetrating" else None
 
-    def _axes(self, *hints: Any) -> Iterator[list[Any]]:
+    def _axes(self, *hints: Any) -> Iterator[ExactVector]:
         """The simplest first."""
-        for axis in range(3):
-            for side in (1, -1):
-                yield [side if k == axis else 0 for k in range(3)]
+        yield from AXES
         for hint in (self.finding.normal, self.signed.normal, *hints):
             if hint is not None and any(hint):
-                yield list(hint)
+                yield tuple(hint)
         if self.proof is not None:
-            yield _text(self.proof.axis)
+            yield integer_axis(self.proof.axis)
 
-    def _apart(self) -> Json | None:
+    def _apart(self) -> AxisProof | None:
         """As wide as asked about."""
         beyond = least = Fraction(0)
         if self.finding.relation == "separated":
             beyond = Fraction(self.pair.tolerance)
             least = Fraction(self.pair.request.clearance or 0.0)
         for axis in self._axes():
-            n = vector(axis)
+            n = vector(list(axis))
             if _at_least(self.placed, n, beyond, 1) and _at_least(self.placed, n, least, 0):
-                return {"kind": "axis", "axis": axis}
+                return AxisProof(axis)
         return None
 
-    def _overlap(self) -> Json | None:
+    def _overlap(self) -> PointProof | None:
         both = next(filter(None, map(self._inside_both, self._inner_points())), None)
         if both is None:
             return None
-        leads: Json = {}
-        for axis in self._axes(*_own_axes(self.placed.a), *_own_axes(self.placed.b)):
-            n = vector(axis)
-            mine, other = reach(self.placed.a, n), reach(self.placed.b, n)
-            lead = sign_of(mine.q - other.q, [other.p], [mine.p])
-            leads.setdefault(
-                "even" if lead == 0 else "a_reaches" if lead > 0 else "b_reaches", axis
-            )
-        even = leads.pop("even", None)
-        if even is not None and leads:
-            leads = {"a_reaches": even, "b_reaches": even} | leads
-        return {"kind": "point", "both": both, **leads} if len(leads) == 2 else None
+        axes = self._axes(*_own_axes(self.placed.a), *_own_axes(self.placed.b))
+        leads = leading_axes((axis, self._lead(vector(list(axis)))) for axis in axes)
+        return None if leads is None else PointProof(both, *leads)
+
+    def _lead(self, n: Point) -> int:
+        """The sign of what A reaches beyond B along n."""
+        mine, other = reach(self.placed.a, n), reach(self.placed.b, n)
+        return sign_of(mine.q - other.q, [other.p], [mine.p])
 
     def _inner_points(self) -> Iterator[Point]:
         if self.proof is not None and self.proof.outcome == "penetrating" and self.proof.point:
@@ -125,57 +141,52 @@ class _Maker:
             if isinstance(body, Curved):
                 yield _exact(body.image.origin)
 
-    def _inside_both(self, p: Point) -> Json | None:
+    def _inside_both(self, p: Point) -> Ends | None:
         curved = [x for x in (self.placed.a, self.placed.b) if isinstance(x, Curved)]
         inner, closed = [x.side(p) > 0 for x in curved], [x.side(p) >= 0 for x in curved]
         return self._shared(p) if any(inner) and all(closed) else None
 
-    def _shared(self, p: Point) -> Json | None:
+    def _shared(self, p: Point) -> Ends | None:
         """A point as one of both bodies."""
-        ends = {"a": self._on(p, "a"), "b": self._on(p, "b")}
-        return None if None in ends.values() else ends
+        return self._ends(p, p)
 
-    def _on(self, p: Point, key: str) -> Json | None:
-        """A point of one of them, as certificates have it."""
-        sides = {"a": (self.placed.a, self.pair.a), "b": (self.placed.b, self.pair.b)}
-        body, placed = sides[key]
-        if isinstance(body, Exact):
-            return in_hull(p, body, placed)
-        return {"point": [as_json(c) for c in p]}
+    def _ends(self, p: Point, q: Point) -> Ends | None:
+        """p as a point of A, and q as one of B."""
+        a, b = on_body(p, self.placed.a, self.pair.a), on_body(q, self.placed.b, self.pair.b)
+        return None if a is None or b is None else Ends(a, b)
 
-    def free(self, move: Move) -> Json | None:
+    def free(self, move: Move) -> AxisProof | None:
         """That A, moved, has no common interior with B."""
         placed = curved_pair_of(self.checked[0].moved(list(move)), self.checked[1])
         for axis in self._axes([-c for c in move]):
-            if _at_least(placed, vector(axis), Fraction(0), 0):
-                return {"kind": "axis", "axis": axis}
+            if _at_least(placed, vector(list(axis)), Fraction(0), 0):
+                return AxisProof(axis)
         proof, _ = proof_of(self.pair.a, self.pair.b, self.signed, move)
-        return None if proof is None else {"kind": "axis", "axis": _text(proof.axis)}
+        return None if proof is None else AxisProof(integer_axis(proof.axis))
 
-    def band(self) -> Json:
-        """Why the relation is another than the exact one."""
-        finding, tolerance = self.finding, Fraction(self.pair.tolerance)
-        if finding.exact_relation in OVERLAPS:
-            for axis in self._axes():
-                if _at_least(self.placed, vector(axis), -tolerance, 0):
-                    return {"band": {"axis": axis}}
-        elif self.proof is not None and self.proof.ends is not None:
+    def band(self) -> Band | None:
+        """An axis along which an overlap is within the tolerance."""
+        tolerance = Fraction(self.pair.tolerance)
+        for axis in self._axes():
+            if _at_least(self.placed, vector(list(axis)), -tolerance, 0):
+                return Band(axis)
+        return None
+
+    def gap(self) -> Ends | None:
+        """Points next to each other."""
+        if self.proof is not None and self.proof.ends is not None:
             p, q = (_rational(end, self.bits) for end in self.proof.ends)
-            points = {"a": self._on(p, "a"), "b": self._on(q, "b")}
-            if None not in points.values():
-                return {"gap": points}
-        elif self.signed.witness_a is not None and self.signed.witness_b is not None:
-            ends = zip(
-                ("a", "b"),
-                (self.placed.a, self.placed.b),
-                (self.pair.a, self.pair.b),
-                (self.signed.witness_a, self.signed.witness_b),
-                strict=True,
-            )
-            points = {key: _pulled_in(_exact(p), body, placed) for key, body, placed, p in ends}
-            if None not in points.values():
-                return {"gap": points}
-        return {}
+            return self._ends(p, q)
+        if self.signed.witness_a is None or self.signed.witness_b is None:
+            return None
+        a = _pulled_in(_exact(self.signed.witness_a), self.placed.a, self.pair.a)
+        b = _pulled_in(_exact(self.signed.witness_b), self.placed.b, self.pair.b)
+        return None if a is None or b is None else Ends(a, b)
+
+
+def on_body(p: Point, body: Curved | Exact, placed: PlacedBody) -> OnBody | None:
+    """A point of the body; None: of the hull of a mesh, and p is not within it."""
+    return in_hull(p, body, placed) if isinstance(body, Exact) else OnBody(point=exact_point(p))
 
 
 def _at_least(placed: CurvedPair, n: Point, length: Fraction, sign: int) -> bool:
@@ -191,7 +202,7 @@ def _own_axes(body: Curved | Exact) -> list[list[Any]]:
     return [[way * c for c in column] for column in columns for way in (1, -1)]
 
 
-def _pulled_in(p: Point, body: Curved | Exact, placed: PlacedBody) -> Json | None:
+def _pulled_in(p: Point, body: Curved | Exact, placed: PlacedBody) -> OnBody | None:
     """A point of the body next to a rounded one."""
     if isinstance(body, Exact):
         low, high = (np.asarray(end) for end in placed.bounds)
@@ -201,17 +212,14 @@ def _pulled_in(p: Point, body: Curved | Exact, placed: PlacedBody) -> Json | Non
         middle = _exact(body.image.origin)
     for share in (Fraction(0), *PULLS):
         q = _between(p, middle, share)
-        on = {"point": [as_json(c) for c in q]}
-        if isinstance(body, Exact):
-            weights = in_hull(q, body, placed)
-            if weights is not None:
-                return weights
-        elif body.side(q) >= 0:
-            return on
+        if isinstance(body, Exact) or body.side(q) >= 0:
+            point = on_body(q, body, placed)
+            if point is not None:
+                return point
     return None
 
 
-def in_hull(p: Point, body: Exact, placed: PlacedBody) -> Json | None:
+def in_hull(p: Point, body: Exact, placed: PlacedBody) -> OnBody | None:
     """The point by weights on four vertices: one of the hull, and those of a face that it sees."""
     hull = placed.hull()
     rows = {tuple(v): k for k, v in enumerate((body.world.vertices + 0.0).tolist())}
@@ -234,7 +242,7 @@ def in_hull(p: Point, body: Exact, placed: PlacedBody) -> Json | None:
         weights = [1 - sum(shares, Fraction(0)), *shares]
         if min(weights) >= 0:
             ends = [(index[k], x) for k, x in zip((0, *face), weights, strict=True) if x]
-            return {"vertices": [k for k, _ in ends], "weights": [as_json(x) for _, x in ends]}
+            return OnBody(tuple(k for k, _ in ends), tuple(exact_number(x) for _, x in ends))
     return None
 
 
@@ -251,7 +259,3 @@ def _between(p: Point, q: Point, share: Fraction) -> Point:
 def _exact(v: tuple[float, ...]) -> Point:
     x, y, z = map(Fraction, v)
     return x, y, z
-
-
-def _text(v: Any) -> list[str]:
-    return [str(c) for c in v]

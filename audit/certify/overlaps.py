@@ -10,10 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from satcheck.audit.certify.values import exact_number, exact_point, or_unset
+from satcheck.report.certificate import CrossingProof, Ends, ExactVector, OnBody, OverlapProof
+from satcheck.report.report import plain
 from satcheck.verify.boundary import Boundary
 from satcheck.verify.cells import sides_of
-from satcheck.verify.exact import Point, Vector, cross, dot, nearest_to_origin, sub
-from satcheck.verify.relations import A_ALONE, B_ALONE, BOTH, Pair
+from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, nearest_to_origin, sub
+from satcheck.verify.relations import A_ALONE, B_ALONE, BOTH, Pair, prove
 from satcheck.verify.surfaces import close_pairs, common
 from satcheck.verify.world import Exact
 
@@ -26,24 +29,16 @@ MOST_OF_A_PART = 4
 # How a point lies, (in A, in B), by the name that certificates have for it.
 WAYS = {BOTH: "both", A_ALONE: "a_alone", B_ALONE: "b_alone"}
 
-Json = dict[str, Any]
 Points = dict[str, Point]
 
 
-def as_json(value: Fraction) -> float | str:
-    """A float where that is exact, else text."""
-    rounded = float(value)
-    exact = Fraction(rounded) == value
-    return rounded if exact else f"{value.numerator}/{value.denominator}"
-
-
-def on_surface(body: Exact, triangle: int, weights: list[Fraction]) -> Json:
+def on_surface(body: Exact, triangle: int, weights: list[Fraction]) -> OnBody:
     corners = body.world.triangles[triangle].tolist()
     used = [(v, w) for v, w in zip(corners, weights, strict=True) if w]
-    return {"vertices": [v for v, _ in used], "weights": [as_json(w) for _, w in used]}
+    return OnBody(tuple(v for v, _ in used), tuple(exact_number(w) for _, w in used))
 
 
-def nearest_points(pair: Pair, s: int, t: int) -> Json:
+def nearest_points(pair: Pair, s: int, t: int) -> Ends:
     """The points of two triangles next to each other."""
     corners = pair.a.corners(s), pair.b.corners(t)
     ends = [(i, j) for i in range(3) for j in range(3)]
@@ -52,7 +47,7 @@ def nearest_points(pair: Pair, s: int, t: int) -> Json:
     for k, weight in weights.items():
         shares[0][ends[k][0]] += weight
         shares[1][ends[k][1]] += weight
-    return {"a": on_surface(pair.a, s, shares[0]), "b": on_surface(pair.b, t, shares[1])}
+    return Ends(on_surface(pair.a, s, shares[0]), on_surface(pair.b, t, shares[1]))
 
 
 def contacts(pair: Pair, hint: tuple[int, int] | None) -> Iterator[tuple[int, int]]:
@@ -66,17 +61,17 @@ def contacts(pair: Pair, hint: tuple[int, int] | None) -> Iterator[tuple[int, in
 
 def boundary_contact(
     pair: Pair, hint: tuple[int, int] | None, across: int | None = None
-) -> Json | None:
+) -> Ends | None:
     """A common point of the boundaries. across: of prisms along this axis, one between their ends,
     in the middle of what two of their walls share."""
-    of_a, of_b = Boundary(pair.a), Boundary(pair.b)
+    boundary_a, boundary_b = Boundary(pair.a), Boundary(pair.b)
     ends = set() if across is None else {abs(p[across]) for p in pair.a.points}
     for s, t in contacts(pair, hint):
-        for p, q in product(of_a.pieces(s), of_b.pieces(t)):
+        for p, q in product(boundary_a.pieces(s), boundary_b.pieces(t)):
             shared = common(p, q)
             for point in shared[:1] if across is None else _middle(shared):
                 if across is None or abs(point[across]) not in ends:
-                    return {"a": point_of(pair.a, s, point), "b": point_of(pair.b, t, point)}
+                    return Ends(point_of(pair.a, s, point), point_of(pair.b, t, point))
     return None
 
 
@@ -87,7 +82,7 @@ def _middle(points: list[Point]) -> list[Point]:
     return [(x, y, z)]
 
 
-def point_of(body: Exact, triangle: int, p: Point) -> Json:
+def point_of(body: Exact, triangle: int, p: Point) -> OnBody:
     """A point of the triangle by its weights."""
     _, weights = nearest_to_origin([_minus(corner, p) for corner in body.corners(triangle)])
     return on_surface(body, triangle, [weights.get(k, Fraction(0)) for k in range(3)])
@@ -97,7 +92,9 @@ def _minus(p: Any, q: Point) -> Any:
     return tuple(c - d for c, d in zip(p, q, strict=True))
 
 
-def overlap(pair: Pair, hint: tuple[int, int] | None, across: int | None = None) -> Json | None:
+def overlap(
+    pair: Pair, hint: tuple[int, int] | None, across: int | None = None
+) -> OverlapProof | None:
     """For solids: a point inside both, and one inside each alone; or one inside one of them alone,
     and one where both end.
 
@@ -105,51 +102,52 @@ def overlap(pair: Pair, hint: tuple[int, int] | None, across: int | None = None)
     pair shows them (walls without thickness, faces that lie in each other) the cells of the contact
     are searched.
     """
-    found: Points = {}
+    points: Points = {}
     for s, t in islice(contacts(pair, hint), MOST_CANDIDATES):
         corners = pair.a.corners(s), pair.b.corners(t)
         size = min(_height(c) for c in corners)
         for start, way in _quadrants(*corners):
-            _look(pair, start, way, size, found)
-        if _shows_overlap(found):
+            _look(pair, start, way, size, points)
+        if _shows_overlap(points):
             break
     else:
-        _search_regions(pair, found, _is_complete)
-    if not _shows_overlap(found):
-        _search_cells(pair, found, _shows_overlap)
-    meet = None if _is_complete(found) else boundary_contact(pair, hint, across)
-    if meet is None and not _is_complete(found):
-        _search_regions(pair, found, _is_complete)
-    if meet is None and not _is_complete(found):
-        _search_cells(pair, found, _is_complete)
-    if not (_is_complete(found) or (meet and _shows_overlap(found))):
+        _search_regions(pair, points, _is_complete)
+    if not _shows_overlap(points):
+        _search_cells(pair, points, _shows_overlap)
+    meet = None if _is_complete(points) else boundary_contact(pair, hint, across)
+    if meet is None and not _is_complete(points):
+        _search_regions(pair, points, _is_complete)
+    if meet is None and not _is_complete(points):
+        _search_cells(pair, points, _is_complete)
+    if not (_is_complete(points) or (meet and _shows_overlap(points))):
         return None
-    points = {key: _world(point, pair.a.k) for key, point in found.items()}
-    return {"kind": "overlap", **points, **({"meet": meet} if meet else {})}
+    world = {key: _world(point, pair.a.k) for key, point in points.items()}
+    alone = or_unset(world.get("a_alone")), or_unset(world.get("b_alone"))
+    return OverlapProof(world["both"], *alone, or_unset(meet))
 
 
-def _is_complete(found: Points) -> bool:
-    return len(found) == len(WAYS)
+def _is_complete(points: Points) -> bool:
+    return len(points) == len(WAYS)
 
 
-def _shows_overlap(found: Points) -> bool:
-    return "both" in found and len(found) > 1
+def _shows_overlap(points: Points) -> bool:
+    return "both" in points and len(points) > 1
 
 
-def inside_both(pair: Pair) -> Json | list[float | str] | None:
+def inside_both(pair: Pair) -> OnBody | ExactVector | None:
     """A point inside two solids, or one of a sheet inside a solid."""
-    found: Points = {}
+    points: Points = {}
     if not (pair.a.world.solid and pair.b.world.solid):
-        return _of_sheet(pair, True)
+        return _sheet_point(pair, True)
     for search in (_search_regions, _search_cells):
-        search(pair, found, lambda found: "both" in found)
-        if "both" in found:
-            return _world(found["both"], pair.a.k)
+        search(pair, points, lambda points: "both" in points)
+        if "both" in points:
+            return _world(points["both"], pair.a.k)
     return None
 
 
-def _world(p: Point, k: int) -> list[float | str]:
-    return [as_json(c / (1 << k)) for c in p]
+def _world(p: Point, k: int) -> ExactVector:
+    return exact_point(c / (1 << k) for c in p)
 
 
 def _quadrants(a: Any, b: Any) -> Iterator[tuple[Point, Vector]]:
@@ -187,7 +185,7 @@ def _height(t: Any) -> int:
 
 
 def _look(
-    pair: Pair, start: Point, way: Any, size: int, found: Points, key: str | None = None
+    pair: Pair, start: Point, way: Any, size: int, points: Points, key: str | None = None
 ) -> None:
     """Shorter and shorter steps from the surface, until what is inside stays the same.
 
@@ -203,14 +201,14 @@ def _look(
             continue
         inside = windings[0] != 0, windings[1] != 0
         if inside in WAYS:
-            found.setdefault(WAYS[inside], p)
-        settled = key in found if key else inside == before and k > SETTLED
-        if settled or _is_complete(found):
+            points.setdefault(WAYS[inside], p)
+        settled = key in points if key else inside == before and k > SETTLED
+        if settled or _is_complete(points):
             break
         before = inside
 
 
-def _search_regions(pair: Pair, found: Points, enough: Callable[[Points], bool]) -> None:
+def _search_regions(pair: Pair, points: Points, enough: Callable[[Points], bool]) -> None:
     """Beside a few triangles of each part of either surface."""
     for body in (pair.a, pair.b):
         label = body.world.labels(body.world.triangles)[body.world.triangles[:, 0]]
@@ -224,12 +222,12 @@ def _search_regions(pair: Pair, found: Points, enough: Callable[[Points], bool])
                 p, q, r = corners
                 start: Any = tuple(Fraction(2 * p[k] + 3 * q[k] + 4 * r[k], 9) for k in range(3))
                 for way in (normal, tuple(-c for c in normal)):
-                    _look(pair, start, way, _height(corners), found)
-                if enough(found):
+                    _look(pair, start, way, _height(corners), points)
+                if enough(points):
                     return
 
 
-def _search_cells(pair: Pair, found: Points, enough: Callable[[Points], bool]) -> None:
+def _search_cells(pair: Pair, points: Points, enough: Callable[[Points], bool]) -> None:
     """Beside every piece of either surface that lies where the other one meets it, or inside."""
     meeting = list(contacts(pair, None))
     swapped = [(t, s) for s, t in meeting]
@@ -237,28 +235,30 @@ def _search_cells(pair: Pair, found: Points, enough: Callable[[Points], bool]) -
         for sides in sides_of(x, y, pairs, lambda inside: inside):
             for inside, way in ((sides.front, 1), (sides.back, -1)):
                 key = WAYS.get(inside if x is pair.a else (inside[1], inside[0]))
-                if key is not None and key not in found:
+                if key is not None and key not in points:
                     normal = tuple(way * c for c in sides.normal)
                     size = _height(x.corners(sides.triangle))
-                    _look(pair, sides.point, normal, size, found, key)
-            if enough(found):
+                    _look(pair, sides.point, normal, size, points, key)
+            if enough(points):
                 return
 
 
-def sheet_overlap(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
+def sheet_overlap(pair: Pair, hint: tuple[int, int] | None) -> OverlapProof | None:
     """For a solid and an open surface: a point of that inside the solid, and one outside or where
     the solid ends."""
-    both, key = _of_sheet(pair, True), "b_alone" if pair.a.world.solid else "a_alone"
+    both = _sheet_point(pair, True)
     if both is None:
         return None
     meet = boundary_contact(pair, hint)
     if meet is not None:
-        return {"kind": "overlap", "both": both, "meet": meet}
-    alone = _of_sheet(pair, False)
-    return None if alone is None else {"kind": "overlap", "both": both, key: alone}
+        return OverlapProof(both, meet=meet)
+    alone = _sheet_point(pair, False)
+    if alone is None:
+        return None
+    return OverlapProof(both, b_alone=alone) if pair.a.world.solid else OverlapProof(both, alone)
 
 
-def _of_sheet(pair: Pair, inside: bool) -> Json | None:
+def _sheet_point(pair: Pair, inside: bool) -> OnBody | None:
     """A point of the open surface inside the solid, or outside of it."""
     a_is_sheet = pair.b.world.solid
     sheet, solid = (pair.a, pair.b) if a_is_sheet else (pair.b, pair.a)
@@ -275,15 +275,12 @@ def _of_sheet(pair: Pair, inside: bool) -> Json | None:
     return None
 
 
-def crossing(pair: Pair, hint: tuple[int, int] | None) -> Json | None:
+def crossing(pair: Pair, hint: tuple[int, int] | None) -> CrossingProof | None:
     """For sheets: two triangles that pass through each other."""
-    from satcheck.verify import Rejected
-    from satcheck.verify.relations import prove
-
     for s, t in islice(contacts(pair, hint), MOST_CANDIDATES):
-        certificate = {"kind": "crossing", "triangles": [s, t]}
+        certificate = CrossingProof((s, t))
         try:
-            prove("penetrating", certificate, pair, Fraction(0), Fraction(0))
+            prove("penetrating", plain(certificate), pair, Fraction(0), Fraction(0))
         except Rejected:
             continue
         return certificate

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from satcheck.audit.certify import overlaps
+from satcheck.report.certificate import Ends
+from satcheck.report.report import plain
 from satcheck.verify.boundary import Boundary
 from satcheck.verify.exact import Rejected, cross, dot, sub
 from satcheck.verify.relations import Pair, prove
@@ -108,11 +110,11 @@ def pile_pairs() -> Iterator[tuple[Pile, Pile, Pair, int]]:
 
 def true_evidence(relation: str, pair: Pair) -> Json | None:
     if relation == "touching":
-        return {"kind": "surfaces", "contact": overlaps.boundary_contact(pair, None)}
+        return {"kind": "surfaces", "contact": plain(overlaps.boundary_contact(pair, None))}
     if relation == "penetrating":
-        return overlaps.overlap(pair, None) or overlaps.crossing(pair, None)
+        return plain(overlaps.overlap(pair, None) or overlaps.crossing(pair, None))
     kind = "same" if relation == "coincident" else "surfaces"
-    return {"kind": kind, "both": overlaps.inside_both(pair)}
+    return {"kind": kind, "both": plain(overlaps.inside_both(pair))}
 
 
 def proves(relation: str, certificate: Json | None, pair: Pair) -> bool:
@@ -143,7 +145,8 @@ def all_evidence(relation: str, a: Pile, b: Pile, pair: Pair) -> Iterator[Json]:
     }
     step = 1 + len(meets) // MEETS
     for point, (s, t) in islice(meets.items(), 0, None, step):
-        meet = {"a": overlaps.point_of(pair.a, s, point), "b": overlaps.point_of(pair.b, t, point)}
+        ends = Ends(overlaps.point_of(pair.a, s, point), overlaps.point_of(pair.b, t, point))
+        meet = plain(ends)
         touching = {"kind": "surfaces", "contact": meet}
         yield touching if relation == "touching" else {"kind": "overlap", **points, "meet": meet}
 
