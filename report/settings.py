@@ -7,6 +7,7 @@ from typing import Literal
 from satcheck.report.values import Count, Length, Value
 
 Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
+Method = Literal["auto", "sat", "gjk"]
 Plane = Literal["xy", "yz", "xz"]
 
 
@@ -22,6 +23,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     clearance: Length | None
     tolerance: Length | Literal["input-precision"]
     accuracy: Accuracy
+    method: Method
     fail_on: Literal["error", "warning", "note"]
     allow_open: bool
     cross_check: bool

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import Literal, get_args
 
 from msgspec import Struct
 
 from satcheck.core.conventions import PLANES, Plane
 from satcheck.core.errors import SatcheckError
+from satcheck.report.settings import Accuracy as Accuracy
+from satcheck.report.settings import Method as Method
 from satcheck.report.settings import StatedSettings
 
-Accuracy = Literal["aabb", "obb", "hull", "parts", "exact"]
-ACCURACIES: tuple[Accuracy, ...] = ("aabb", "obb", "hull", "parts", "exact")
-
-Method = Literal["auto", "sat", "gjk"]
-METHODS: tuple[Method, ...] = ("auto", "sat", "gjk")
+ACCURACIES: tuple[Accuracy, ...] = get_args(Accuracy)
+METHODS: tuple[Method, ...] = get_args(Method)
 
 FailOn = Literal["error", "warning", "note"]
 FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
@@ -133,6 +132,7 @@ class Settings(Struct, frozen=True):
             clearance=self.clearance,
             tolerance="input-precision" if self.tolerance is None else self.tolerance,
             accuracy=self.accuracy,
+            method=self.method,
             fail_on=self.fail_on,
             allow_open=self.allow_open,
             cross_check=self.cross_check,
