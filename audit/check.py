@@ -19,7 +19,7 @@ from satcheck.audit.ladder.climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import PairQueue, Steps
 from satcheck.audit.request.effects import effects_of
 from satcheck.audit.request.planner import Planner, Request
-from satcheck.audit.request.settings import LISTED_PAIRS, Settings
+from satcheck.audit.request.settings import LISTED_PAIRS, Settings, require_settings
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.summary import (
     body_reports,
@@ -69,6 +69,7 @@ def check(
     Raises SatcheckError (`too-few-bodies`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
     """
+    require_settings(settings)
     scene = _loaded(scene, settings)
     if len(scene.bodies) + len(scene.unreadable) < 2:
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")

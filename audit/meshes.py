@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from satcheck.audit.check import DEFAULT_SETTINGS, check
-from satcheck.audit.request.settings import Settings
+from satcheck.audit.request.settings import Settings, require_settings
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Finding
 from satcheck.scene.meshes import MeshLike, scene_of_meshes
@@ -22,7 +22,7 @@ def check_meshes(
     *,
     pose_a: ArrayLike | None = None,
     pose_b: ArrayLike | None = None,
-    settings: Settings = DEFAULT_SETTINGS,
+    settings: Settings | None = None,
 ) -> Finding:
     """How two meshes in memory relate, how deep they overlap, and the shortest way out.
 
@@ -31,6 +31,7 @@ def check_meshes(
     both meshes. faces: (m, 3), any integer type, counter-clockwise seen from outside.
     pose_a, pose_b: rigid 4x4 matrices for column vectors, world = pose * (x, y, z, 1); None: the
     vertices are world coordinates.
+    settings: what to compute, as `satcheck.Settings` describes; None: the defaults of the command.
 
     This is `check` of two files that hold these meshes: the same steps and the same verdicts, to
     the precision of the array types. Useful fields of the finding, world frame:
@@ -47,6 +48,8 @@ def check_meshes(
     file for a mesh that cannot be used, such as `only-degenerate`; `bad-setting` for certificates,
     which name files.
     """
+    settings = DEFAULT_SETTINGS if settings is None else settings
+    require_settings(settings)
     if settings.certificate:
         raise SatcheckError("bad-setting", "certificate: certificates name files; write the meshes")
     scene = scene_of_meshes({"a": a, "b": b}, {"a": pose_a, "b": pose_b})

@@ -111,5 +111,8 @@ def _hint(first: str) -> None:
     """The first word is a path unless it names a command; a misspelt command is a missing path."""
     if "." in first or Path(first).exists():
         return
+    if first == "check":
+        talk("satcheck: leave out the word `check`: satcheck A B checks two files")
+        return
     for name in get_close_matches(first, COMMANDS, n=1):
         talk(f"satcheck: did you mean the command `satcheck {name}`?")

@@ -111,8 +111,8 @@ def _explained(error: WorkerError) -> DecompositionError:
     if isinstance(error, WorkerOutOfMemory):
         return DecompositionError(
             errors.OUT_OF_MEMORY,
-            f"the convex parts need more than {error.megabytes} MiB; raise the limit or the "
-            "threshold",
+            f"the convex parts need more than {error.megabytes} MiB; raise the "
+            "threshold (`satcheck decompose --threshold`)",
         )
     code = errors.FAILED if isinstance(error, WorkerFailed) else errors.CRASHED
     return DecompositionError(code, f"CoACD gave no convex parts: {error.message}")

@@ -45,7 +45,8 @@ class Deadline:
     def error(self) -> DecompositionError:
         return DecompositionError(
             TIMEOUT,
-            f"no convex parts after {self.seconds:g} s; raise the limit or the threshold",
+            f"no convex parts after {self.seconds:g} s; raise the limit (`satcheck decompose "
+            "--seconds`) or the threshold (`--threshold`)",
         )
 
 

@@ -6,7 +6,7 @@ import subprocess
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[1]
-ROOMS = ("cli", "studies", "audit", "verify", "report", "scene", "decompose", "core")
+ROOMS = ("api", "cli", "studies", "audit", "verify", "report", "scene", "decompose", "core")
 KINDS = (".py", ".pyi", ".json", ".cpp", ".hpp")
 
 

@@ -15,14 +15,13 @@ if TYPE_CHECKING:
     from satcheck.audit.check import check
     from satcheck.audit.meshes import check_meshes
     from satcheck.core.errors import SatcheckError
-    from satcheck.scene import Scene, load_scene
+    from satcheck.scene import load_scene
     from satcheck.scene.meshes import scene_of_meshes
 
 __all__ = [
     "Finding",
     "Report",
     "SatcheckError",
-    "Scene",
     "Settings",
     "__version__",
     "check",
@@ -35,7 +34,6 @@ _MODULES = {
     "Finding": "satcheck.audit",
     "Report": "satcheck.audit",
     "SatcheckError": "satcheck.core.errors",
-    "Scene": "satcheck.scene",
     "Settings": "satcheck.audit",
     "check": "satcheck.audit.check",
     "check_meshes": "satcheck.audit.meshes",
@@ -45,14 +43,16 @@ _MODULES = {
 
 
 def __getattr__(name: str) -> object:
-    if name not in _MODULES:
-        raise AttributeError(f"module 'satcheck' has no attribute {name!r}")
     from importlib import import_module
 
+    if name == "core":
+        return import_module("satcheck.core")
+    if name not in _MODULES:
+        raise AttributeError(f"module 'satcheck' has no attribute {name!r}")
     value = getattr(import_module(_MODULES[name]), name)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return sorted([*__all__, "core"])

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Literal, get_args
+from functools import cache
+from typing import Any, Literal, get_args, get_type_hints
 
-from msgspec import Struct
+from msgspec import Struct, ValidationError, convert
 
 from satcheck.core.conventions import PLANES, Plane
 from satcheck.core.errors import SatcheckError
@@ -44,7 +45,7 @@ class Settings(Struct, frozen=True):
     method: of the convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster of them.
     Changes no relation, and no depth beyond its last digits.
     fail_on: the least severity that makes a check fail.
-    allow_open: a body that may lie in another one without an inside is a note, not a warning.
+    allow_open: open meshes are meant to be open. What has a rim is a sheet, and has no inside.
     cross_check: other libraries are asked too; cross_check_*: what one question may cost.
     planar: bodies are their outlines in this plane, and answers lie in it; None: as they are.
     certificate: every proven finding carries evidence that `satcheck verify` checks.
@@ -88,26 +89,22 @@ class Settings(Struct, frozen=True):
     timings: bool = True
 
     def __post_init__(self) -> None:
-        for name in ("clearance", "tolerance"):
-            value = getattr(self, name)
-            if value is not None and not (
-                isinstance(value, int | float) and math.isfinite(value) and value >= 0
-            ):
-                raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
         if self.accuracy not in ACCURACIES:
             raise _refused(f"accuracy must be one of {', '.join(ACCURACIES)}")
         if self.method not in METHODS:
             raise _refused(f"method must be one of {', '.join(METHODS)}")
         if self.fail_on not in FAIL_ON:
             raise _refused(f"fail_on must be one of {', '.join(FAIL_ON)}")
+        if self.planar not in (None, *PLANES):
+            raise _refused(f"planar must be one of {', '.join(PLANES)}")
+        for name, kind in _kinds().items():
+            _require_kind(name, getattr(self, name), kind)
         for name in ("contacts", "volume"):
             if getattr(self, name) and self.accuracy != "exact":
                 raise _refused(f"{name} is found on triangles: not at accuracy {self.accuracy}")
         for name in ("volume", "contacts", "cross_check"):
             if self.planar is not None and getattr(self, name):
                 raise _refused(f"{name} is about bodies in space: not with planar")
-        if self.planar not in (None, *PLANES):
-            raise _refused(f"planar must be one of {', '.join(PLANES)}")
         if self.contact_points < 0:
             raise _refused(f"contact_points must be 0 or more, not {self.contact_points!r}")
         if not 0 < self.depth_width < 1:
@@ -116,6 +113,13 @@ class Settings(Struct, frozen=True):
             raise _refused(
                 f"depth_budget must lie between 0 and {MOST_BUDGET:g} s, not {self.depth_budget!r}"
             )
+        for name in ("clearance", "tolerance"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value >= 0):
+                raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
+        for name in ("part_seconds", "volume_seconds", "seconds_per_file", "cross_check_seconds"):
+            if not getattr(self, name) > 0:
+                raise _refused(f"{name} must be more than 0, not {getattr(self, name)!r}")
         if self.jobs < 0:
             raise _refused(f"jobs must be 0 (one per core) or more, not {self.jobs!r}")
 
@@ -147,6 +151,27 @@ class Settings(Struct, frozen=True):
             seconds_per_file=self.seconds_per_file,
             megabytes_per_file=self.megabytes_per_file,
         )
+
+
+def require_settings(value: object) -> None:
+    """Raises SatcheckError for what is no Settings, such as a dict of them."""
+    if not isinstance(value, Settings):
+        raise _refused(f"settings should be a satcheck.Settings, not {value!r}")
+
+
+@cache
+def _kinds() -> dict[str, Any]:
+    """The type of each setting."""
+    return get_type_hints(Settings)
+
+
+def _require_kind(name: str, value: Any, kind: Any) -> None:
+    plain = value.item() if hasattr(value, "item") else value  # a number of numpy
+    try:
+        convert(plain, kind)
+    except ValidationError as error:
+        problem = str(error).removesuffix(".")
+        raise _refused(f"{name} has the wrong type: {problem}") from None
 
 
 def _refused(message: str) -> SatcheckError:

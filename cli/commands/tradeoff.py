@@ -117,7 +117,7 @@ def _refuse_plot(inputs: Inputs, plot: Path | None, output: Path | None) -> None
     if plot.suffix.lower() not in PLOTS:
         raise click.UsageError(f"--plot {plot}: drawn as {', '.join(PLOTS[:-1])} or {PLOTS[-1]}")
     if find_spec("matplotlib") is None:
-        raise click.UsageError("--plot needs matplotlib: pip install 'satcheck[plot]'")
+        raise click.UsageError("--plot needs matplotlib: pip install matplotlib")
     refuse_early(inputs, plot, option="--plot")
     if output is not None and plot.absolute() == output.absolute():
         raise click.UsageError("--plot and -o name the same file")
