@@ -1,4 +1,4 @@
-"""satcheck.audit: the order of steps. Bodies in, a report out."""
+"""satcheck.audit: checks the pairs of a scene, and makes the report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bodies in, a report out."""
+"""The check of a scene: bodies in, a report out."""
 
 from __future__ import annotations
 

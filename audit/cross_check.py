@@ -1,10 +1,11 @@
-"""`--cross-check`: what another library says about a pair, and whether it agrees with the proof.
+"""`--cross-check`: the answers of other libraries about a pair, and whether they agree with the
+proof.
 
-Each is only asked what it can tell. python-fcl: do the surfaces meet? It sees no body inside
-another, and surfaces that only touch are a matter of rounding to it, so it is not asked about
-those. Surfaces that cross belong to bodies that penetrate each other, and to no others. manifold3d:
-is there a common volume? It needs two closed manifolds that cover no point twice, and volumes
-within its tolerance tell nothing.
+Each library answers the question that it can decide. python-fcl: do the surfaces meet? It does not
+detect a body inside another, and its answer about surfaces that only touch depends on rounding, so
+it is not asked about these pairs. Surfaces cross exactly when their bodies penetrate each other.
+manifold3d: is there a common volume? It needs two closed manifolds that cover no point twice. A
+volume within its tolerance decides nothing.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""One pair: up the ladder, the figures that are needed, the words for the result.
+"""The finding of one pair: the verdict of the ladder, the requested figures, and their words.
 
-A clearance is kept or not by the exact gap, whatever the touch band calls the pair: an overlap has
-no gap, so it keeps none.
+The exact gap decides whether a clearance is kept, even if the touch band calls the pair touching.
+An overlap has no gap, so it keeps no clearance.
 """
 
 from __future__ import annotations

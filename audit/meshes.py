@@ -1,4 +1,4 @@
-"""Two meshes in memory in, one finding out."""
+"""`check_meshes`: the check of two meshes in memory."""
 
 from __future__ import annotations
 

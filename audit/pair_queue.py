@@ -1,9 +1,9 @@
-"""The order in which pairs are examined, on all cores, and when what was made of a body is let go.
+"""The order in which pairs are checked, on all cores, and when the data of a body is released.
 
-Pairs are taken along a curve through space, so that those of one body come close to each other: of
-many bodies only a few have a surface in memory at a time. They are taken in batches: the core
-climbs the ladder with all pairs of one, in threads of its own, while those of the one before are
-put into words. What still takes time then, a depth for instance, goes to threads.
+Pairs follow a curve through space, so the pairs of one body are close to each other in the order,
+and only a few bodies have a surface in memory at a time. Pairs go in batches. The core climbs the
+ladder with all pairs of a batch, in its own threads, while Python makes the findings of the batch
+before. Slow figures, such as a depth, run in threads.
 """
 
 from __future__ import annotations

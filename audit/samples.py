@@ -1,4 +1,4 @@
-"""The same bodies in many poses of their robots: one verdict a pose, and a tally a pair."""
+"""The check of robots in many poses: a verdict for each pose, and counts for each pair."""
 
 from __future__ import annotations
 

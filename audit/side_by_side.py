@@ -1,4 +1,4 @@
-"""The same of several things at once."""
+"""One function on several items at once, in threads."""
 
 from __future__ import annotations
 

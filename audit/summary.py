@@ -1,4 +1,4 @@
-"""Everything in the report that is not about one pair."""
+"""The summary of a report, and everything else in it that is not about one pair."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The little vector arithmetic that this room needs where importing numpy would cost more."""
+"""Vector arithmetic on tuples, for modules that do not import numpy."""
 
 from __future__ import annotations
 

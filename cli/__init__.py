@@ -1,4 +1,4 @@
-"""satcheck.cli: the command. Options in, one document on standard output, the talk on stderr."""
+"""satcheck.cli: the command. It writes one document to standard output, and messages to stderr."""
 
 from __future__ import annotations
 

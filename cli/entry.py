@@ -1,4 +1,4 @@
-"""The process: whatever happens inside becomes one exit code and a line or so of error."""
+"""The process: every outcome becomes an exit code, and every failure a short message."""
 
 from __future__ import annotations
 

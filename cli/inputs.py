@@ -1,4 +1,4 @@
-"""What a command reads: the options that say which files and how, and the scene they give."""
+"""The inputs of a command: the options that choose files, and the scene made from them."""
 
 from __future__ import annotations
 

@@ -131,7 +131,7 @@ form_option = click.option(
     "--format",
     "form",
     type=click.Choice(FORMATS),
-    help="How to report. [default: table; json where the name after -o ends in .json]",
+    help="The format of the report. [default: table; json if the file of -o ends in .json]",
 )
 output_option = click.option(
     "-o",
@@ -169,7 +169,7 @@ tolerance_option = click.option(
     "--tolerance",
     type=length,
     default=DEFAULTS.tolerance,
-    help="Call it touching when gap or depth is at most this. "
+    help="A gap or a depth up to this counts as touching. "
     "[default: the precision of the input files]",
 )
 method_option = click.option(
@@ -184,8 +184,8 @@ open_option = click.option(
     "--allow-open",
     is_flag=True,
     default=DEFAULTS.allow_open,
-    help="Meshes that are not closed are meant to be open: their open parts are sheets, which have "
-    "no inside, and not solids with holes.",
+    help="Declare that open meshes are meant to be open: their open parts are sheets "
+    "without an inside, not solids with holes.",
 )
 jobs_option = click.option(
     "-j",
@@ -244,7 +244,7 @@ _POSE_OPTIONS = (
         "--seed",
         type=click.IntRange(min=0),
         metavar="N",
-        help="Which random poses: the same seed draws the same poses.  [default: 0]",
+        help="The seed of the random poses: the same seed draws the same poses.  [default: 0]",
     ),
 )
 

@@ -1,4 +1,4 @@
-"""From --pose, --state, --sample and --seed to poses of the robots of a scene.
+"""The poses of the robots of a scene, from --pose, --state, --sample and --seed.
 
 Apart from `cli.inputs`, because it imports the readers of robots, and these numpy.
 """

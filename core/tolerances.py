@@ -1,4 +1,4 @@
-"""What float64 arithmetic on coordinates may be off by: each bound with its name and derivation."""
+"""Bounds of the rounding errors of float64 coordinates, each with its name and derivation."""
 
 from __future__ import annotations
 

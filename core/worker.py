@@ -1,4 +1,4 @@
-"""Code that may hang, abort or eat the memory, run in a disposable child process.
+"""Child processes for code that may hang, abort or use all memory.
 
 `run_isolated("some.module", request, ...)` runs that module's `serve(request: bytes) -> bytes` in
 a fresh interpreter and returns the reply; a `Worker` keeps the interpreter for further requests. A

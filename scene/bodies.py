@@ -1,4 +1,4 @@
-"""What the rest of satcheck gets: bodies with a mesh, a pose and a known state of health."""
+"""The bodies of a scene: a mesh, a placement, and the health of the mesh."""
 
 from __future__ import annotations
 

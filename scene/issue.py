@@ -1,4 +1,4 @@
-"""What is worth saying about an input: one coded, placed sentence each, and the catalogue of codes.
+"""Issues of the inputs: each has a code, a place and a sentence. The catalogue of codes is here.
 
 `error`: the file or the scene cannot be used. `warning`: it is used, and this should be known.
 """

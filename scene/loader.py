@@ -1,4 +1,4 @@
-"""Paths -> Scene. A file that cannot be read becomes a body that says so."""
+"""Paths -> Scene. A file that cannot be read becomes an `Unreadable` body."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A scene whose numbers the core cannot hold, in another unit: a power of two of its own."""
+"""A scene with numbers beyond the range of the core, scaled into it by a power of two."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ids for bodies: what a reader would call them, as short as that goes, and each once."""
+"""Ids for bodies: short names for readers, each used once."""
 
 from __future__ import annotations
 

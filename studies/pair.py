@@ -1,4 +1,4 @@
-"""A pair of bodies with nothing known from before, as a check makes it."""
+"""A new pair of bodies without cached data, as a check makes it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What certificates are made of: numbers, points and axes, as they come out of JSON."""
+"""The values of certificates: numbers, points and axes, as read from JSON."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What of an open surface is a sheet, so that the rest may be a solid.
+"""The parts of an open surface that are sheets; the others may be a solid.
 
 A part that is open and lies in one plane is a sheet: nothing fills its boundary. So is all that has
 a rim where the settings say that it is meant to be open. A sheet bounds nothing, as a triangle and

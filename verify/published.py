@@ -1,4 +1,4 @@
-"""Where the values of a report depart from its published schema."""
+"""Check of a report against its published schema."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A question about two bodies: what to compute, how far to climb the ladder, with what tools."""
+"""A pair of bodies and its request: what to compute, how far to climb the ladder, which tools."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who takes part, and which pairs are asked about."""
+"""The placed bodies of a check, and the pairs to check."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Certificates: evidence for a finding, gathered with what the solver found as a hint.
+"""Certificates: the evidence for a finding. The results of the solver serve as hints.
 
-Nothing here is trusted. What it makes is handed to `satcheck.verify` before it gets into a report.
+Nothing here is trusted: `satcheck.verify` judges each certificate before it goes into a report.
 """
 
 from satcheck.audit.certify.certificate import certified

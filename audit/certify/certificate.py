@@ -1,4 +1,4 @@
-"""The certificate of a finding: one part for each thing it says, checked before it is given out."""
+"""The certificate of a finding: one part for each claim, checked before it is returned."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""A cover of the translations that are shorter than the depth, found in float64.
+"""A cover of the translations that are shorter than the depth, computed in float64.
 
-The checker decides in integers whether it is one (`satcheck.verify.cover`). Here a cube is given
-the pair of triangles whose polytope holds it with the most room, or it is split.
+The checker proves in integers that it is a cover (`satcheck.verify.cover`). This module assigns to
+each cube the pair of triangles whose polytope contains it with the largest margin. It splits a cube
+that no polytope contains.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Axes, polytopes and common points of the hulls of two bodies, in exact arithmetic.
 
-GJK and EPA on the vertex differences, on the integer lattice of the pair: float64 only chooses
-which face is worth expanding next, so there is nothing to tune and no tolerance.
+GJK and EPA run on the vertex differences, on the integer lattice of the pair. float64 only chooses
+the next face to expand, so there is no tolerance.
 """
 
 from __future__ import annotations

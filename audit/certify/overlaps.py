@@ -1,4 +1,4 @@
-"""Points that show that two bodies overlap, and points that they share."""
+"""Points that prove an overlap of two bodies, and points that both share."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The figures of a pair, each only where needed: depth, gap, contacts, volume, touch band."""
+"""The figures of a pair: depth, gap, contacts, volume, touch band. Each runs only on request."""

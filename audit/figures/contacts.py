@@ -1,4 +1,4 @@
-"""The stage `contacts`: where the surfaces of a pair meet, for those who ask."""
+"""The stage `contacts`: where the surfaces of a pair meet. It runs only on request."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What polygons prove of the curves that they stand for, in a check in a plane.
+"""What polygons prove about the curves that they approximate, in a check in a plane.
 
 The boundary of a body and its polygon are nowhere farther apart than the body's deviation. So
 

@@ -1,7 +1,7 @@
 """Figures of curved shapes: the depth in a mesh that is not convex, and what is not available.
 
-The depth is between that of a mesh inside the shape and that of one around it: what frees the outer
-mesh frees the shape, and no less than frees the inner one does.
+The depth is between that of a mesh inside the shape and that of a mesh around it. A translation
+that frees the outer mesh frees the shape, and one that frees the shape frees the inner mesh.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A point deep in two outlines, and what it proves of the depth of the curves near them.
+"""A point deep in two outlines, and the lower bound of the depth that it proves.
 
 A disc around the point lies within a body if it stays farther from the polygon's boundary than the
 curve may be off: the curve runs around it as often as the polygon does. Two discs around one point

@@ -1,4 +1,4 @@
-"""How far apart two bodies without a common interior are, where somebody has to know."""
+"""The gap of two bodies without a common interior, if the request needs it."""
 
 from __future__ import annotations
 

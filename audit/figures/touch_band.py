@@ -1,11 +1,11 @@
-"""The touch band, one rule for every pair: the signed distance is proven to be within it.
+"""The touch band: whether the signed distance of a pair is proven to be within the tolerance.
 
-A gap is within it when it is known to be no longer than the tolerance, an overlap when a verified
-translation of A that is no longer than the tolerance ends it. Two convex bodies need no search.
-For the others, what proves the contrary at once comes first: one crossing pair of triangles that is
-deeper, a wider gap around a body inside another. Then the core looks for a way out of the hulls or
-off the triangles that A crosses (`core/native/scene/way_within.hpp`). A wide band is searched as
-the depth is.
+A gap is within the band if it is at most the tolerance. An overlap is within the band if a verified
+translation of A, at most as long as the tolerance, ends it. Two convex bodies need no search. For
+others the quick proofs of the contrary come first: one crossing pair of triangles that is deeper, a
+wider gap around a body inside another. Then the core looks for a way out of the hulls or off the
+triangles that A crosses (`core/native/scene/way_within.hpp`). A wide band is searched as the depth
+is.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""No MTV is printed before it has been applied to the mesh and the result checked exactly."""
+"""The check of an MTV: it is applied to the mesh, and the moved mesh is checked exactly."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The stage `volume`: what two solids have in common, for those who ask."""
+"""The stage `volume`: the common volume of two solids. It runs only on request."""
 
 from __future__ import annotations
 

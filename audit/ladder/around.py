@@ -1,7 +1,7 @@
-"""Open pieces around a body: sheets by themselves, and together perhaps the wall of a solid.
+"""Open pieces around a body: each is a sheet, but together they may be the wall of a solid.
 
 A box whose faces miss each other by more than the precision of the file is six flat open parts, and
-so six sheets, in which nothing can lie. Nobody knows whether it is meant to be a solid.
+so six sheets without an inside. Whether it is meant to be a solid is unknown.
 """
 
 from __future__ import annotations

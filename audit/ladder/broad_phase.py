@@ -1,7 +1,7 @@
-"""Which asked pairs have world boxes close enough to be looked at.
+"""The pairs whose world boxes are close enough for the ladder.
 
-The search is that of the core; here its question is put: how far each body reaches, and what the
-scene exempts, so that exempt pairs are not made where that can be told beforehand.
+The core does the search. This module prepares it: how far each body reaches, and which pairs the
+scene exempts.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Pairs up the ladder of the core: the request for one of them, and for many."""
+"""Calls of the ladder in the core: the request for one pair, and for many pairs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rung of curved shapes: what the core decides of them, in words."""
+"""The rung of curved shapes: the decisions of the core, in words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks in a plane, where bodies are prisms that reach beyond all that matters."""
+"""Checks in a plane: each body is a prism that is taller than any body is wide."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The lower bound of a depth that convex parts give, where the ladder ends with them.
+"""The lower bound of a depth from convex parts, for `--accuracy parts`.
 
 Any translation that frees A also frees every convex body inside A from every one inside B, so the
 deepest such pair is a proven lower bound of the depth. The bodies are the shrunken copies of the

@@ -1,7 +1,7 @@
-"""The rung for people who want convex parts and nothing finer: --accuracy parts.
+"""The rung of `--accuracy parts`: convex parts instead of triangles.
 
-Parts over- and under-cover a mesh by a measured error. What lies deeper than that error is proven,
-the rest is an estimate.
+Parts differ from a mesh by a measured error. An overlap deeper than that error is proven; any other
+answer is an estimate.
 """
 
 from __future__ import annotations

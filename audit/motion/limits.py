@@ -1,4 +1,4 @@
-"""What a sweep may cost, and how finely it looks: steps and shares of t, never seconds."""
+"""The budget and the resolution of a sweep, in steps and shares of t, never in seconds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who moves in a scene, against whom, and where they come by."""
+"""The moving bodies of a scene, the pairs to sweep, and the boxes around their motions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A motion as pieces of steady movement: what the native bounds of motion know how to follow.
+"""A motion as pieces of steady movement, the form that the bounds of motion in the core need.
 
 On every piece M(t) x = centre(t) + turn(t) (x - pivot): the centre moves with one velocity, and the
 body turns about one axis through it with one angular velocity. Translations, rotations and each leg

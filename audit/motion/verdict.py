@@ -1,4 +1,4 @@
-"""What the sweep of a pair makes of its finding: the graver of what both say."""
+"""The verdict on a moving pair: the worse of its relation as placed and that of its sweep."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What is asked of each pair, by flags and rules, and the record of what was done about it."""
+"""The request of each pair, from flags and rules, and the trace of its steps."""

@@ -1,4 +1,4 @@
-"""Each effect of a check: what needs it, on how many pairs it ran, on how many not, and why."""
+"""The effects of a check: what required each, on how many pairs it ran, and why not on others."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The matrix of pairs by rows: a row is a number, its bits are those of the pairs of one body.
 
-What rules say of fifty million pairs is then counted by the words of the machine.
+Bit operations on such rows count what rules say about fifty million pairs.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Who asks what about a pair: from the flags of a check and the rules of its scene to `Asked`.
+"""The planner: from the flags of a check and the rules of its scene to the `Request` of each pair.
 
-The stages look here, and nowhere else, whether they are called for.
+It alone decides which stages run.
 """
 
 from __future__ import annotations

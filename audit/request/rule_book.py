@@ -1,4 +1,4 @@
-"""What a scene says about its pairs of bodies, looked up and counted without visiting them all.
+"""The rules of a scene, looked up and counted without visiting every pair.
 
 Bodies are indices. A rule whose selectors each choose one body is kept under that pair. By all the
 others bodies are of one kind: what is said of a pair depends on the two kinds alone. Counts are

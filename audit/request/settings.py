@@ -1,4 +1,4 @@
-"""What is asked of a check: every choice that can change an answer, and a few that cannot."""
+"""The settings of a check: every choice that can change an answer, and a few that cannot."""
 
 from __future__ import annotations
 

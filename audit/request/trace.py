@@ -1,4 +1,4 @@
-"""The log of one pair: what ran, and what could not be done."""
+"""The trace of one pair: which steps ran, and which could not."""
 
 from __future__ import annotations
 

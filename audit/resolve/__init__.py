@@ -1,4 +1,4 @@
-"""Pushing the bodies of a scene apart: `resolve`, and what it found."""
+"""Pushing the bodies of a scene apart: `resolve` and its result."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bodies of a scene, each at its own translation, and what their pairs say there."""
+"""The bodies of a scene at their current translations, and the states of their pairs."""
 
 from __future__ import annotations
 

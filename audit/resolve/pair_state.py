@@ -1,4 +1,4 @@
-"""The state of a pair where its bodies are: whether a check objects, and which way ends that."""
+"""The state of a pair at its current place: whether it fails a check, and its way out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Places in short decimal numbers, where these are free as well: -45 and not -45.00000000000442."""
+"""Short decimal numbers for places, if the bodies are free there too: -45 instead of
+-45.00000000000442."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `resolve` found: the moves, what is left, and the check that proves it."""
+"""The result of `resolve`: the moves, the remaining overlaps, and the check that proves them."""
 
 from __future__ import annotations
 

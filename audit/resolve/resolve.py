@@ -1,4 +1,4 @@
-"""A scene in, translations out after which nothing overlaps that must not."""
+"""`resolve`: translations after which no pair of a scene fails a check."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Shorter answers than the rounds gave: other starts, and each body by itself once more.
+"""Attempts to shorten the result of the rounds: other starts, and a new search for each body alone.
 
 The rounds push from home, so they end at a least motion near there. Where one body has a short way
 out of everything, the sum of squares may be less when it goes first and the others only make room

@@ -5,10 +5,10 @@ velocities: constraints are found where the bodies are, satisfied by projections
 Unlike there every projection starts at home and keeps the walls of earlier rounds, so that what
 comes out is a least motion and not the sum of many small ones.
 
-A wall is a half space of translations. The translations that free a pair are no half space as a
-rule, so a wall may be in the way of another one. Of one pair a wall between the hulls then takes
-the place of both, or the bodies are locked to each other. Of several pairs one body is taken out to
-a free place, its walls are made anew there, and the rounds go on.
+A wall is a half space of translations. The translations that free a pair usually do not form a half
+space, so walls may contradict each other. Of one pair a wall between the hulls then takes the place
+of both, or the bodies are locked to each other. Of several pairs one body is taken out to a free
+place, its walls are made anew there, and the rounds go on.
 """
 
 from __future__ import annotations

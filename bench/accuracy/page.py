@@ -96,8 +96,8 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
     boxes, proof = step(records, "aabb", HULL), step(concave, HULL, EXACT)
     lines = [
         "# What accuracy costs in time",
-        f"Every rung of the ladder was asked about the same {len(records)} pairs of meshes, and "
-        f"each answer was compared with what is known and proven. {run.about}".strip(),
+        f"Every rung of the ladder checked the same {len(records)} pairs of meshes, and each "
+        f"answer was compared with the known and proven truth. {run.about}".strip(),
         "Errors are in percent of the size of the smaller body:",
         "\n".join(
             [
@@ -108,11 +108,11 @@ def _opening(run: Run, records: Sequence[Record], concave: Sequence[Record]) -> 
                 *_of_parts(concave),
             ]
         ),
-        "So a check goes from boxes over hulls to triangles, and builds convex parts only on "
+        "So a check tests boxes, then hulls, then triangles. It builds convex parts only on "
         "request (`--accuracy parts`).",
-        "Times are of a machine with much else to do: read ratios, not absolute times. An error is "
-        "the signed distance that a rung gives (a gap, or minus the depth) less the nearest that "
-        "the proof leaves open; the size of a body is the diagonal of its box.",
+        "The machine was shared with other work: compare ratios, not absolute times. An error is "
+        "the difference between the signed distance of a rung (a gap, or minus the depth) and the "
+        "nearest value of the proven interval. The size of a body is the diagonal of its box.",
     ]
     return "\n\n".join(lines)
 
@@ -165,9 +165,9 @@ def _making(run: Run, records: Sequence[Record], found: dict[str, RungSummary]) 
         f"over the fastest, as a median of the pairs: {steady or 'no rung was repeated'}.",
         f"Budget, wall time: {effort['rung_seconds']:g} s for all runs of a rung on a pair, "
         f"{effort['pair_seconds']:g} s for all rungs of a pair. Pairs of more than "
-        f"{effort['part_triangles']:,} triangles together are not split into convex parts. What "
-        "did not fit is counted above as out of budget: convex parts are those of the smaller "
-        "meshes, which flatters them.",
+        f"{effort['part_triangles']:,} triangles together are not split into convex parts. Runs "
+        "beyond the budget count above as out of budget. The figures of convex parts are "
+        "therefore those of the smaller meshes, which favours them.",
     ]
     if failed:
         why = "; ".join(f"{one['case']['id']}: {one['failure']}" for one in failed)

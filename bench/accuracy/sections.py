@@ -54,16 +54,17 @@ def next_factor(folder: str, records: Sequence[Record], concave: Sequence[Record
         [
             "## What the next factor of accuracy costs",
             embedded(folder, "ladder", "Error against time, rung by rung"),
-            f"The {len(concave)} pairs that boxes and hulls leave open. Across: CPU time on a "
-            "pair, everything built from nothing, over that of the exact rung on the same pair (1 "
-            "x is the proof; cached parts: wall time). Up: median error. Both with quartiles; in "
-            "brackets the number of pairs: convex parts count where there was time to make them, "
-            "and of bodies with an inside.",
-            "Step by step, each over the pairs that both rungs answered: up to hulls of all pairs, "
-            "beyond them of those that they leave open.",
+            f"The {len(concave)} pairs that boxes and hulls do not decide are shown. The "
+            "horizontal axis is the CPU time on a pair, without a cache, divided by that of the "
+            "exact rung on the same pair (for cached parts: wall time). The vertical axis is the "
+            "median error. Bars show quartiles, and brackets the number of pairs. Convex parts "
+            "count only for bodies with an inside, and only if there was time to build them.",
+            "The table compares neighbouring rungs on the pairs that both answered. The steps up "
+            "to hulls include all pairs, the steps after them only the pairs that boxes and hulls "
+            "do not decide.",
             words.table(head, rows),
-            "Of overlapping bodies convex parts bound the depth from below; the figure they give "
-            "is that of the hulls, and so is its error.",
+            "For overlapping bodies convex parts give a lower bound of the depth. Their figure is "
+            "that of the hulls, with the same error.",
         ]
     )
 
@@ -97,13 +98,13 @@ def of_rungs(folder: str, found: dict[str, RungSummary]) -> str:
         [
             "## Cost and error of each rung, over all pairs",
             embedded(folder, "rungs", "Time and error of every pair, rung by rung"),
-            "Wall time, cold: from meshes in memory to the answer, with hulls, trees and parts "
-            "built from nothing; of the Boolean with the start of its child process. Cached: parts "
-            "read from disk, the child process running. CPU: median of the cold runs, children "
-            "included. Memory: of the child process, or by how much the process grows that asks, "
-            "whichever is more; median. Volume error: of what stands for a body, without its "
-            "sign; median of the bodies that have a volume. Convex parts count where they were "
-            "made.",
+            "Wall time is cold: from meshes in memory to the answer, with the time to build "
+            "hulls, trees and parts, and to start the child process of the Boolean. Cached: parts "
+            "are read from disk, and the child process runs already. CPU: median of the cold "
+            "runs, with child processes. Memory: the median of the child process, or of the "
+            "growth of the calling process if that is larger. Volume error: the absolute error of "
+            "the shapes that replace a body; median of the bodies with a volume. Convex parts "
+            "count only if they were built.",
             words.table(head, rows),
             "Errors, in sizes of the smaller body (right: how many are 0 within rounding); the "
             "Boolean gives no distance:",
@@ -133,10 +134,11 @@ def of_verdicts(folder: str, found: dict[str, RungSummary]) -> str:
         [
             "## Yes or no",
             embedded(folder, "verdicts", "Right and wrong verdicts, rung by rung"),
-            "A false hit is a reported overlap of bodies that do not overlap, a miss the contrary. "
+            "A false hit is a reported overlap of bodies that do not overlap, a miss is the "
+            "opposite. "
             f"Boxes and hulls may only err towards an overlap: "
             f"{counted(misses, 'miss', 'misses')} in {judged} verdicts. "
-            "Convex parts may err either way, and call possible what they cannot prove. "
+            "Convex parts may err either way, and call an unproven verdict possible. "
             f"Verdicts that a rung called proven and that are wrong: {proofs}.",
             words.table(head, rows),
         ]
@@ -151,18 +153,19 @@ def of_the_default(folder: str, records: Sequence[Record]) -> str:
     wall, cpu, memory = (process(records, what) for what in ("wall", "cpu", "megabytes"))
     lines = [
         "## What the default does",
-        "A plain check climbs until a rung proves its answer. How many pairs each rung settled: "
+        "A check climbs the ladder until a rung proves the answer. Each rung decided this many "
+        "pairs: "
         f"{said} (of {sum(settled.values())}; `exact`: triangles).",
         embedded(folder, "stages", "Where the time of a plain check goes"),
-        "Mean share of each stage in the time of a pair, in a process that runs already. Placing: "
-        "bodies into the world, and what a report says of them; triangles: with the tree of boxes "
-        "over them, containment and the touch band; depth search: with the first way out, which "
-        "the hulls give.",
+        "The plot and the table show the mean share of each stage in the time of a pair, in a "
+        "running process. Placing includes the entries of the bodies in the report. Triangles "
+        "include the tree of boxes, containment and the touch band. The depth search includes the "
+        "first way out, which comes from the hulls.",
         _stages(stage_times(records)),
     ]
     if wall and cpu and memory:
         lines.append(
-            "The command as it is typed takes a median of "
+            "The whole command takes a median of "
             f"{words.time(cpu.median)} of CPU time (quartiles {words.time(cpu.first)} .. "
             f"{words.time(cpu.third)}, most {words.time(cpu.high)}; wall time "
             f"{words.time(wall.median)}), most of it the start of Python, and "
@@ -203,15 +206,16 @@ def of_the_truth(records: Sequence[Record]) -> str:
     seen, widths = agreement(records), depth_widths(records)
     unknown = Counter(one["pair"]["truth"]["relation"] is None for one in records)[True]
     lines = [
-        "## What it is held against",
-        "Verdicts: what the corpus states, found by other libraries and methods or by hand; where "
-        "it says nothing, what the exact rung has proven. Distances and depths: the proven bounds "
-        "of the exact rung.",
-        "Where the corpus states something, the exact rung was held against it: "
+        "## What the answers are compared with",
+        "Verdicts are compared with the statements of the corpus, which come from other libraries "
+        "and methods or from hand. If it states nothing, they are compared with the proof of the "
+        "exact rung. Distances and depths are compared "
+        "with the proven bounds of the exact rung.",
+        "The exact rung itself was compared with the statements of the corpus: "
         f"{seen.wrong_verdicts} of {seen.verdicts} verdicts differ, "
         f"{seen.wrong_way_outs} of {seen.way_outs} depths have a lower bound above a way out "
         f"that is known to work, {seen.wrong_distances} of {seen.distances} gaps lie outside the "
-        "proven bounds (by more than 1e-9 of the size). Pairs of which nothing is proven: "
+        "proven bounds (by more than 1e-9 of the size). Pairs without any proof: "
         f"{unknown}.",
     ]
     if widths is not None:

@@ -9,7 +9,7 @@ COMMANDS = {
     "decompose": "Split meshes into convex parts, for physics engines.",
     "resolve": "Move the bodies of a scene apart, by short translations.",
     "schema": "Print the JSON Schema of the report of a command, or of a scene file.",
-    "stability": "Ask the same question in other ways: does the answer stay?",
+    "stability": "Check whether equivalent inputs get the same answer.",
     "suggest": "Suggest which pairs a scene may allow to overlap.",
     "tradeoff": "What accuracy costs in time: every rung of the ladder on one pair.",
     "verify": "Re-check the certificates of a report from the mesh files.",

@@ -14,8 +14,8 @@ from satcheck.decompose import Cache
 def command() -> None:
     """The cache of convex parts: info, clear.
 
-    Only --accuracy parts makes such parts. The cache lies in the user's cache folder, or where
-    SATCHECK_CACHE_DIR says.
+    --accuracy parts, decompose and tradeoff make such parts. The cache is in the user's cache
+    folder, or in the folder that SATCHECK_CACHE_DIR names.
     """
 
 

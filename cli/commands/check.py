@@ -1,4 +1,4 @@
-"""`satcheck A B [C ...]`: the command that needs no name, and the same of many poses of a robot."""
+"""`satcheck A B [C ...]`: the check of bodies, or of robots in many poses."""
 
 from __future__ import annotations
 
@@ -109,7 +109,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show the steps of each pair: what ran, what it settled, what it cost. JSON always does.",
+    help="Show the steps of each pair: what each tested, what it proved, its time. JSON "
+    "always has them.",
 )
 @click.option(
     "--depth/--no-depth",
@@ -135,7 +136,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     default=DEFAULTS.accuracy,
     show_default=True,
     help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
-    "All but exact may report false overlaps, and call them possible.",
+    "Tests below exact may report false overlaps, which "
+    "the report calls possible.",
 )
 @method_option
 @click.option(
@@ -152,8 +154,9 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="SECONDS",
     default=DEFAULTS.depth_budget,
     show_default=True,
-    help="Stop narrowing after this much work on a pair. It is counted in steps, which a slow "
-    "machine does in that many seconds: the answer is the same everywhere.",
+    help="Stop narrowing after this much work on a pair. The work is counted in "
+    "steps, which a slow machine does in that many seconds, so the answer is the same on every "
+    "machine.",
 )
 @planar_option
 @split_option
@@ -163,14 +166,14 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     default=DEFAULTS.fail_on,
     show_default=True,
     help="The least severity of a finding that makes the check fail. Overlaps and gaps below the "
-    "clearance are errors, unless a rule of the scene says otherwise; what only touches is a note.",
+    "clearance are errors, unless a rule of the scene says otherwise; a touch is a note.",
 )
 @open_option
 @click.option(
     "--cross-check",
     is_flag=True,
-    help="Ask python-fcl and manifold3d too. Where one contradicts a verdict, the check is "
-    "incomplete.",
+    help="Compare each verdict with python-fcl and manifold3d. A contradiction makes the "
+    "check incomplete.",
 )
 @click.option(
     "--certificate",

@@ -84,7 +84,7 @@ class _Parts(Struct, frozen=True):
     metavar="N",
     default=DEFAULTS.part_seed,
     show_default=True,
-    help="Of CoACD's random search: the same seed gives the same parts.",
+    help="The seed of CoACD's random search: the same seed gives the same parts.",
 )
 @click.option(
     "--seconds",
@@ -114,8 +114,8 @@ def command(
     """Split meshes into convex parts, for physics engines.
 
     MESH is a mesh file or a scene. Each body is split by CoACD. A body that is convex already is
-    its own part. The report says for each body how far its parts stick out of the mesh, and how far
-    the mesh sticks out of its parts, at most. A mesh that is not closed is rebuilt from voxels
+    its own part. For each body the report gives upper bounds on how far the parts stick out of
+    the mesh, and the mesh out of the parts. A mesh that is not closed is rebuilt from voxels
     first, which thickens it. The parts lie where the input places them.
 
     Exit codes: 0, every body has its parts; 2, wrong usage, an unreadable input, no parts at all,

@@ -75,7 +75,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
     metavar="N",
     default=50,
     show_default=True,
-    help="Rounds of pushing; bodies that overlap after them are taken out to a free place.",
+    help="Rounds of pushing. Bodies that still overlap then move to a free place.",
 )
 @open_option
 @jobs_option
@@ -111,7 +111,7 @@ def command(
     with a small sum of squared lengths. The moved scene is checked again (with --moved the file
     that was written), and what still overlaps is reported.
 
-    Exit codes: 0, nothing overlaps any more; 1, something does; 2, wrong usage, an unreadable
+    Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable
     input, or an internal error; 3, nothing is known to overlap, but not everything could be
     checked.
     """

@@ -26,7 +26,7 @@ DOCUMENTS = (
 def command(document: str) -> None:
     """Print the JSON Schema of the report of a command, or of a scene file.
 
-    report is that of a check, samples that of a robot in many poses, resolution that of resolve,
+    report describes a check, samples a robot in many poses, resolution the result of resolve,
     suggestions that of suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)

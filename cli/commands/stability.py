@@ -49,12 +49,12 @@ _EXIT_CODES = {
     metavar="N",
     default=0,
     show_default=True,
-    help="Which variants: the same seed makes the same variants.",
+    help="The seed of the variants: the same seed makes the same variants.",
 )
 @click.option("--depth/--no-depth", default=True, help="Compare depths as well.  [default: depth]")
 @form_option
 @output_option
-@click.option("--explain", is_flag=True, help="Show every variant, not only those that went wrong.")
+@click.option("--explain", is_flag=True, help="Show every variant, not only the failures.")
 @units_option
 @outside_option
 @debug_option
@@ -67,7 +67,7 @@ def command(
     explain: bool,
     **options: Any,
 ) -> int:
-    """Ask the same question in other ways: does the answer stay?
+    """Check whether equivalent inputs get the same answer.
 
     The mesh files A and B are scaled by powers of two, stored in another order of vertices and
     faces, given other axes, swapped, moved, given other triangles, turned, and disturbed by one

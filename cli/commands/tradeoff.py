@@ -40,7 +40,7 @@ PLOTS = (".svg", ".png", ".pdf")
     metavar="N",
     default=5,
     show_default=True,
-    help="How often each rung is asked; the rungs take turns.",
+    help="The number of runs of each rung; the rungs take turns.",
 )
 @click.option(
     "--budget",
@@ -64,7 +64,7 @@ PLOTS = (".svg", ".png", ".pdf")
     metavar="FILE",
     help="Draw error against time: FILE.svg, FILE.png or FILE.pdf.",
 )
-@click.option("--dark", is_flag=True, help="Draw the plot on dark paper.")
+@click.option("--dark", is_flag=True, help="Draw the plot on a dark background.")
 @method_option
 @form_option
 @output_option

@@ -1,4 +1,4 @@
-"""Where text for people is laid out before anybody prints it."""
+"""The page on which a renderer lays out text. It prints nothing."""
 
 from __future__ import annotations
 

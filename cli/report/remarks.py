@@ -1,4 +1,4 @@
-"""What a row has no room for, then the warnings and notes about the inputs."""
+"""The lines below the table: details of pairs, then warnings and notes about the inputs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What `satcheck resolve` did, for people: a row a moved body, what is left, one sentence."""
+"""The result of `satcheck resolve` as text: a row for each moved body, the remaining overlaps, a
+summary."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Many poses for people: a row a pose where they are few, else a row a pair with an example."""
+"""A report over many poses as text: a row for each pose, or for each pair of many poses."""
 
 from __future__ import annotations
 

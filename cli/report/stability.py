@@ -1,4 +1,4 @@
-"""What `satcheck stability` found, for people: a row a family, what went wrong, one sentence."""
+"""The result of `satcheck stability` as text: a row for each family, the failures, a summary."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The last line: what was checked, what was found, and the worst of it."""
+"""The last line of a report: the number of bodies and pairs, the relations, the deepest overlap."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The report for people: one row a pair, then what else they should know, then one sentence."""
+"""The report as a table: one row for each pair, then remarks, then the summary."""
 
 from __future__ import annotations
 

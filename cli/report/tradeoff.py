@@ -1,4 +1,4 @@
-"""What accuracy costs in time, for people: a row a rung, then how to read it."""
+"""The result of `satcheck tradeoff` as text: a row for each rung, then how to read it."""
 
 from __future__ import annotations
 

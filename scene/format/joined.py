@@ -1,7 +1,8 @@
 """Scene files as one scene, beside each other and other inputs.
 
 Motions and groups of a file are about its own bodies. Its rules are about these and about what has
-no rules, the mesh files and robots beside it; those of a file without bodies are about everybody.
+no rules, the mesh files and robots beside it; the rules of a file without bodies are about all
+bodies.
 """
 
 from __future__ import annotations

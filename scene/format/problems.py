@@ -1,4 +1,4 @@
-"""What is wrong with a scene file: all of it at once, each with its line and its key."""
+"""The errors of a scene file: all of them at once, each with its line and its key."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A scene file with bodies elsewhere: only the numbers that change are written anew."""
+"""A scene file with moved bodies: only the numbers that change are written anew."""
 
 from __future__ import annotations
 

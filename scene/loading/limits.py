@@ -1,4 +1,4 @@
-"""What a file may cost. Each limit guards against files that are small and become huge."""
+"""Limits of a file. Each guards against small files that become huge."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Between a file and its bodies: plain arrays, where they are placed, and how precise they are."""
+"""The result of a reader: plain arrays, their placements, and their precision."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Bodies seen as flat: the outlines of meshes in a plane, as prisms (`laid_flat`)."""
+"""Bodies in a plane: the outlines of meshes, as prisms (`laid_flat`)."""

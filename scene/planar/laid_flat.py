@@ -1,4 +1,4 @@
-"""A scene seen in a plane: each body becomes the prism over its outline."""
+"""A scene in a plane: each body becomes the prism over its outline."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a mesh covers when it is seen along an axis: triangles in the plane."""
+"""The region that a mesh covers, seen along an axis: triangles in the plane."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""satcheck.studies.stability: one question, asked in ways that must not change the answer.
+"""satcheck.studies.stability: variants of a pair that must not change the answer.
 
 Each family of variants comes with what it may change: nothing, the last digits, or as much as its
 rounding moves the surfaces. Every variant goes through `satcheck.audit.check`, like any question.

@@ -1,4 +1,4 @@
-"""What a check said about a pair, in the frame in which the question was first asked."""
+"""The answer about a variant, mapped back to the frame of the original pair."""
 
 from __future__ import annotations
 

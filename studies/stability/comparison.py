@@ -1,4 +1,4 @@
-"""Is what changed within what the variant may change?
+"""Whether the change of an answer is within the bound of its variant.
 
 Relations are exact, so where the surfaces were not moved they must be the same. Where they were
 moved by at most d, a relation may change only if d is enough to bring surfaces that are apart

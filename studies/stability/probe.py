@@ -1,4 +1,4 @@
-"""One pair, asked in every other way."""
+"""The probe: one pair in all its variants."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One other way to ask about a pair: its bodies, the way back, and how much it may change.
+"""One variant of a pair: its bodies, the map back, and the bound of the change.
 
 Bounds are derived; u is the unit roundoff of float64. The signed distance of two convex bodies, and
 any gap, changes by at most the sum of how far the two surfaces are moved against each other: their

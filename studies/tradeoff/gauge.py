@@ -1,4 +1,4 @@
-"""What there is to spend, and what has been seen of a rung so far."""
+"""The remaining budget, and the measurements of a rung so far."""
 
 from __future__ import annotations
 

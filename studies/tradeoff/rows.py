@@ -1,4 +1,4 @@
-"""From what was seen of a rung to its row: held against the truth, and in the words of a report."""
+"""The row of a rung: its measurements, compared with the truth, in the words of a report."""
 
 from __future__ import annotations
 

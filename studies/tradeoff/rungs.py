@@ -1,4 +1,4 @@
-"""What a pair is asked by, from the cheapest to the dearest."""
+"""The rungs of a study, from the cheapest to the most expensive."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One rung asked about one pair, once, with what it took."""
+"""One run of one rung on one pair, with its time and memory."""
 
 from __future__ import annotations
 

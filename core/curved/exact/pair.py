@@ -1,4 +1,4 @@
-"""What bounds leave open: both bodies on one lattice, and what is proven of them there."""
+"""Exact decisions about a pair: both bodies on one integer lattice, and the proofs there."""
 
 from __future__ import annotations
 
