@@ -114,11 +114,11 @@ def _check(
     queue = PairQueue(settings.jobs, keep=keep)
     examined = _examine_all(bodies, close, planner, movers, queue, progress)
     findings = _findings(bodies, close, examined, planner)
-    of_motions = () if movers is None else movers.issues(bodies.ids)
-    of_pairs = (issue for one in examined for issue in one.issues)
+    motion_issues = () if movers is None else movers.issues(bodies.ids)
+    pair_issues = (issue for pair in examined for issue in pair.issues)
     counts = count(bodies, len(close), findings)
-    of_sizes = doubtful_sizes(bodies, findings, settings.planar)
-    issues = issues_of(scene, bodies, counts, (*of_sizes, *of_motions, *of_pairs))
+    size_issues = doubtful_sizes(bodies, findings, settings.planar)
+    issues = issues_of(scene, bodies, counts, (*size_issues, *motion_issues, *pair_issues))
     return Report(
         tool=tool(),
         units=scene.units,
@@ -129,7 +129,7 @@ def _check(
         rules=rule_reports(scene.rules),
         effects=effects_of(
             planner,
-            map(_asked_and_found, examined),
+            map(_request_and_finding, examined),
             counts,
             units_unknown=sum(1 for _ in bodies.pairs_of_several_units()),
         ),
@@ -178,7 +178,7 @@ def _examine_all(
     settings = planner.settings
     requests = [planner.request(i, j) for i, j in close]
     with ExitStack() as stack:
-        measures = any(one.wants("volume") for one in requests)
+        measures = any(request.wants("volume") for request in requests)
         meter = stack.enter_context(volume_meter(settings)) if measures else None
         peers = stack.enter_context(_peers(settings)) if settings.cross_check else None
         pairs = [
@@ -186,23 +186,23 @@ def _examine_all(
                 bodies.placed[i],
                 bodies.placed[j],
                 settings,
-                one,
+                request,
                 meter,
                 peers,
                 None if movers is None else movers.paths(bodies.ids[i], bodies.ids[j]),
                 alone=len(close) == 1 and not queue.keep,
             )
-            for (i, j), one in zip(close, requests, strict=True)
+            for (i, j), request in zip(close, requests, strict=True)
         ]
-        for k, one in queue.each(pairs, Steps(start_climbs, _examine, leaves_work)):
-            done[k] = one
+        for k, checked in queue.each(pairs, Steps(start_climbs, _examine, leaves_work)):
+            done[k] = checked
             if progress is not None:
                 progress(len(done), len(pairs))
     return [done[k] for k in range(len(pairs))]
 
 
-def _asked_and_found(one: CheckedPair) -> tuple[Request, Finding]:
-    return (one.request if one.finding.motion is None else one.request.swept()), one.finding
+def _request_and_finding(pair: CheckedPair) -> tuple[Request, Finding]:
+    return (pair.request if pair.finding.motion is None else pair.request.swept()), pair.finding
 
 
 def volume_meter(settings: Settings) -> VolumeMeter:
@@ -267,18 +267,18 @@ def _findings(
     examined: list[CheckedPair],
     planner: Planner,
 ) -> list[Finding]:
-    found = {pair: one.finding for pair, one in zip(close, examined, strict=True)}
+    findings = {pair: checked.finding for pair, checked in zip(close, examined, strict=True)}
     for i, j, reason in bodies.undecidable_pairs():
-        found[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Trace())
+        findings[i, j] = indeterminate(bodies.ids[i], bodies.ids[j], reason, Trace())
     settings = planner.settings
     total, allowed = bodies.book.count()
     listed = settings.list_pruned
     if total - allowed <= LISTED_PAIRS if listed is None else listed:
         for i, j in bodies.book.asked_pairs():
-            if (i, j) not in found:
+            if (i, j) not in findings:
                 pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))
                 apart = apart_by_boxes(pair)
-                found[i, j] = (
+                findings[i, j] = (
                     _with_certificate(pair, apart) if settings.certificate else apart.finding
                 )
-    return [found[pair] for pair in sorted(found)]
+    return [findings[pair] for pair in sorted(findings)]

@@ -49,29 +49,29 @@ class OtherUnit:
             **{name: limit_times_power(length, self._exponent) for name, length in known.items()},
         )
 
-    def report(self, found: Report, scene: Scene, given: Settings) -> Report:
+    def report(self, report: Report, scene: Scene, given: Settings) -> Report:
         """In the unit of the scene as given, but for lengths in words, which say so."""
         from satcheck.audit.motion.movers import Movers
 
         return replace(
-            found,
-            settings=given.stated(depth=found.settings.depth),
-            bodies=tuple(self._bodies(found.bodies, scene)),
-            findings=tuple(map(self._finding, found.findings)),
+            report,
+            settings=given.stated(depth=report.settings.depth),
+            bodies=tuple(self._bodies(report.bodies, scene)),
+            findings=tuple(map(self._finding, report.findings)),
             rules=rule_reports(scene.rules),
             motions=Movers(scene.motions).stated() if scene.motions else (),
-            issues=tuple(self._issue(issue, scene) for issue in found.issues),
+            issues=tuple(self._issue(issue, scene) for issue in report.issues),
         )
 
-    def _issue(self, found: Issue, scene: Scene) -> Issue:
-        given = (found.code, found.body, found.message)
+    def _issue(self, issue: Issue, scene: Scene) -> Issue:
+        given = (issue.code, issue.body, issue.message)
         if any(given == (issue.code, issue.body, issue.message) for issue in scene.issues):
-            return found
-        return replace(found, message=self._words(found.message))
+            return issue
+        return replace(issue, message=self._words(issue.message))
 
-    def _bodies(self, found: Iterable[BodyReport], scene: Scene) -> Iterable[BodyReport]:
+    def _bodies(self, bodies: Iterable[BodyReport], scene: Scene) -> Iterable[BodyReport]:
         given = {body.id: body for body in scene.bodies}
-        for body in found:
+        for body in bodies:
             if body.health is None:
                 yield body
                 continue
@@ -86,27 +86,27 @@ class OtherUnit:
                 resolution=self._scaled(body.resolution, 1),
             )
 
-    def _finding(self, found: Finding) -> Finding:
-        motion = found.motion
+    def _finding(self, finding: Finding) -> Finding:
+        motion = finding.motion
         figures = {
-            "contacts": found.contacts and self._held(found.contacts),
-            "volume": self._held(found.volume, 3),
-            "volume_error": self._held(found.volume_error, 3),
+            "contacts": finding.contacts and self._held(finding.contacts),
+            "volume": self._held(finding.volume, 3),
+            "volume_error": self._held(finding.volume_error, 3),
         }
         left_out = [
             Stage(name, "left out", 0.0, "float64 cannot hold it in the unit of the files")
             for name in ("contacts", "volume")
-            if getattr(found, name) is not None and figures[name] is None
+            if getattr(finding, name) is not None and figures[name] is None
         ]
-        scaled: Finding = self._scaled(replace(found, contacts=None, certificate=None))
+        scaled: Finding = self._scaled(replace(finding, contacts=None, certificate=None))
         return replace(
             scaled,
             **figures,
-            reason=found.reason and self._words(found.reason),
+            reason=finding.reason and self._words(finding.reason),
             motion=motion and self._scaled(self._sweep(motion)),
-            certificate=found.certificate
-            and convert(self._certificate(plain(found.certificate)), Certificate),
-            plan=(self._stage(), *found.plan, *left_out),
+            certificate=finding.certificate
+            and convert(self._certificate(plain(finding.certificate)), Certificate),
+            plan=(self._stage(), *finding.plan, *left_out),
         )
 
     def _sweep(self, sweep: Sweep) -> Sweep:

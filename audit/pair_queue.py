@@ -112,13 +112,13 @@ def _batches(pairs: Sequence[Pair], order: Sequence[int], threads: int) -> Itera
 def _climbed(
     pairs: Sequence[Pair], batches: Iterable[list[int]], steps: Steps[C, T], threads: int
 ) -> Iterator[tuple[list[int], Sequence[C]]]:
-    """Each batch and what was found about it, while the next one climbs."""
+    """Each batch and its climbs, while the next one climbs."""
     ahead: tuple[list[int], Callable[[], Sequence[C]]] | None = None
     for batch in batches:
-        found = ahead and (ahead[0], ahead[1]())
+        climbed = ahead and (ahead[0], ahead[1]())
         ahead = batch, steps.start_climbs([pairs[k] for k in batch], threads)
-        if found is not None:
-            yield found
+        if climbed is not None:
+            yield climbed
     if ahead is not None:
         yield ahead[0], ahead[1]()
 
@@ -134,8 +134,8 @@ class _Workers:
     def do(self, pairs: list[Pair], climbs: Sequence[C], steps: Steps[C, T]) -> Iterator[T]:
         heavy = [
             k
-            for k, (pair, found) in enumerate(zip(pairs, climbs, strict=True))
-            if steps.leaves_work(pair, found)
+            for k, (pair, climb) in enumerate(zip(pairs, climbs, strict=True))
+            if steps.leaves_work(pair, climb)
         ]
         if self._threads == 1 or len(heavy) < PARALLEL_PAIRS:
             yield from map(steps.examine, pairs, climbs)
@@ -150,8 +150,8 @@ class _Workers:
             yield from map(steps.examine, pairs, climbs)
             return
         is_heavy = set(heavy)
-        for k, (pair, found) in enumerate(zip(pairs, climbs, strict=True)):
-            yield next(examined) if k in is_heavy else steps.examine(pair, found)
+        for k, (pair, climb) in enumerate(zip(pairs, climbs, strict=True)):
+            yield next(examined) if k in is_heavy else steps.examine(pair, climb)
 
     def _started(self) -> Executor:
         if self._pool is None:

@@ -110,8 +110,8 @@ class Samples(Struct, frozen=True):
     @property
     def verdict(self) -> Verdict:
         """The worst of the samples."""
-        found = {sample.verdict for sample in self.samples}
-        return next(verdict for verdict in ("fail", "incomplete", "pass") if verdict in found)
+        verdicts = {sample.verdict for sample in self.samples}
+        return next(verdict for verdict in ("fail", "incomplete", "pass") if verdict in verdicts)
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
@@ -208,7 +208,7 @@ def check_poses(
 def _sample(number: int, report: Report, posture: Posture | None) -> tuple[Sample, list[Issue]]:
     """The sample, and the issues that are not about its pose."""
     assert posture is not None
-    own = {(found.code, found.message) for found in posture.issues}
+    own = {(issue.code, issue.message) for issue in posture.issues}
     of_pose = [issue for issue in report.issues if (issue.code, issue.message) in own]
     others = [issue for issue in report.issues if (issue.code, issue.message) not in own]
     findings = tuple(finding for finding in report.findings if not _is_plain(finding))

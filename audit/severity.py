@@ -81,12 +81,12 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
     return _warned(judgement, "relation") if judgement.passes else judgement
 
 
-def by_rule(found: Judgement, request: Request) -> Judgement:
+def by_rule(judgement: Judgement, request: Request) -> Judgement:
     """An error gets the severity that a rule sets for its pair."""
-    if found.severity != "error" or request.severity is None:
-        return found
+    if judgement.severity != "error" or request.severity is None:
+        return judgement
     severity: Severity = "silenced" if request.severity == "none" else request.severity
-    return replace(found, severity=severity, rule=request.rule("severity"))
+    return replace(judgement, severity=severity, rule=request.rule("severity"))
 
 
 def _judged(answer: Answer, pair: Pair) -> Judgement:
@@ -102,19 +102,19 @@ def _judged(answer: Answer, pair: Pair) -> Judgement:
     return close or (_TOUCH if answer.relation == "touching" else _NOTHING)
 
 
-def disputed(found: Judgement, reason: str) -> Judgement:
+def disputed(judgement: Judgement, reason: str) -> Judgement:
     """The same where another library contradicts the answer."""
-    warned = _warned(found, found.undecided or "cross-check")
-    return replace(warned, reason=found.reason or reason)
+    warned = _warned(judgement, judgement.undecided or "cross-check")
+    return replace(warned, reason=judgement.reason or reason)
 
 
-def _warned(found: Judgement, undecided: Undecided) -> Judgement:
-    severity = found.severity if _is_at_least(found, "warning") else "warning"
-    return replace(found, severity=severity, undecided=undecided)
+def _warned(judgement: Judgement, undecided: Undecided) -> Judgement:
+    severity = judgement.severity if _is_at_least(judgement, "warning") else "warning"
+    return replace(judgement, severity=severity, undecided=undecided)
 
 
-def _is_at_least(found: Judgement, severity: Severity) -> bool:
-    return SEVERITIES.index(found.severity) <= SEVERITIES.index(severity)
+def _is_at_least(judgement: Judgement, severity: Severity) -> bool:
+    return SEVERITIES.index(judgement.severity) <= SEVERITIES.index(severity)
 
 
 def _limited(answer: Answer, request: Request) -> Judgement:
@@ -164,9 +164,9 @@ def _limits(answer: Answer, request: Request) -> Iterator[_Limit]:
         )
     if request.max_volume is not None:
         least = greatest = None
-        found = answer.volume
-        if found is not None and found.volume is not None and found.error is not None:
-            least, greatest = found.volume - found.error, found.volume + found.error
+        common = answer.volume
+        if common is not None and common.volume is not None and common.error is not None:
+            least, greatest = common.volume - common.error, common.volume + common.error
         yield _Limit(
             request.rule("max_volume") or "", "max_volume", request.max_volume, least, greatest
         )

@@ -158,7 +158,7 @@ def _undecided(report: Report, samples: Samples | None) -> tuple[Undecided, ...]
 
 
 def _unchecked(scene: Scene, report: Report, asked: list[Names]) -> tuple[Unchecked, ...]:
-    found = {(f.a, f.b): f for f in report.findings if f.at_rest == "indeterminate"}
+    findings = {(f.a, f.b): f for f in report.findings if f.at_rest == "indeterminate"}
     links, adjacent = _links(scene), _adjacent(scene)
     return tuple(
         Unchecked(
@@ -166,10 +166,10 @@ def _unchecked(scene: Scene, report: Report, asked: list[Names]) -> tuple[Unchec
             b,
             adjacent=frozenset((a, b)) in adjacent,
             links=_carriers(links, a, b),
-            reason=found[a, b].reason or "indeterminate",
+            reason=findings[a, b].reason or "indeterminate",
         )
         for a, b in asked
-        if (a, b) in found
+        if (a, b) in findings
     )
 
 
@@ -183,11 +183,11 @@ def _suggestions(
     """The pairs, and the links of which other pairs than those that never met."""
     suggested: list[Suggestion] = []
     may_meet = set()
-    found = {(f.a, f.b): f for f in report.findings}
+    findings = {(f.a, f.b): f for f in report.findings}
     tallies = {(one.a, one.b): one for one in samples.pairs} if samples else {}
     links, adjacent = _links(scene), _adjacent(scene)
     for a, b in asked:
-        finding, tally = found.get((a, b)), tallies.get((a, b))
+        finding, tally = findings.get((a, b)), tallies.get((a, b))
         why = None
         if (a, b) not in left_out:
             why = _why(finding, tally, samples, frozenset((a, b)) in adjacent)

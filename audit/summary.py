@@ -85,8 +85,8 @@ def summarise(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) 
 def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:
     """What was found stands whatever else is unknown; a check of nothing never passes."""
     grave = SEVERITIES[: SEVERITIES.index(fail_on) + 1]
-    found = (f for f in findings if f.undecided is None or f.severity == "error")
-    if any(finding.severity in grave for finding in found):
+    decided = (f for f in findings if f.undecided is None or f.severity == "error")
+    if any(finding.severity in grave for finding in decided):
         return "fail"
     unchecked = any(finding.undecided is not None for finding in findings)
     return "incomplete" if unchecked or not counts.asked else "pass"

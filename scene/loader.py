@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -32,7 +32,6 @@ def load_scene(
     allow_outside: bool = False,
     hashed: bool = True,
     units: str | None = None,
-    meanwhile: Callable[[], object] | None = None,
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
@@ -52,7 +51,6 @@ def load_scene(
     hashed: take the SHA-256 of each file, which some reports state.
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
-    meanwhile: called at most once, while other threads read large files.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue; the rest
@@ -68,7 +66,7 @@ def load_scene(
     alone = sum(_has_bodies(path, scenes) for path in given) == 1
     split = split or ("nodes" if alone else "none")
     if split == "none":
-        files.read_ahead(((path, Path(path)) for path in given if is_mesh(path)), meanwhile)
+        files.read_ahead((path, Path(path)) for path in given if is_mesh(path))
     for path in given:
         kind = kind_of(path)
         if kind == "scene":

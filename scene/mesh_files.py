@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 
 from satcheck.core.errors import SatcheckError
@@ -63,13 +63,11 @@ class MeshFiles:
                 self._wholes[key] = error
         return self._wholes[key]
 
-    def read_ahead(
-        self, given: Iterable[tuple[str, Path]], meanwhile: Callable[[], object] | None = None
-    ) -> None:
+    def read_ahead(self, given: Iterable[tuple[str, Path]]) -> None:
         """Reads those of these files that are large at the same time; whole() then has them.
 
         given: name in messages and location. Only formats that are read in this process, without
-        the interpreter. meanwhile: called in this thread while others read; not where none does.
+        the interpreter.
         """
         waiting = {
             self._absolute(location): (path, location)
@@ -97,12 +95,8 @@ class MeshFiles:
                 threads.append(thread)
         except RuntimeError:
             pass  # no further threads: the remaining files are read when they are used
-        try:
-            if threads and meanwhile is not None:
-                meanwhile()
-        finally:
-            for thread in threads:
-                thread.join()
+        for thread in threads:
+            thread.join()
 
     def _load_whole(self, path: str, location: Path) -> MeshFile:
         load = load_mesh_file

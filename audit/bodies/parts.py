@@ -36,11 +36,11 @@ def decomposition(body: PlacedBody, trace: Trace) -> Decomposition | None:
     """The convex parts of the body's file, in file coordinates; None, and a warning, on failure."""
     from satcheck.decompose import DecompositionError
 
-    found = body.shared.decomposition()
-    if isinstance(found, DecompositionError):
-        trace.complain(found.code, body.id, f"no convex parts: {found.message}")
+    decomposed = body.shared.decomposition()
+    if isinstance(decomposed, DecompositionError):
+        trace.complain(decomposed.code, body.id, f"no convex parts: {decomposed.message}")
         return None
-    return found
+    return decomposed
 
 
 def split_together(pair: Pair) -> None:
@@ -60,23 +60,25 @@ def inner_parts(body: PlacedBody, trace: Trace) -> list[Part]:
     """Parts proven to lie inside the body's mesh, up to the rounding of the pose; may be empty."""
     if body.convex:
         return [Part(body.hull_shape(), body.bounds)]
-    found = decomposition(body, trace)
+    decomposed = decomposition(body, trace)
     return (
-        [] if found is None else [_placed(part, body) for part in found.inner if part is not None]
+        []
+        if decomposed is None
+        else [_placed(part, body) for part in decomposed.inner if part is not None]
     )
 
 
 def covering(body: PlacedBody, trace: Trace) -> Covering | None:
     if body.convex:
         return Covering([Part(body.hull_shape(), body.bounds)], 0.0, 0.0)
-    found = decomposition(body, trace)
-    if found is None:
+    decomposed = decomposition(body, trace)
+    if decomposed is None:
         return None
     stretch = body.largest_stretch
     return Covering(
-        [_placed(part, body) for part in found.parts],
-        found.outside * stretch,
-        found.missing * stretch,
+        [_placed(part, body) for part in decomposed.parts],
+        decomposed.outside * stretch,
+        decomposed.missing * stretch,
     )
 
 

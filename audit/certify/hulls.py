@@ -109,34 +109,35 @@ class _Polytope:
     def start(self) -> bool:
         """A tetrahedron of support points; whether there is one."""
         axes = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-        found = dict(self.difference.support(n) for n in axes)
-        names = list(found)
+        support = dict(self.difference.support(n) for n in axes)
+        names = list(support)
         first = names[0]
         far = max(
-            names, key=lambda v: dot(sub(found[v], found[first]), sub(found[v], found[first]))
+            names,
+            key=lambda v: dot(sub(support[v], support[first]), sub(support[v], support[first])),
         )
-        along = sub(found[far], found[first])
+        along = sub(support[far], support[first])
         if not any(along):
             return False
-        third = max(names, key=lambda v: _square(cross(along, sub(found[v], found[first]))))
-        normal = cross(along, sub(found[third], found[first]))
+        third = max(names, key=lambda v: _square(cross(along, sub(support[v], support[first]))))
+        normal = cross(along, sub(support[third], support[first]))
         if not any(normal):
             basis = [cross(along, u) for u in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
-            third, normal = self._off(found, first, basis, lambda p: cross(along, p))
+            third, normal = self._off(support, first, basis, lambda p: cross(along, p))
             if third is None:
                 return False
-        fourth, height = self._off(found, first, [normal], lambda p: (dot(normal, p), 0, 0))
+        fourth, height = self._off(support, first, [normal], lambda p: (dot(normal, p), 0, 0))
         if fourth is None:
             return False
         order = [first, far, third, fourth] if height[0] < 0 else [first, third, far, fourth]
         self.vertices = order
-        self.points = [found[v] for v in order]
+        self.points = [support[v] for v in order]
         for face in ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0)):
             self._add(face)
         return True
 
     def _off(
-        self, found: dict[Vertex, Vector], first: Vertex, axes: list[Vector], measure: Any
+        self, support: dict[Vertex, Vector], first: Vertex, axes: list[Vector], measure: Any
     ) -> Any:
         """A support point along one of the axes, either way, that the measure does not call 0."""
         for n in axes:
@@ -144,9 +145,9 @@ class _Polytope:
                 continue
             for way in (n, (-n[0], -n[1], -n[2])):
                 vertex, w = self.difference.support(way)
-                value = measure(sub(w, found[first]))
+                value = measure(sub(w, support[first]))
                 if any(value):
-                    found[vertex] = w
+                    support[vertex] = w
                     return vertex, value
         return None, (0, 0, 0)
 

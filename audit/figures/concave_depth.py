@@ -76,20 +76,20 @@ def _searched(
     """Bounds and a way out that are narrow enough, also to decide a limit of the depth, as far as
     the budget goes."""
     work, width = _budget(pair), pair.settings.depth_width
-    found = search(pair, lower, upper, trace)
-    way_out, upper = found.way_out, min(upper, found.bound)
-    while found.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, found):
-        width, work = width / NARROWER, work - found.work
+    interval = search(pair, lower, upper, trace)
+    way_out, upper = interval.way_out, min(upper, interval.bound)
+    while interval.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, interval):
+        width, work = width / NARROWER, work - interval.work
         if work <= 0:
             break
-        found = search(pair, found.lower, found.upper, trace, width=width, work=work)
-        way_out, upper = found.way_out or way_out, min(upper, found.bound)
-    return max(lower, found.lower), upper, way_out
+        interval = search(pair, interval.lower, interval.upper, trace, width=width, work=work)
+        way_out, upper = interval.way_out or way_out, min(upper, interval.bound)
+    return max(lower, interval.lower), upper, way_out
 
 
-def _straddles(pair: Pair, found: core.DepthInterval) -> bool:
+def _straddles(pair: Pair, interval: core.DepthInterval) -> bool:
     limit = pair.request.max_depth
-    return limit is not None and found.lower <= limit < found.upper
+    return limit is not None and interval.lower <= limit < interval.upper
 
 
 def _budget(pair: Pair) -> int:
@@ -107,7 +107,7 @@ def search(
 ) -> core.DepthInterval:
     """The interval between known bounds narrowed, by translations of A that free the meshes and by
     proofs that others do not. width, work: those of the settings."""
-    found = core.search_depth(
+    interval = core.search_depth(
         pair.a.surface(),
         pair.b.surface(),
         upper=upper,
@@ -116,14 +116,15 @@ def search(
         work=_budget(pair) if work is None else work,
         across=-1 if (plane := pair.settings.planar) is None else axis_across(plane),
     )
-    reason = "" if found.stop == "narrow" else "; the budget ended the search"
+    reason = "" if interval.stop == "narrow" else "; the budget ended the search"
     trace.record(
         "search",
-        "narrow" if found.stop == "narrow" else "budget spent",
-        f"from {found.lower:.6g} to {found.upper:.6g} by {found.boxes} boxes of translations, "
-        f"{found.sets} convex sets of them, {found.mesh_tests} tests of the meshes{reason}",
+        "narrow" if interval.stop == "narrow" else "budget spent",
+        f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes "
+        f"of translations, {interval.sets} convex sets of them, "
+        f"{interval.mesh_tests} tests of the meshes{reason}",
     )
-    return found
+    return interval
 
 
 def _cheap_lower_bound(pair: Pair, verdict: Verdict, trace: Trace) -> float:

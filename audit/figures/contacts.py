@@ -31,13 +31,13 @@ def find_contacts(pair: Pair, verdict: Verdict, trace: Trace) -> Contacts | None
     """Where the triangles of the pair meet, exactly and whatever the touch band; None: too many."""
     if verdict.proven and verdict.relation in APART:
         return Contacts()
-    found = core.surface_intersection(pair.a.surface(), pair.b.surface(), MAX_TRIANGLE_PAIRS)
-    if not found.complete:
+    intersection = core.surface_intersection(pair.a.surface(), pair.b.surface(), MAX_TRIANGLE_PAIRS)
+    if not intersection.complete:
         reason = f"more than {MAX_TRIANGLE_PAIRS:,} pairs of triangles meet"
         trace.record("contacts", "too many", reason)
         trace.complain("too-many-contacts", None, f"{pair.a.id} and {pair.b.id}: {reason}")
         return None
-    contacts = _listed(found, pair.settings.contact_points)
+    contacts = _listed(intersection, pair.settings.contact_points)
     totals = contacts.totals
     trace.record(
         "contacts",
@@ -48,9 +48,14 @@ def find_contacts(pair: Pair, verdict: Verdict, trace: Trace) -> Contacts | None
     return contacts
 
 
-def _listed(found: core.SurfaceIntersection, limit: int) -> Contacts:
+def _listed(intersection: core.SurfaceIntersection, limit: int) -> Contacts:
     """limit: points in all lists together, and triangle pairs. Curves and patches come whole."""
-    curves, patches, points, pairs = found.curves, found.patches, found.points, found.triangle_pairs
+    curves, patches, points, pairs = (
+        intersection.curves,
+        intersection.patches,
+        intersection.points,
+        intersection.triangle_pairs,
+    )
     shown_curves, left = _fitting(curves, limit)
     shown_patches, left = _fitting(patches, left)
     shown_points = points[:left]

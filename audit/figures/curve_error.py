@@ -68,15 +68,15 @@ def depth_of_curves(pair: Pair, verdict: Verdict, depth: Depth, trace: Trace) ->
         hulls = way_out_of_hulls(pair)
         ways.append((hulls.length, hulls.normal))
         bounds.append(hulls.upper + pair.closer + pad)
-    found = _way_out(pair, ways, pad) if pair.may("hull") else None
-    if found is None:
+    escape_and_normal = _way_out(pair, ways, pad) if pair.may("hull") else None
+    if escape_and_normal is None:
         trace.record(
             "verify", "failed", f"no move leaves a gap of {pair.closer:.3g} for the curves"
         )
         length, normal = ways[-1]
         escape = Escape(_along(normal, length + pair.closer), False, math.inf)
     else:
-        escape, normal = found
+        escape, normal = escape_and_normal
         trace.record("verify", "separated", f"A moved past its curves, by {pair.closer:.3g} more")
     upper = max(min(*bounds, escape.bound), lower)
     return Depth(lower, upper, normal, escape)
@@ -88,9 +88,9 @@ def _lower_by_point(pair: Pair, depth: Depth) -> float:
         return 0.0
     move = depth.escape.mtv
     moved = pair.a.surface().refit(pair.a.mesh.translated(move))
-    found = core.mesh_distance(moved, pair.b.surface())
-    there = added(scaled(move, -1.0), found.witness_a)
-    near = scaled(added(there, found.witness_b), 0.5)
+    nearest = core.mesh_distance(moved, pair.b.surface())
+    there = added(scaled(move, -1.0), nearest.witness_a)
+    near = scaled(added(there, nearest.witness_b), 0.5)
     return _depth_by_point(pair, near, math.hypot(*move) / 2)
 
 
@@ -176,8 +176,8 @@ def _common_box(pair: Pair) -> tuple[Vector, float]:
     return (x, y, z), max(high[axis] - low[axis] for axis in axes_of(pair.settings.planar))
 
 
-def _is_shallow(pair: Pair, found: PairResult | Signed) -> bool:
-    return -(found.upper or 0.0) <= pair.farther
+def _is_shallow(pair: Pair, overlap: PairResult | Signed) -> bool:
+    return -(overlap.upper or 0.0) <= pair.farther
 
 
 def _sticks_out(pair: Pair, one: PlacedBody, other: PlacedBody) -> bool:

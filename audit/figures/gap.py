@@ -57,25 +57,25 @@ def measure_gap(pair: Pair, verdict: Verdict, trace: Trace) -> Gap:
     return _surface_gap(pair, climb, climb.gap, trace)
 
 
-def _surface_gap(pair: Pair, climb: core.Climb, found: core.MeshDistance, trace: Trace) -> Gap:
+def _surface_gap(pair: Pair, climb: core.Climb, surfaces: core.MeshDistance, trace: Trace) -> Gap:
     # A clearance wants the figure; the touch band only wants to know whether it is inside.
     asked = pair.wants_distance
     stage, limit = ("distance", math.inf) if asked else ("touch-band", pair.tolerance)
-    cost, of_holes = climb.band_nanoseconds, climb.gap_of_holes
-    if math.isinf(found.distance):
+    cost, hole_gap = climb.band_nanoseconds, climb.gap_of_holes
+    if math.isinf(surfaces.distance):
         trace.add(stage, "beyond", f"more than {limit:.6g} apart", cost)
         beyond = math.nextafter(limit, math.inf)
-        return _at_least(pair, beyond if of_holes is None else of_holes)
-    trace.add(stage, "measured", f"triangles {found.triangle_a} and {found.triangle_b}", cost)
+        return _at_least(pair, beyond if hole_gap is None else hole_gap)
+    trace.add(stage, "measured", f"triangles {surfaces.triangle_a} and {surfaces.triangle_b}", cost)
     rounding = rounding_pad(pair.largest_coordinate)
-    nearest = found.distance if of_holes is None else of_holes
-    lower, upper = max(nearest - rounding, 0.0), found.distance + rounding
+    nearest = surfaces.distance if hole_gap is None else hole_gap
+    lower, upper = max(nearest - rounding, 0.0), surfaces.distance + rounding
 
     def side(length: float, sure: tuple[int, ...]) -> int | None:
         """The sign of (distance - length). What fills a hole may be nearer than the surfaces, so
         that only some signs are sure."""
         sign = core.compare_gap(pair.a.surface(), pair.b.surface(), length)
-        return sign if of_holes is None or sign in sure else None
+        return sign if hole_gap is None or sign in sure else None
 
     tolerance, clearance = pair.tolerance, pair.request.clearance
     within = _is_within(lower, upper, tolerance, lambda length: side(length, sure=(-1, 0)))
@@ -85,9 +85,9 @@ def _surface_gap(pair: Pair, climb: core.Climb, found: core.MeshDistance, trace:
         upper,
         within,
         kept,
-        _on_its_side(found.distance, pair, within, kept),
-        _direction(found.witness_a, found.witness_b),
-        Witness(found.witness_a, found.witness_b),
+        _on_its_side(surfaces.distance, pair, within, kept),
+        _direction(surfaces.witness_a, surfaces.witness_b),
+        Witness(surfaces.witness_a, surfaces.witness_b),
     )
 
 

@@ -138,8 +138,8 @@ def _searched(pair: Pair, lower: float, trace: Trace) -> Band | None:
         return None
     from satcheck.audit.figures.concave_depth import search
 
-    found = search(pair, lower, hulls.upper, trace).way_out
-    return None if found is None else band_of(pair, found)
+    way_out = search(pair, lower, hulls.upper, trace).way_out
+    return None if way_out is None else band_of(pair, way_out)
 
 
 def band_of(pair: Pair, way_out: Vector) -> Band | None:

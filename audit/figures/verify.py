@@ -64,8 +64,8 @@ def relation_after(pair: Pair, translation: Vector) -> str:
             surface = pair.a.surface().refit(moved)
         except ValueError:  # rounding has made one point of several: no longer the same solid
             return "unproven"
-        found = core.mesh_relation(surface, pair.b.surface())
-        return found.relation if found.proven else "unproven"
+        result = core.mesh_relation(surface, pair.b.surface())
+        return result.relation if result.proven else "unproven"
     return core.check_pair(
         core.Hull(moved.convex_hull()), pair.b.hull_shape(), query="overlap"
     ).outcome

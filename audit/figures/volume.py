@@ -58,21 +58,22 @@ def _require_measurable(body: PlacedBody) -> None:
 
 
 def _measured(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
-    found = _estimated(pair, verdict, trace)
+    estimate = _estimated(pair, verdict, trace)
     limit = pair.request.max_volume
-    if limit is None or found.volume is None or found.error is None:
-        return found
-    if is_within(limit, found.volume - found.error, found.volume + found.error) is not None:
-        return found
-    return _exact(pair, trace) or found
+    if limit is None or estimate.volume is None or estimate.error is None:
+        return estimate
+    least, greatest = estimate.volume - estimate.error, estimate.volume + estimate.error
+    if is_within(limit, least, greatest) is not None:
+        return estimate
+    return _exact(pair, trace) or estimate
 
 
 def _estimated(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
     inner = {"contains": pair.b, "inside": pair.a, "coincident": pair.a}.get(verdict.relation)
     if inner is not None:
-        found = _own_volume(inner)
+        volume = _own_volume(inner)
         trace.record("volume", "of the mesh", f"{inner.id} lies within the other")
-        return found
+        return volume
     assert pair.meter is not None
     common = pair.meter.measure(pair.a.mesh, pair.b.mesh)
     detail = f"by manifold3d in a child process, off by about {common.error:.1g} at most"

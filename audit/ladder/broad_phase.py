@@ -35,13 +35,15 @@ def close_pairs(
         book.exempt_kinds(),
         _among(book.exempt_named(), place),
     )
-    found = close if len(index) == len(bodies.ids) else [(index[i], index[j]) for i, j in close]
+    pairs = close if len(index) == len(bodies.ids) else [(index[i], index[j]) for i, j in close]
     if len(set(bodies.units.values())) > 1:
-        found = [pair for pair in found if bodies.is_comparable(*pair)]
+        pairs = [pair for pair in pairs if bodies.is_comparable(*pair)]
     if not book.rules:
-        return found
-    asked = [pair for pair in found if book.is_asked(*pair)]
-    return _within_own_gaps(bodies, boxes, planner, asked) if planner.lengths_differ else asked
+        return pairs
+    requested = [pair for pair in pairs if book.is_asked(*pair)]
+    return (
+        _within_own_gaps(bodies, boxes, planner, requested) if planner.lengths_differ else requested
+    )
 
 
 def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]:

@@ -27,14 +27,14 @@ def way_out_of_hulls(pair: Pair) -> WayOut:
     boxes = WayOut(length, length, normal, "world boxes")
     if not pair.may("hull"):
         return boxes
-    found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
-    if found.distance is None or found.lower is None or found.normal is None:
+    hulls = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
+    if hulls.distance is None or hulls.lower is None or hulls.normal is None:
         return boxes
-    if found.outcome == "touching":
-        return WayOut(0.0, 0.0, found.normal, "hulls of the whole meshes")
-    if found.outcome != "penetrating":
+    if hulls.outcome == "touching":
+        return WayOut(0.0, 0.0, hulls.normal, "hulls of the whole meshes")
+    if hulls.outcome != "penetrating":
         return boxes
-    return WayOut(-found.distance, -found.lower, found.normal, "hulls of the whole meshes")
+    return WayOut(-hulls.distance, -hulls.lower, hulls.normal, "hulls of the whole meshes")
 
 
 def gap_around(pair: Pair, verdict: Verdict) -> float:

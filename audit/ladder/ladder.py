@@ -80,15 +80,15 @@ def _outlines_apart(pair: Pair, trace: Trace) -> bool:
         return False
     import numpy as np
 
-    found = core.sat_polygons(np.array(a), np.array(b))
+    result = core.sat_polygons(np.array(a), np.array(b))
     # The widest gap along an edge normal, less what its rounding can make of it.
-    gap = -found.penetration - rounding_pad(pair.largest_coordinate)
-    trace.record("sat", found.outcome, _edge_of(found))
-    return found.outcome == "separated" and gap > pair.asked_gap
+    gap = -result.penetration - rounding_pad(pair.largest_coordinate)
+    trace.record("sat", result.outcome, _edge_of(result))
+    return result.outcome == "separated" and gap > pair.asked_gap
 
 
-def _edge_of(found: core.PolygonResult) -> str:
-    body, edge = ("A", found.edge_a) if found.edge_a >= 0 else ("B", found.edge_b)
+def _edge_of(result: core.PolygonResult) -> str:
+    body, edge = ("A", result.edge_a) if result.edge_a >= 0 else ("B", result.edge_b)
     return f"outlines, edge {edge} of {body}"
 
 

@@ -63,9 +63,9 @@ def first_impact(pair: MovingPair) -> Impact:
     return scan.impact()
 
 
-def overlaps(found: Finding) -> bool:
+def overlaps(finding: Finding) -> bool:
     """Proven, and not shown to be within the touch band."""
-    return found.relation in OVERLAPS and found.exact_relation is not None
+    return finding.relation in OVERLAPS and finding.exact_relation is not None
 
 
 def possible_overlap(pair: MovingPair, start: float) -> float | None:
@@ -148,21 +148,21 @@ class _Scan:
 def _first_overlap(pair: MovingPair, start: float) -> float | None:
     """A t >= start at which the bodies overlap, as near to it as doubling steps and then halving
     them find; None where no probe overlaps."""
-    before, found = start, None
+    before, overlap_time = start, None
     for t in _probes(start):
         if overlaps(pair.found_at(t)):
-            found = t
+            overlap_time = t
             break
         before = t
-    if found is None:
+    if overlap_time is None:
         return None
-    while found - before > SHORTEST_STEP:
-        middle = 0.5 * (before + found)
+    while overlap_time - before > SHORTEST_STEP:
+        middle = 0.5 * (before + overlap_time)
         if overlaps(pair.found_at(middle)):
-            found = middle
+            overlap_time = middle
         else:
             before = middle
-    return found
+    return overlap_time
 
 
 def _probes(start: float) -> list[float]:

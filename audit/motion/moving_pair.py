@@ -90,9 +90,9 @@ class MovingPair:
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return Obstacle(hulls.value)
         self.hulls_apart = False
-        found = self._surfaces(core.safe_time, t, offset=offset, level=0.0, limit=end - t)
-        triangles = None if found.triangle_a < 0 else (found.triangle_a, found.triangle_b)
-        return Obstacle(max(hulls.value, found.value), triangles)
+        result = self._surfaces(core.safe_time, t, offset=offset, level=0.0, limit=end - t)
+        triangles = None if result.triangle_a < 0 else (result.triangle_a, result.triangle_b)
+        return Obstacle(max(hulls.value, result.value), triangles)
 
     def shallow(self, t: float, end: float) -> float:
         """For how long the hulls overlap by no more than the tolerance, and so the bodies."""
@@ -106,10 +106,10 @@ class MovingPair:
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
         if self.convex:
-            found = self._shapes(core.least_gap, middle, window=window)
-            return found.value, found.upper + self.pad
-        found = self._surfaces(core.least_gap, middle, window=window, floor=floor)
-        return max(found.value, 0.0), found.upper + self.pad
+            result = self._shapes(core.least_gap, middle, window=window)
+            return result.value, result.upper + self.pad
+        result = self._surfaces(core.least_gap, middle, window=window, floor=floor)
+        return max(result.value, 0.0), result.upper + self.pad
 
     def least_hull_gap(self, start: float, end: float) -> float:
         """A lower bound of the signed distance of the hulls; minus it is one of the depth."""
@@ -166,9 +166,9 @@ class MovingPair:
             one, other = other, one
         self._count()
         work, slack = VISITS - self.visits, self._slack(t)
-        found = ask(*one, *other, pad=self.pad, slack=slack, work=work, **bounds)
-        self.visits += found.visits
-        return found
+        result = ask(*one, *other, pad=self.pad, slack=slack, work=work, **bounds)
+        self.visits += result.visits
+        return result
 
     @staticmethod
     def _side(

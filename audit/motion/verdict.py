@@ -21,31 +21,31 @@ def with_sweep(examined: Examined, pair: Pair, paths: Paths, trace: Trace) -> Ex
     """The finding with the sweep of the pair, its stage in the trace, and a severity that counts
     both."""
     finding = examined.finding
-    found = sweep(pair, paths.a, paths.b)
-    trace.record("sweep", found.relation, _detail(found))
-    judged = by_rule(_judged(found, pair), pair.request)
+    motion = sweep(pair, paths.a, paths.b)
+    trace.record("sweep", motion.relation, _detail(motion))
+    judged = by_rule(_judged(motion, pair), pair.request)
     graver = SEVERITIES.index(judged.severity) < SEVERITIES.index(finding.severity)
-    relation = _worse(finding.relation, found.relation)
+    relation = _worse(finding.relation, motion.relation)
     undecided = relation == "indeterminate"
     swept = replace(
         finding,
         relation=relation,
         placed_relation=finding.relation,
-        quality=_quality(finding, found, undecided=undecided),
-        motion=found,
+        quality=_quality(finding, motion, undecided=undecided),
+        motion=motion,
         severity=judged.severity if graver else finding.severity,
         rule=judged.rule if graver else finding.rule,
         undecided=finding.undecided or judged.undecided,
-        reason=finding.reason or judged.reason or (found.reason if undecided else None),
+        reason=finding.reason or judged.reason or (motion.reason if undecided else None),
         plan=tuple(trace.stages),
     )
     return replace(examined, finding=swept)
 
 
-def _quality(finding: Finding, found: Sweep, *, undecided: bool) -> Quality | None:
+def _quality(finding: Finding, swept: Sweep, *, undecided: bool) -> Quality | None:
     if undecided:
         return None
-    return finding.quality if found.proven else "estimate"
+    return finding.quality if swept.proven else "estimate"
 
 
 def _worse(placed: Relation, on_the_way: Relation) -> Relation:
@@ -56,33 +56,33 @@ def _worse(placed: Relation, on_the_way: Relation) -> Relation:
     return min(placed, on_the_way, key=order.index)
 
 
-def _judged(found: Sweep, pair: Pair) -> Judgement:
+def _judged(swept: Sweep, pair: Pair) -> Judgement:
     request = pair.request
-    if found.relation == "indeterminate":
+    if swept.relation == "indeterminate":
         return Judgement("warning", undecided="motion")
-    if found.relation == "penetrating":
-        return _limited(found, pair) if request.limited else Judgement("error")
-    clearance = _clearance(found, request)
+    if swept.relation == "penetrating":
+        return _limited(swept, pair) if request.limited else Judgement("error")
+    clearance = _clearance(swept, request)
     if clearance is not None and clearance.severity == "error":
         return clearance
-    if found.reason is not None:
+    if swept.reason is not None:
         return Judgement("warning", undecided="inside")
     if clearance is not None:
         return clearance
-    return Judgement("note" if found.relation == "touching" else "none")
+    return Judgement("note" if swept.relation == "touching" else "none")
 
 
-def _clearance(found: Sweep, request: Request) -> Judgement | None:
+def _clearance(swept: Sweep, request: Request) -> Judgement | None:
     """None where the clearance is kept all the way, or there is none."""
-    worst = found.worst
+    worst = swept.worst
     gap = (0.0, math.inf) if worst is None else worst.distance or (0.0, 0.0)
     return of_clearance(request, *gap)
 
 
-def _limited(found: Sweep, pair: Pair) -> Judgement:
+def _limited(swept: Sweep, pair: Pair) -> Judgement:
     """Of a pair that may overlap within limits. The volume on the way is not measured."""
     request = pair.request
-    depth = None if found.worst is None else found.worst.depth
+    depth = None if swept.worst is None else swept.worst.depth
     rule = request.rule("max_depth") or request.rule("max_volume")
     if request.max_depth is not None and depth is not None:
         if depth[0] > request.max_depth:
@@ -93,14 +93,14 @@ def _limited(found: Sweep, pair: Pair) -> Judgement:
     return Judgement("warning", rule, "limit", reason)
 
 
-def _detail(found: Sweep) -> str:
-    steps = f"{found.steps} steps"
-    if found.relation == "touching" and found.contact is not None:
-        return f"contact from t = {found.contact:.6g}, {steps}"
-    if found.time_of_impact is not None:
-        return f"first overlap at t = {found.time_of_impact[1]:.6g}, {steps}"
-    if found.reason is not None:
-        return f"{found.reason}, {steps}"
-    if found.worst is not None and found.worst.distance is not None:
-        return f"at least {found.worst.distance[0]:.6g} apart, {steps}"
+def _detail(swept: Sweep) -> str:
+    steps = f"{swept.steps} steps"
+    if swept.relation == "touching" and swept.contact is not None:
+        return f"contact from t = {swept.contact:.6g}, {steps}"
+    if swept.time_of_impact is not None:
+        return f"first overlap at t = {swept.time_of_impact[1]:.6g}, {steps}"
+    if swept.reason is not None:
+        return f"{swept.reason}, {steps}"
+    if swept.worst is not None and swept.worst.distance is not None:
+        return f"at least {swept.worst.distance[0]:.6g} apart, {steps}"
     return steps

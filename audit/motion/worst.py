@@ -49,8 +49,8 @@ def least_distance(pair: MovingPair, enough: float | None = None) -> Worst | Non
 def least_hull_distance(pair: MovingPair, most: float, enough: float) -> float:
     """A lower bound of the least distance of the hulls. most: an upper one of the distance that is
     asked about; the search goes on until it is known whether that keeps the clearance `enough`."""
-    found = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), most), enough)
-    return 0.0 if found is None else max(found.lower, 0.0)
+    gap = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), most), enough)
+    return 0.0 if gap is None else max(gap.lower, 0.0)
 
 
 def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
@@ -63,12 +63,12 @@ def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
     step = (1.0 - impact) / (WORST_DEPTHS - 1)
     times = [min(impact + step * k, 1.0) for k in range(WORST_DEPTHS)]
     try:
-        found = [(*_depth_at(pair, t, budget / WORST_DEPTHS), t) for t in times]
-        longest = sorted(found, key=lambda one: -one[1])[:WORST_REFINED]
-        found += [(*_depth_at(pair, t, budget), t) for _, _, t in longest]
+        depths = [(*_depth_at(pair, t, budget / WORST_DEPTHS), t) for t in times]
+        longest = sorted(depths, key=lambda depth: -depth[1])[:WORST_REFINED]
+        depths += [(*_depth_at(pair, t, budget), t) for _, _, t in longest]
     except Unanswerable:
         return None
-    deepest, _, time = max(found, key=lambda one: one[0])
+    deepest, _, time = max(depths, key=lambda depth: depth[0])
     hulls = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), -deepest), None)
     return hulls and Worst(time, min(hulls.lower, -deepest), -deepest)
 

@@ -163,12 +163,12 @@ class RuleBook:
     def longest(self, key: str) -> list[float]:
         """Of each body the largest value that a rule about it gives the key, overruled or not; 0.0:
         none."""
-        found = [0.0] * self._count
+        values = [0.0] * self._count
         for rule, sides in zip(self.rules, self._sides, strict=True):
             value = getattr(rule, key) or 0.0
             for body in (*sides[0], *sides[1]) if value else ():
-                found[body] = max(found[body], value)
-        return found
+                values[body] = max(values[body], value)
+        return values
 
     def unused(self) -> Iterator[Rule]:
         """Rules about no pair of bodies."""
@@ -201,24 +201,26 @@ class RuleBook:
         are very many, some of them."""
         alone = [frozenset((k,)) for k in range(len(self._kinds))]
         kinds_in = dict.fromkeys(members for pair in self._sides for members in pair)
-        known = {members: frozenset(map(self.kind_of.__getitem__, members)) for members in kinds_in}
-        sides = [(known[a], known[b]) for a, b in self._sides]
+        kind_sets = {
+            members: frozenset(map(self.kind_of.__getitem__, members)) for members in kinds_in
+        }
+        sides = [(kind_sets[a], kind_sets[b]) for a, b in self._sides]
         rows = PairRows(self._kinds, self.rules, sides, alone)
         taken_back = {
             tuple(sorted((self.kind_of[i], self.kind_of[j])))
             for i, j in self._named
             if self.is_asked(i, j)
         }
-        found: list[tuple[int, int]] = []
+        exempt: list[tuple[int, int]] = []
         for number, kind in enumerate(self._kinds):
             row = (rows.ignored(kind) | rows.allowed(kind)) >> number
-            while row and len(found) < _MOST_KINDS:
+            while row and len(exempt) < _MOST_KINDS:
                 lowest = row & -row
                 pair = (number, number + lowest.bit_length() - 1)
                 row ^= lowest
                 if pair not in taken_back:
-                    found.append(pair)
-        return found
+                    exempt.append(pair)
+        return exempt
 
 
 def _sides_of(

@@ -62,14 +62,14 @@ class _Work:
     def _around(self, tail: int, head: int) -> list[tuple[int, int, int]]:
         """The triangles at an edge, each as (row, the edge's place in it, third corner)."""
         has_both = (self.triangles == tail).any(axis=1) & (self.triangles == head).any(axis=1)
-        found = []
+        edges = []
         for row in np.flatnonzero(has_both).tolist():
             corners = self.triangles[row].tolist()
             if len(set(corners)) < 3:
                 continue
             start = next(k for k in range(3) if corners[(k + 2) % 3] not in (tail, head))
-            found.append((row, start, corners[(start + 2) % 3]))
-        return found
+            edges.append((row, start, corners[(start + 2) % 3]))
+        return edges
 
     def split(self, tail: int, head: int, *, exact: bool) -> bool:
         """A new vertex at the middle; False where that would not be exact, or is a vertex."""

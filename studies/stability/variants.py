@@ -186,19 +186,19 @@ def retessellated(question: Question, samples: int, rng: Generator) -> Iterator[
     """Edges split at their middle, diagonals of flat quads turned: the same solid, unless a middle
     had to be rounded."""
     for _ in range(samples):
-        found = [retessellate(file.mesh, STEPS, rng) for file in question.files]
-        if not any(one.turned or one.split for one in found):
+        results = [retessellate(file.mesh, STEPS, rng) for file in question.files]
+        if not any(result.turned or result.split for result in results):
             return
         moved = sum(
             rounded_once(float(np.abs(file.mesh.vertices).max()))
-            for file, one in zip(question.files, found, strict=True)
-            if one.rounded
+            for file, result in zip(question.files, results, strict=True)
+            if result.rounded
         )
-        a, b = (one.mesh for one in found)
+        a, b = (result.mesh for result in results)
         yield Variant(
             "retessellation",
-            f"{sum(one.split for one in found)} edges split, "
-            f"{sum(one.turned for one in found)} diagonals turned",
+            f"{sum(result.split for result in results)} edges split, "
+            f"{sum(result.turned for result in results)} diagonals turned",
             _body("a", question.a, a),
             _body("b", question.b, b),
             displacement=moved,

@@ -183,11 +183,11 @@ def _fail_parts(gauge: Gauge, asked: LadderRun, limit: float) -> None:
 def _run_boolean(gauge: Gauge, bodies: Bodies, budget: Budget) -> None:
     settings, start = Settings(), budget.spent
     limit = min(settings.volume_seconds, gauge.left(budget))
-    found = ask_volume(bodies, replace(settings, volume_seconds=limit))
-    if isinstance(found, str):
+    volume = ask_volume(bodies, replace(settings, volume_seconds=limit))
+    if isinstance(volume, str):
         if limit < settings.volume_seconds and budget.spent - start >= limit:
             gauge.stop(limit)
         else:
-            gauge.fail(found)
+            gauge.fail(volume)
     else:
-        gauge.saw(found, found.cold, found.cached)
+        gauge.saw(volume, volume.cold, volume.cached)

@@ -107,12 +107,12 @@ class ChildMemory:
 
 
 def _children() -> list[str]:
-    found: list[str] = []
+    children: list[str] = []
     with suppress(OSError):
         for task in _TASKS.iterdir():
             with suppress(OSError):  # a thread that has ended meanwhile
-                found += (task / "children").read_text(encoding="ascii").split()
-    return found
+                children += (task / "children").read_text(encoding="ascii").split()
+    return children
 
 
 def _peak(process: str) -> float | None:

@@ -47,15 +47,15 @@ GROUPS: tuple[tuple[Rung, ...], ...] = (
 
 def labels_of(rungs: Collection[Rung]) -> str:
     """`obb, parts 0.5 .. 0.1, exact`: in the order of RUNGS, neighbouring thresholds as one."""
-    found: list[list[Rung]] = []
+    runs: list[list[Rung]] = []
     for before, rung in zip((None, *RUNGS), RUNGS, strict=False):
         if rung not in rungs:
             continue
-        if found and found[-1][-1] == before and found[-1][-1].name == rung.name:
-            found[-1].append(rung)
+        if runs and runs[-1][-1] == before and runs[-1][-1].name == rung.name:
+            runs[-1].append(rung)
         else:
-            found.append([rung])
+            runs.append([rung])
     return ", ".join(
         run[0].label if len(run) == 1 else f"{run[0].label} .. {run[-1].threshold:g}"
-        for run in found
+        for run in runs
     )

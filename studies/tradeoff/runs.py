@@ -133,11 +133,11 @@ def ask_volume(bodies: Bodies, settings: Settings) -> VolumeRun | str:
     with ChildMemory() as memory, VolumeMeter(seconds=seconds, megabytes=megabytes) as meter:
         for _ in ("cold", "cached"):
             start = perf_counter()
-            found = _volume(pair_of(bodies, settings, meter))
+            measured = _volume(pair_of(bodies, settings, meter))
             times.append(perf_counter() - start)
-            if isinstance(found, str):
-                return found
-            volume, error = found
+            if isinstance(measured, str):
+                return measured
+            volume, error = measured
         memory.look()
     return VolumeRun(volume, error, times[0], times[1], memory.megabytes)
 
@@ -145,7 +145,7 @@ def ask_volume(bodies: Bodies, settings: Settings) -> VolumeRun | str:
 def _volume(pair: Pair) -> tuple[float, float] | str:
     if pair.curved:
         return "a curved shape has no triangles"
-    found = common_volume(pair, Verdict("penetrating", False), Trace())
-    if found.volume is None or found.error is None:
-        return found.refusal or "no volume"
-    return found.volume, found.error
+    common = common_volume(pair, Verdict("penetrating", False), Trace())
+    if common.volume is None or common.error is None:
+        return common.refusal or "no volume"
+    return common.volume, common.error

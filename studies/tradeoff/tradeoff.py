@@ -55,14 +55,20 @@ def tradeoff(
         if progress is not None:
             progress(done, total)
 
-    found: list[PairTradeoff] = []
+    measurements: list[PairTradeoff] = []
     for bodies in met[:pairs]:
-        waiting = min(len(met), pairs) - len(found)
+        waiting = min(len(met), pairs) - len(measurements)
         share = clock.share(waiting)
         measured = measure_pair(bodies, repeat, share, on_run, method=method)
-        found.append(replace(measured, methods=method_costs(*bodies, share.left)))
+        measurements.append(replace(measured, methods=method_costs(*bodies, share.left)))
     return Tradeoff(
-        tool(), scene.units, repeat, budget, clock.spent, tuple(found), len(met) - len(found)
+        tool(),
+        scene.units,
+        repeat,
+        budget,
+        clock.spent,
+        tuple(measurements),
+        len(met) - len(measurements),
     )
 
 

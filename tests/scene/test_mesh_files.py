@@ -146,18 +146,6 @@ def test_a_large_stl_file_that_shrinks_while_it_is_read_is_refused(tmp_path, mon
         read_native(source)
 
 
-def test_what_may_be_done_meanwhile_is_done_where_large_files_are_read(tmp_path):
-    called = []
-    small, large = tmp_path / "small.stl", tmp_path / "large.stl"
-    small.write_bytes(stl_of(2))
-    large.write_bytes(stl_of(20_000))
-    MeshFiles().read_ahead([("a", small), ("b", large)], lambda: called.append("small"))
-    again = tmp_path / "again.stl"
-    again.write_bytes(large.read_bytes())
-    MeshFiles().read_ahead([("a", again), ("b", large)], lambda: called.append("large"))
-    assert called == ["large"]
-
-
 def refused(_):
     raise RuntimeError("can't start new thread")
 
@@ -173,9 +161,7 @@ def test_large_files_are_read_ahead_with_the_same_result(tmp_path, monkeypatch, 
     places["bad.obj"].write_text("v 0 0 0\nf 1 2 3\n")
     places["c.glb"].write_bytes(graphs.glb(NODES))
     ahead, alone = MeshFiles(), MeshFiles()
-    called = []
-    ahead.read_ahead(places.items(), lambda: called.append("meanwhile"))
-    assert len(called) == granted
+    ahead.read_ahead(places.items())
     for name, place in places.items():
         found, expected = ahead.whole(name, place), alone.whole(name, place)
         if isinstance(expected, MeshFile):
