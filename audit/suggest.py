@@ -6,53 +6,27 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING
 
-from msgspec import Struct, to_builtins
+from msgspec import Struct
 from msgspec.structs import replace
 
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.report.report import OVERLAPS, Finding, Issue, Relation, Report, Tool
+from satcheck.report.suggestions import (
+    Names,
+    Suggestion,
+    SuggestionsReport,
+    Unchecked,
+    Why,
+)
 
 if TYPE_CHECKING:
     from satcheck.audit.request.settings import Settings
     from satcheck.audit.samples import PairTally, Samples
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose
-
-SCHEMA = "satcheck.suggestions/1"
-# adjacent: a joint connects their links. contact: they meet as they are placed. always, never: in
-# so many other poses.
-Why = Literal["adjacent", "always", "contact", "never"]
-Names = tuple[str, str]
-
-
-class Suggestion(Struct, frozen=True):
-    """One pair that no rule allows, ids in the order of the bodies.
-
-    links: that carry them; None: not of one robot. relation: as placed; None: "never" needs none.
-    depth_bounds: of an overlap as placed. contacts: in how many of the poses they overlap or touch.
-    """
-
-    a: str
-    b: str
-    why: Why
-    links: Names | None = None
-    relation: Relation | None = None
-    depth_bounds: tuple[float, float] | None = None
-    contacts: int | None = None
-
-
-class Unchecked(Struct, frozen=True):
-    """One pair that no rule allows and of which the check as placed could not say how it relates,
-    so that it is not suggested. adjacent: a joint connects the links. reason: why it could not."""
-
-    a: str
-    b: str
-    adjacent: bool
-    links: Names | None
-    reason: str
 
 
 class Undecided(Struct, frozen=True):
@@ -82,19 +56,17 @@ class Suggestions(Struct, frozen=True):
     unchecked: tuple[Unchecked, ...] = ()
     held: tuple[str, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
-        """JSON values in the fixed key order of the schema."""
-        return {
-            "schema": SCHEMA,
-            "tool": to_builtins(self.tool),
-            "units": self.units,
-            "poses": self.poses,
-            "seed": self.seed,
-            "held": list(self.held),
-            "suggestions": to_builtins(self.pairs),
-            "undecided": len(self.undecided),
-            "unchecked": to_builtins(self.unchecked),
-        }
+    def document(self) -> SuggestionsReport:
+        return SuggestionsReport(
+            tool=self.tool,
+            units=self.units,
+            poses=self.poses,
+            seed=self.seed,
+            held=self.held,
+            suggestions=self.pairs,
+            undecided=len(self.undecided),
+            unchecked=self.unchecked,
+        )
 
 
 def suggest(

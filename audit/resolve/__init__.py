@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from satcheck.audit.resolve.resolution import Left, Move, Resolution
+from satcheck.audit.resolve.resolution import Resolution
 from satcheck.audit.resolve.resolve import ITERATIONS, moved_scene, proof_of, resolve
 
 __all__ = [
     "ITERATIONS",
-    "Left",
-    "Move",
     "Resolution",
     "moved_scene",
     "proof_of",

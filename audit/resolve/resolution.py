@@ -3,47 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Any, Literal
+from collections.abc import Iterator
 
-from msgspec import Struct, to_builtins
+from msgspec import Struct
 
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pair_state import is_objected
 from satcheck.audit.resolve.walls import BodyPair
-from satcheck.report.report import OVERLAPS, Finding, Relation, Report, Vector
-
-SCHEMA = "satcheck.resolution/1"
+from satcheck.report.report import OVERLAPS, Finding, Report
+from satcheck.report.resolution import (
+    Left,
+    Move,
+    MovedCheck,
+    ResolutionReport,
+    ResolutionSummary,
+    ResolutionVerdict,
+)
 
 BOTH_STAY = "both bodies stay"
 LINKS_STAY = "links of a robot stay where its joints put them"
 NO_WAY = "no way out was found"
 ONLY_MOVING = "only while they move, and motions are not resolved"
 
-Verdict = Literal["resolved", "unresolved", "incomplete"]
-_VERDICTS: dict[str, Verdict] = {
+_VERDICTS: dict[str, ResolutionVerdict] = {
     "pass": "resolved",
     "fail": "unresolved",
     "incomplete": "incomplete",
 }
-
-
-class Move(Struct, frozen=True):
-    """translation: of the body in the world, units of the scene. length: of it."""
-
-    body: str
-    translation: Vector
-    length: float
-
-
-class Left(Struct, frozen=True):
-    """A pair that still is not as asked, and why nothing was done about it. relation: of the bodies
-    as they are placed, or the worst on their way if that is what is wrong."""
-
-    a: str
-    b: str
-    relation: str
-    reason: str
 
 
 class Resolution(Struct, frozen=True):
@@ -64,7 +50,7 @@ class Resolution(Struct, frozen=True):
     report: Report
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> ResolutionVerdict:
         return _VERDICTS[self.report.summary.verdict]
 
     @property
@@ -92,54 +78,46 @@ class Resolution(Struct, frozen=True):
     def largest_motion(self) -> float:
         return max((move.length for move in self.moves), default=0.0)
 
-    def to_dict(self, output: str | None = None) -> dict[str, Any]:
-        """JSON values in the fixed key order of the schema. output: the file it was written to."""
+    def document(self, output: str | None = None) -> ResolutionReport:
+        """output: the file that the moved scene was written to."""
         report = self.report
-        return {
-            "schema": SCHEMA,
-            "tool": to_builtins(report.tool),
-            "units": report.units,
-            "output": output,
-            "summary": {
-                "verdict": self.verdict,
-                "found": self.found,
-                "gaps": self.gaps,
-                "open": self.open,
-                "remaining": len(self.remaining),
-                "flush": self.flush,
-                "moved": len(self.moves),
-                "pinned": len(self.pinned),
-                "total_motion": self.total_motion,
-                "largest_motion": self.largest_motion,
-                "rounds": self.rounds,
-            },
-            "moves": [
-                {
-                    "body": move.body,
-                    "translation": [c + 0.0 for c in move.translation],
-                    "length": move.length,
-                }
-                for move in self.moves
-            ],
-            "pinned": list(self.pinned),
-            "left": to_builtins(self.left),
-            "check": {
-                "verdict": report.summary.verdict,
-                "pairs": to_builtins(report.summary.pairs),
-                "by_relation": _counts(report.summary.by_relation),
-            },
-            "issues": to_builtins(report.issues),
-        }
+        counts = sorted(report.summary.by_relation.items())
+        return ResolutionReport(
+            tool=report.tool,
+            units=report.units,
+            output=output,
+            summary=self._summary(),
+            moves=self.moves,
+            pinned=self.pinned,
+            left=self.left,
+            check=MovedCheck(
+                report.summary.verdict,
+                report.summary.pairs,
+                {relation: count for relation, count in counts if count},
+            ),
+            issues=report.issues,
+        )
+
+    def _summary(self) -> ResolutionSummary:
+        return ResolutionSummary(
+            verdict=self.verdict,
+            found=self.found,
+            gaps=self.gaps,
+            open=self.open,
+            remaining=len(self.remaining),
+            flush=self.flush,
+            moved=len(self.moves),
+            pinned=len(self.pinned),
+            total_motion=self.total_motion,
+            largest_motion=self.largest_motion,
+            rounds=self.rounds,
+        )
 
 
 def objected(report: Report) -> tuple[Finding, ...]:
     """The findings that this check fails on, or whose limits it cannot decide."""
     fail_on = report.settings.fail_on
     return tuple(finding for finding in report.findings if is_objected(finding, fail_on))
-
-
-def _counts(by_relation: Mapping[Relation, int]) -> dict[str, int]:
-    return {relation: count for relation, count in sorted(by_relation.items()) if count}
 
 
 def reasons(

@@ -14,12 +14,13 @@ from satcheck.audit.request.settings import Settings
 from satcheck.audit.resolve.layout import Layout, translated
 from satcheck.audit.resolve.plain_numbers import write_plainly
 from satcheck.audit.resolve.pull_back import pull_back
-from satcheck.audit.resolve.resolution import Move, Resolution, left_pairs, reasons
+from satcheck.audit.resolve.resolution import Resolution, left_pairs, reasons
 from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.resolve.walls import ORIGIN
 from satcheck.core.errors import SatcheckError
 from satcheck.report.report import Vector
+from satcheck.report.resolution import Move
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector
 

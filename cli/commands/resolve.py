@@ -231,7 +231,7 @@ def _checked(path: Path, target: _Target, settings: Settings, inputs: Inputs) ->
 def _render(result: Resolution, form: str, page: Page, moved: Path | None) -> str:
     output = str(moved) if moved else None
     if form == "json":
-        return json_document(result.to_dict(output))
+        return json_document(result.document(output))
     from satcheck.cli.report.resolution import render
 
     return render(result, page, output)

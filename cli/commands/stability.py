@@ -95,7 +95,7 @@ def command(
 
 def _render(result: Stability, form: str, page: Page, *, explain: bool) -> str:
     if form == "json":
-        return json_document(result.to_dict())
+        return json_document(result.document())
     from satcheck.cli.report.stability import render
 
     return render(result, page, explain=explain)

@@ -85,7 +85,7 @@ def command(form: str | None, output: Path | None, never: bool, **options: Any) 
     result = _suggest(scene, inputs, options)
     pairs = chosen(result, never=never)
     text = {
-        "json": lambda: json_document(result.to_dict()),
+        "json": lambda: json_document(result.document()),
         "srdf": lambda: srdf(result, pairs, scene.robots[0].robot.name),
         "toml": lambda: toml(result, pairs),
     }[form]()

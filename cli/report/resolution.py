@@ -17,8 +17,9 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from satcheck.audit.resolve import Left, Move, Resolution
+    from satcheck.audit.resolve import Resolution
     from satcheck.cli.output import Page
+    from satcheck.report.resolution import Left, Move
 
 # More rows than this, and the longest moves are shown.
 ROWS = 60

@@ -8,11 +8,20 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.report.report import Report
+from satcheck.report.resolution import ResolutionReport
 from satcheck.report.schema import schema_of
+from satcheck.report.stability import StabilityReport
+from satcheck.report.suggestions import SuggestionsReport
 from satcheck.report.verification import VerificationReport
 
 HERE = Path(__file__).parent
-STRUCTS: dict[str, type[Struct]] = {"report": Report, "verification": VerificationReport}
+STRUCTS: dict[str, type[Struct]] = {
+    "report": Report,
+    "resolution": ResolutionReport,
+    "stability": StabilityReport,
+    "suggestions": SuggestionsReport,
+    "verification": VerificationReport,
+}
 SCENE = HERE.parents[1] / "scene" / "format"
 
 

@@ -15,7 +15,8 @@ from satcheck.scene.rules import Selector
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.audit.suggest import Suggestion, Suggestions, Unchecked, Why
+    from satcheck.audit.suggest import Suggestions
+    from satcheck.report.suggestions import Suggestion, Unchecked, Why
 
 _RULES_ALONE = """\
 # Give this file beside the scene, or move its rules into the scene.

@@ -10,15 +10,13 @@ close it is not compared.
 
 from __future__ import annotations
 
-from typing import Literal
-
 from msgspec import Struct
 
 from satcheck.report.report import OVERLAPS
+from satcheck.report.stability import Judgement as Judgement
 from satcheck.studies.stability.answer import NESTED, Answer
 from satcheck.studies.stability.variant import Variant, rounding_of_figures
 
-Judgement = Literal["same", "within", "beyond", "undecided"]
 # Not what a variant must keep, but what a comparison needs to know.
 UNCOMPARED = frozenset({"largest", "convex", "reason", "hold"})
 

@@ -1,26 +1,25 @@
-"""What a probe found: plain frozen data, and its one way into JSON values."""
+"""What a probe found: plain frozen data, and the document that is written of it."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from typing import Any, Literal
 
-from msgspec import Struct, to_builtins
+from msgspec import Struct
 
 from satcheck.audit.summary import tool
 from satcheck.report.report import Relation
+from satcheck.report.stability import (
+    Family,
+    Judgement,
+    StabilityReport,
+    StabilityVerdict,
+    StatedAnswer,
+    StatedFamily,
+    StatedVariant,
+)
 from satcheck.studies.stability.answer import Answer
-from satcheck.studies.stability.comparison import Comparison, Judgement
-from satcheck.studies.stability.variant import Family
+from satcheck.studies.stability.comparison import Comparison
 
-SCHEMA = "satcheck.stability/1"
-
-Verdict = Literal["stable", "changed", "undecided"]
-# What the document has of each.
-_ANSWER = ("relation", "distance", "depth_bounds", "mtv", "quality", "reason")
-_COMPARISON = ("judgement", "beyond", "change", "bound")
-_FAMILY = ("family", "judgement", "skipped", "change", "bound")
 # From best to worst.
 JUDGEMENTS: tuple[Judgement, ...] = ("same", "within", "undecided", "beyond")
 
@@ -81,7 +80,7 @@ class Stability(Struct, frozen=True):
         return answer.relation != "touching" and most is not None and most <= self.band
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> StabilityVerdict:
         judgements = {family.judgement for family in self.families}
         if "beyond" in judgements:
             return "changed"
@@ -91,27 +90,48 @@ class Stability(Struct, frozen=True):
     def sample_count(self) -> int:
         return sum(len(family.samples) for family in self.families)
 
-    def to_dict(self) -> dict[str, Any]:
-        """JSON values in a fixed order; equal input and seed give equal values."""
-        return {
-            "schema": SCHEMA,
-            "tool": to_builtins(tool()),
-            "a": self.a,
-            "b": self.b,
-            "seed": self.seed,
-            "verdict": self.verdict,
-            "answer": _fields(self.answer, _ANSWER),
-            "families": [
-                _fields(family, _FAMILY) | {"samples": [_sample(s) for s in family.samples]}
-                for family in self.families
-            ],
-        }
+    def document(self) -> StabilityReport:
+        """Equal input and seed give an equal document."""
+        return StabilityReport(
+            tool=tool(),
+            a=self.a,
+            b=self.b,
+            seed=self.seed,
+            verdict=self.verdict,
+            answer=_answer(self.answer),
+            families=tuple(_family(family) for family in self.families),
+        )
 
 
-def _sample(sample: Sample) -> dict[str, Any]:
-    comparison = _fields(sample.comparison, _COMPARISON)
-    return {"how": sample.how} | comparison | {"answer": _fields(sample.answer, _ANSWER)}
+def _family(family: FamilyResult) -> StatedFamily:
+    return StatedFamily(
+        family=family.family,
+        judgement=family.judgement,
+        skipped=family.skipped,
+        change=family.change,
+        bound=family.bound,
+        samples=tuple(_variant(sample) for sample in family.samples),
+    )
 
 
-def _fields(value: Struct, names: Sequence[str]) -> dict[str, Any]:
-    return {name: to_builtins(getattr(value, name)) for name in names}
+def _variant(sample: Sample) -> StatedVariant:
+    comparison = sample.comparison
+    return StatedVariant(
+        how=sample.how,
+        judgement=comparison.judgement,
+        beyond=comparison.beyond,
+        change=comparison.change,
+        bound=comparison.bound,
+        answer=_answer(sample.answer),
+    )
+
+
+def _answer(answer: Answer) -> StatedAnswer:
+    return StatedAnswer(
+        relation=answer.relation,
+        distance=answer.distance,
+        depth_bounds=answer.depth_bounds,
+        mtv=answer.mtv,
+        quality=answer.quality,
+        reason=answer.reason,
+    )

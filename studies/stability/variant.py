@@ -10,18 +10,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
 from satcheck.core.tolerances import UNIT_ROUNDOFF
+from satcheck.report.stability import Family as Family
 from satcheck.scene import Body, MeshFile
 
-Family = Literal[
-    "scale", "order", "axes", "swap", "translation", "retessellation", "motion", "noise"
-]
 FAMILIES: tuple[Family, ...] = get_args(Family)
 
 Points = NDArray[np.float64]

@@ -11,10 +11,11 @@ import pytest
 from jsonschema import Draft202012Validator
 from msgspec.structs import replace
 
-from satcheck.audit.suggest import Suggestion, Suggestions, Unchecked
+from satcheck.audit.suggest import Suggestions
 from satcheck.cli.report.schema import text
 from satcheck.cli.report.suggest import srdf, toml
 from satcheck.report.report import Tool
+from satcheck.report.suggestions import Suggestion, Unchecked
 from satcheck.scene import Selector
 from tests.cli.process import SAMPLES, Ran, satcheck
 from tests.scene.robot.robots import joint, link, robot_of

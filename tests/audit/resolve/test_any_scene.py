@@ -58,5 +58,5 @@ def test_the_order_of_the_scene_changes_nothing(tmp_path) -> None:
 def test_threads_change_nothing(tmp_path) -> None:
     meshes = {f"bracket{k}": moved(bracket(), 3.5 * k, 2.5 * (k % 3), k) for k in range(9)}
     scene = scene_of(tmp_path, **meshes)
-    one, many = (resolve(scene, Settings(jobs=jobs)).to_dict() for jobs in (1, 4))
+    one, many = (resolve(scene, Settings(jobs=jobs)).document() for jobs in (1, 4))
     assert one == many

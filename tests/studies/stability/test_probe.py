@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+from msgspec import to_builtins
 from msgspec.structs import replace
 
 from satcheck.audit import Settings
@@ -37,7 +38,7 @@ def test_no_answer_changes_beyond_its_bound(name: str, tmp_path: Path) -> None:
     a, b, relation = PAIRS[name]
     found = probe(scene_of(tmp_path, a=a, b=b), samples=3, settings=NO_DEPTH)
     assert found.answer.relation == relation
-    assert found.verdict == "stable", found.to_dict()
+    assert found.verdict == "stable", found.document()
     assert [family.family for family in found.families] == list(FAMILIES)
     for family in found.families:
         if family.family in IDENTICAL:
@@ -50,7 +51,7 @@ def test_depths_stay_too(tmp_path: Path) -> None:
     settings = Settings(cache_directory=str(tmp_path))
     scene = scene_of(tmp_path, a=bracket(), b=moved(unit_box(), 4.5, 1.5, 1.0))
     found = probe(scene, samples=1, settings=settings)
-    assert found.verdict == "stable", found.to_dict()
+    assert found.verdict == "stable", found.document()
     assert found.answer.depth_bounds is not None
     assert found.answer.depth_bounds[0] <= 0.5 <= found.answer.depth_bounds[1]
     order = next(family for family in found.families if family.family == "order")
@@ -67,7 +68,7 @@ def test_a_contact_may_open_or_close(tmp_path: Path) -> None:
 
 def test_the_same_seed_asks_the_same(tmp_path: Path) -> None:
     scene = scene_of(tmp_path, a=unit_box(), b=unit_box(0.75, 0.25))
-    one, again, other = (probe(scene, samples=2, seed=seed).to_dict() for seed in (5, 5, 6))
+    one, again, other = (probe(scene, samples=2, seed=seed).document() for seed in (5, 5, 6))
     assert one == again
     assert one != other
 
@@ -127,7 +128,7 @@ def test_only_two_mesh_files_in_place_are_a_pair(tmp_path: Path) -> None:
 
 def test_documents_hold_finite_numbers(tmp_path: Path) -> None:
     found = probe(scene_of(tmp_path, a=unit_box(), b=unit_box(0.5)), samples=1)
-    json.dumps(found.to_dict(), allow_nan=False)
+    json.dumps(to_builtins(found.document()), allow_nan=False)
 
 
 def test_two_names_of_one_file_are_a_pair(tmp_path: Path) -> None:
@@ -135,4 +136,4 @@ def test_two_names_of_one_file_are_a_pair(tmp_path: Path) -> None:
     scene = load_scene([tmp_path / "a.obj", tmp_path / "a.obj"])
     found = probe(scene, samples=1, families=("scale", "order", "axes", "swap", "motion"))
     assert found.answer.relation == "coincident"
-    assert found.verdict == "stable", found.to_dict()
+    assert found.verdict == "stable", found.document()
