@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable
 from typing import Any
 
 from msgspec import json as msgspec_json
-from msgspec import to_builtins
+from msgspec import msgpack, to_builtins
 
 from satcheck.report.report import Report, without_timings
 
 INDENT = 2
+# How MessagePack marks a float64, and the bits of a NaN or an infinity. Other bytes may look so.
+_NOT_FINITE = re.compile(rb"\xcb[\x7f\xff][\xf0-\xff]")
 
 
 def render(report: Report, *, timings: bool) -> list[str]:
@@ -27,7 +30,10 @@ def render(report: Report, *, timings: bool) -> list[str]:
 
 
 def document(values: Any) -> str:
-    """Any JSON values or structs in that form, and a final newline."""
+    """Any JSON values or structs in that form, and a final newline.
+
+    Raises ValueError, as `render` does, for a number that is not finite.
+    """
     return _text(values) + "\n"
 
 
@@ -44,9 +50,17 @@ def _member(value: Any, timings: bool) -> Iterable[str]:
 
 def _text(value: Any, depth: int = 0) -> str:
     try:
+        _require_finite(value)
         text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT).decode()
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
-        text = json.dumps(to_builtins(value), indent=INDENT)
+        text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False)
     # No string has a line end in it, so these are numbers.
     text = f"{text}\n".replace("-0.0\n", "0.0\n").replace("-0.0,\n", "0.0,\n")[:-1]
     return text.replace("\n", "\n" + " " * (INDENT * depth))
+
+
+def _require_finite(value: Any) -> None:
+    """JSON has no NaN and no infinity, and msgspec would write null. MessagePack holds the numbers
+    themselves, so a search of its bytes clears most values, and json decides the others."""
+    if _NOT_FINITE.search(msgpack.encode(value)):
+        json.dumps(value, default=to_builtins, allow_nan=False)

@@ -14,6 +14,7 @@ from msgspec.structs import replace
 from satcheck.audit import Contacts, Report
 from satcheck.cli.report.json import document, render
 from satcheck.cli.report.schema import text as schema_text
+from satcheck.report.report import Witness
 from tests.cli import reports
 
 SCHEMA = json.loads(schema_text())
@@ -46,6 +47,30 @@ def test_numbers_read_back() -> None:
     numbers += [rng.uniform(-1, 1) * 10.0 ** rng.randint(-8, 20) for _ in range(20_000)]
     numbers += [float(f"1e{exponent}") for exponent in range(-320, 309)]
     assert json.loads(document(numbers)) == numbers
+
+
+@pytest.mark.parametrize("number", [math.nan, -math.nan, math.inf, -math.inf])
+@pytest.mark.parametrize("name", ["a", "\ud800 lone"])
+def test_a_number_that_is_not_finite_is_refused(number: float, name: str) -> None:
+    """Wherever it stands: msgspec alone would write null."""
+    with pytest.raises(ValueError, match="Out of range float"):
+        document({name: [(1.0, {"b": number})]})
+    with pytest.raises(ValueError, match="Out of range float"):
+        document({name: replace(reports.PENETRATING.plan[0], microseconds=number)})
+
+
+@pytest.mark.parametrize("timings", [True, False])
+def test_a_report_with_such_a_number_is_refused(timings: bool) -> None:
+    finding = replace(reports.TOUCHING, witness=Witness((0.0, math.nan, 0.0), (0.0, 0.0, 0.0)))
+    with pytest.raises(ValueError, match="Out of range float"):
+        render(reports.report(finding), timings=timings)
+
+
+def test_bytes_that_look_like_one_are_written() -> None:
+    """An integer and a number of which the bytes hold the mark of a NaN."""
+    look_alike = 0xCB7FF00000000000
+    number = struct.unpack(">d", bytes.fromhex("3fcb7ff000000000"))[0]
+    assert json.loads(document([look_alike, number])) == [look_alike, number]
 
 
 def test_there_is_no_negative_zero() -> None:
