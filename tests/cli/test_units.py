@@ -41,7 +41,7 @@ def test_a_glb_in_metres_and_a_3mf_in_millimetres(tmp_path: Path, order: tuple[s
     assert found["depth"] == pytest.approx(250, rel=1e-12)
     bodies = {body["id"]: body for body in ran.document["bodies"]}
     assert (bodies["a"]["units"], bodies["a"]["unit_scale"]) == ("mm", 1000)
-    assert "unit_scale" not in bodies["b"]
+    assert bodies["b"]["unit_scale"] is None
     (note,) = [i for i in ran.document["issues"] if i["code"] == "units-converted"]
     assert note["message"] == "a.glb: converted from m to mm, times 1000"
     (tmp_path / "report.json").write_text(ran.out)
@@ -122,7 +122,7 @@ def test_what_resolve_writes_is_in_the_same_units(tmp_path: Path) -> None:
     assert [body.get("units") for body in scene["bodies"]] == [None, None, "cm"]
     ran = satcheck(*JSON, "moved.json", cwd=tmp_path)
     assert ran.code == 0
-    sizes = [body["unit_scale"] for body in ran.document["bodies"] if "unit_scale" in body]
+    sizes = [body["unit_scale"] for body in ran.document["bodies"] if body["unit_scale"] is not None]
     assert sizes == [1000, 10]
 
 
