@@ -7,11 +7,14 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
+from msgspec import to_builtins
 
 from satcheck.core.shapes import Primitive, image_of, is_curved, primitive_of
+from satcheck.report.bodies import BodyReport
+from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
@@ -98,86 +101,69 @@ class Bodies:
         self._files = MeshFiles(allow_outside=allow_outside)
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
-    def place_all(self, entries: list[Any], plane: str | None) -> list[Placed]:
+    def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:
         """The report's bodies; in a check in a plane the prisms over their outlines, each as the
-        bodies stand together."""
-        if plane is None:
-            return [self.place(entry) for entry in entries]
-        given = [self._find(entry) for entry in entries]
-        bodies = [one[0] for one in given if not isinstance(one, Placed)]
-        scene = Scene("", None, tuple(bodies))
-        flat = laid_flat(scene, cast(Any, plane), allow_open=self._allow_open)
-        prisms = {body.id: body.file for body in flat.bodies}
-        return [
-            one if isinstance(one, Placed) else _outline(one[0], prisms.get(one[0].id), entry)
-            for one, entry in zip(given, entries, strict=True)
-        ]
+        bodies stand together. A file that is gone or has changed is a reason."""
+        read = [self._find(entry) for entry in entries]
+        prisms: dict[str, MeshFile] = {}
+        if plane is not None:
+            bodies = tuple(body[0] for body in read if not isinstance(body, Placed))
+            flat = laid_flat(Scene("", None, bodies), plane, allow_open=self._allow_open)
+            prisms = {body.id: body.file for body in flat.bodies}
+        placed = []
+        for entry, result in zip(entries, read, strict=True):
+            if isinstance(result, Placed):
+                placed.append(result)
+                continue
+            body, shape = result
+            if plane is None:
+                placed.append(_place(body, shape, body.transform, entry))
+            else:
+                placed.append(_outline(body, prisms.get(body.id), entry))
+        return placed
 
-    def place(self, entry: Any) -> Placed:
-        """entry: one of the report's bodies. A file that is gone or has changed is a reason."""
-        found = self._find(entry)
-        if isinstance(found, Placed):
-            return found
-        body, shape = found
-        try:
-            placed = place_shape(body.id, body.groups, shape, body.transform)
-            _check_figures(entry, shape, placed.resolution)
-        except Rejected as why:
-            return _lost(body, str(why))
-        return replace(placed, static=body.static)
-
-    def _find(self, entry: Any) -> tuple[Body, Shape] | Placed:
+    def _find(self, entry: BodyReport) -> tuple[Body, Shape] | Placed:
         """The body as the report places it, or the reason why it cannot be read."""
-        if not isinstance(entry, dict) or not isinstance(entry.get("id"), str):
-            raise Rejected("a body of the report has no id")
-        listed = entry.get("groups")
-        if not isinstance(listed, list) or not all(isinstance(group, str) for group in listed):
-            raise Rejected("the groups of a body are a list of texts")
-        groups, static = frozenset(listed), entry.get("static") is True
-        name, file, digest = entry["id"], entry.get("file"), entry.get("sha256")
-        if digest is None:
-            if any(entry.get(key) is not None for key in _OF_A_MESH):
+        name, file = entry.id, entry.file
+        unread = Placed(name, frozenset(entry.groups), None, static=entry.static)
+        if entry.sha256 is None:
+            if any(getattr(entry, key) is not None for key in _OF_A_MESH):
                 raise Rejected(f"{name}: not read, and figures of its mesh")
-            reason = "the report could not read it"
-            return Placed(name, groups, None, static=static, reason=reason, claims=False)
-        if not isinstance(file, str) or not isinstance(digest, str):
-            raise Rejected("a body of the report names no file")
-        path, values = entry.get("path"), entry.get("shape")
-        if path is not None and not isinstance(path, str):
-            raise Rejected("the path of a body within its file is a text")
-        if values is not None and path is not None:
+            return replace(unread, reason="the report could not read it", claims=False)
+        if entry.shape is None:
+            shape = self._read(file, entry.path)
+        elif entry.path is not None:
             raise Rejected("a shape is no node of a file")
-        shape = self._read(file, path) if values is None else self._primitive(file, values)
+        else:
+            shape = self._primitive(file, to_builtins(entry.shape))
         if isinstance(shape, Missing):
-            reason = "its file is not there"
-            return Placed(name, groups, None, static=static, reason=reason, missing=shape.file)
+            return replace(unread, reason="its file is not there", missing=shape.file)
         if isinstance(shape, str):
-            return Placed(name, groups, None, static=static, reason=shape)
-        if shape.file.sha256 != digest:
-            reason = f"{file} has changed: its SHA-256 is another"
-            return Placed(name, groups, None, static=static, reason=reason)
-        try:
-            pose = _pose(entry.get("transform"))
-        except Rejected as why:
-            return Placed(name, groups, None, static=static, reason=str(why))
-        primitive = None if values is None else shape_of_mesh(shape.file, primitive_of(values))
-        pose = placing_mesh(shape.file, pose)
-        found = Body(name, name, shape.file, pose, tuple(listed), static=static, shape=primitive)
-        return found, shape
+            return replace(unread, reason=shape)
+        if shape.file.sha256 != entry.sha256:
+            return replace(unread, reason=f"{file} has changed: its SHA-256 is another")
+        primitive = None
+        if entry.shape is not None:
+            primitive = shape_of_mesh(shape.file, primitive_of(to_builtins(entry.shape)))
+        pose = placing_mesh(shape.file, entry.transform)
+        body = Body(
+            name, name, shape.file, pose, entry.groups, static=entry.static, shape=primitive
+        )
+        return body, shape
 
     def _read(self, file: str, path: str | None) -> Shape | Missing | str:
         """The file, or the mesh of its node `path`."""
         location = self._root / file
         if path is None:
-            found = self._files.whole(file, location)
+            mesh = self._files.whole(file, location)
         else:
             node = self._files.part(file, location, path)
-            found = node if isinstance(node, MeshFileError) else node.file
-        if isinstance(found, MeshFileError):
-            return Missing(file) if found.code == "file-not-found" else str(found)
-        key = (file, found.part, "")
+            mesh = node if isinstance(node, MeshFileError) else node.file
+        if isinstance(mesh, MeshFileError):
+            return Missing(file) if mesh.code == "file-not-found" else str(mesh)
+        key = (file, mesh.part, "")
         if key not in self._shapes:
-            self._shapes[key] = _checked_shape(found, self._allow_open)
+            self._shapes[key] = _checked_shape(mesh, self._allow_open)
         return self._shapes[key]
 
     def _primitive(self, file: str, values: Any) -> Shape | str:
@@ -201,36 +187,39 @@ def _lost(body: Body, reason: str) -> Placed:
     return Placed(body.id, frozenset(body.groups), None, static=body.static, reason=reason)
 
 
-def _outline(body: Body, prism: MeshFile | None, entry: dict[str, Any]) -> Placed:
+def _outline(body: Body, prism: MeshFile | None, entry: BodyReport) -> Placed:
     if prism is None:
         return _lost(body, "it has no outline in the plane")
     shape = _checked_shape(prism, False)
-    if isinstance(shape, str):
-        return _lost(body, shape)
+    return _lost(body, shape) if isinstance(shape, str) else _place(body, shape, None, entry)
+
+
+def _place(body: Body, shape: Shape, pose: tuple[float, ...] | None, entry: BodyReport) -> Placed:
     try:
-        placed = place_shape(body.id, body.groups, shape, None)
+        placed = place_shape(body.id, body.groups, shape, pose)
         _check_figures(entry, shape, placed.resolution)
     except Rejected as why:
         return _lost(body, str(why))
     return replace(placed, static=body.static)
 
 
-def _check_figures(entry: dict[str, Any], shape: Shape, resolution: float) -> None:
+def _check_figures(entry: BodyReport, shape: Shape, resolution: float) -> None:
     """What the report says of the mesh, against the file."""
-    file = shape.file
-    health = entry.get("health") or {}
+    file, health = shape.file, entry.health
+    if health is None:
+        raise Rejected("the report says nothing of its health")
     for name in MeshHealth.__struct_fields__:
-        value = getattr(file.health, name)
+        value, stated = getattr(file.health, name), getattr(health, name)
         if isinstance(value, float) and not math.isfinite(value):
             value = None  # as a report says it
-        if name not in health or health[name] != value:
-            raise Rejected(f"the file says {name}: {value}, the report {health.get(name)}")
-    if entry.get("triangles") != file.mesh.triangle_count:
+        if stated != value:
+            raise Rejected(f"the file says {name}: {value}, the report {stated}")
+    if entry.triangles != file.mesh.triangle_count:
         raise Rejected(f"it has {file.mesh.triangle_count} triangles")
-    said = entry.get("resolution")
-    if said is None or not math.isclose(said, resolution, rel_tol=SAME):
+    stated = entry.resolution
+    if stated is None or not math.isclose(stated, resolution, rel_tol=SAME):
         raise Rejected(f"its resolution is {resolution!r}")
-    if entry.get("convex") not in (None, shape.convex):
+    if entry.convex not in (None, shape.convex):
         raise Rejected(f"convex is {shape.convex}")
 
 
@@ -290,19 +279,3 @@ def place_shape(
         deviation=shape.file.deviation,
         inscribed=shape.file.inscribed,
     )
-
-
-def _pose(value: Any) -> tuple[float, ...] | None:
-    """Row-major 4 x 4."""
-    if value is None:
-        return None
-    numbers: Sequence[Any] = value if isinstance(value, list) and len(value) == 16 else [None]
-    if any(isinstance(n, bool) or not isinstance(n, int | float) for n in numbers):
-        raise Rejected("a transform has 16 numbers")
-    try:
-        pose = tuple(float(n) for n in numbers)
-    except OverflowError:
-        raise Rejected("a transform has 16 finite numbers") from None
-    if not np.isfinite(pose).all():
-        raise Rejected("a transform has 16 finite numbers")
-    return pose

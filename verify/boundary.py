@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from satcheck.report.certificate import OnBody
 from satcheck.verify.cells import cells_of, in_space, look, own_partners
 from satcheck.verify.evidence import on_body
 from satcheck.verify.exact import Point, Rejected, cross, dot, nearest_to_origin, sub
@@ -64,9 +65,9 @@ class Boundary:
         return any(common(piece, point) for t in near.tolist() for piece in self.pieces(t))
 
 
-def boundary_point(value: Any, body: Exact, *, of_hull: bool) -> Point:
-    """The point of the evidence, which must be one where the body ends; or of a convex body any."""
-    p = on_body(value, body, of_hull=of_hull)
+def boundary_point(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
+    """The point of the evidence: of a convex body any, of another one where the body ends."""
+    p = on_body(point, body, of_hull=of_hull)
     if not of_hull and not Boundary(body).holds(p):
         raise Rejected("a point lies within the material")
     return p

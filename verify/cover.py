@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import ceil
-from typing import Any
 
+from satcheck.report.certificate import Cover
 from satcheck.verify.cells import UNIT_CELL, look, own_partners
-from satcheck.verify.evidence import index, member
+from satcheck.verify.evidence import index
 from satcheck.verify.exact import Rejected, Vector, cross, dot, sub
 from satcheck.verify.surfaces import common
 from satcheck.verify.world import Corners, Exact
@@ -26,19 +26,16 @@ HalfSpace = tuple[Vector, int]  # n . t < h, on the lattice
 Cube = tuple[Vector, int]  # its middle and half its edge, in 2**-LEVELS of the lattice
 
 
-def depth_is_at_least(certificate: Any, a: Exact, b: Exact, depth: Fraction) -> None:
+def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: Fraction) -> None:
     """Rejects a cover that does not show that every translation of A shorter than this, world
     units, leaves a common interior.
-
-    {"pairs": [[triangle of A, of B], ...], "cubes": [k, ...]}: from the root on, a cube that meets
-    the ball is a pair, or -1 and its eight children; x changes first.
     """
-    pairs, cubes = member(certificate, "pairs"), member(certificate, "cubes")
     if not (a.world.solid and b.world.solid):
         raise Rejected("a cover proves something about solids only")
-    if len(cubes) > MOST_CUBES:
+    if len(cover.cubes) > MOST_CUBES:
         raise Rejected(f"a cover has at most {MOST_CUBES:,} cubes")
-    named = [(index(s, len(a.world.triangles)), index(t, len(b.world.triangles))) for s, t in pairs]
+    in_a, in_b = len(a.world.triangles), len(b.world.triangles)
+    named = [(index(s, in_a), index(t, in_b)) for s, t in cover.pairs]
     for body, triangles in ((a, {s for s, _ in named}), (b, {t for _, t in named})):
         if not_plain(body, sorted(triangles)):
             raise Rejected("a triangle of the cover is no plain part of the boundary of its solid")
@@ -53,7 +50,7 @@ def depth_is_at_least(certificate: Any, a: Exact, b: Exact, depth: Fraction) -> 
     ]
     ball = ceil((depth * (1 << a.k + LEVELS)) ** 2)
     pending = [root(depth, a.k)]
-    for leaf in cubes:
+    for leaf in cover.cubes:
         while pending and is_outside(pending[-1], ball):
             pending.pop()
         if not pending:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
+from satcheck.report.certificate import AxisProof, Ends, NestedProof, OnBody, PointProof, Proof
+from satcheck.report.values import Relation
+from satcheck.verify.bodies import Placed
 from satcheck.verify.curved import Curved
-from satcheck.verify.evidence import axis, member, on_body, vector
+from satcheck.verify.evidence import axis, given, on_body, vector
 from satcheck.verify.exact import Point, Rejected, cross, dot, sub
 from satcheck.verify.roots import Reach, sign_of
 from satcheck.verify.world import Exact
@@ -20,34 +22,36 @@ class CurvedPair:
     a: Curved | Exact
     b: Curved | Exact
 
-    def prove(self, relation: str, certificate: Any, beyond: Fraction, least: Fraction) -> None:
-        """Rejects a certificate that does not prove the exact relation. A separation has to be over
+    def prove(
+        self, relation: Relation | None, proof: Proof, beyond: Fraction, least: Fraction
+    ) -> None:
+        """Rejects a proof that does not prove the exact relation. A separation has to be over
         `beyond` and at least `least`, world units."""
-        kind = member(certificate, "kind")
-        if (relation, kind) == ("separated", "axis"):
-            n = axis(member(certificate, "axis"))
-            if self.gap(n, beyond) <= 0 or self.gap(n, least) < 0:
-                raise Rejected("the axis does not separate the bodies by as much as claimed")
-        elif (relation, kind) == ("touching", "axis"):
-            self.prove_free(certificate)
-            contact = member(certificate, "contact")
-            if point_of(member(contact, "a"), self.a) != point_of(member(contact, "b"), self.b):
-                raise Rejected("the common point is not the same point on both bodies")
-        elif (relation, kind) == ("penetrating", "point"):
-            self._overlap(certificate)
-            self._neither_holds(certificate)
-        elif (relation, kind) == ("contains", "nested"):
-            _nested(self.a, self.b)
-        elif (relation, kind) == ("inside", "nested"):
-            _nested(self.b, self.a)
-        else:
-            raise Rejected(f"a certificate of this kind proves no relation {relation!r}")
+        match relation, proof:
+            case "separated", AxisProof() as separation:
+                n = axis(separation.axis)
+                if self.gap(n, beyond) <= 0 or self.gap(n, least) < 0:
+                    raise Rejected("the axis does not separate the bodies by as much as claimed")
+            case "touching", AxisProof() as separation:
+                self.prove_free(separation)
+                a, b = self._points(given(separation.contact, "contact"))
+                if a != b:
+                    raise Rejected("the common point is not the same point on both bodies")
+            case "penetrating", PointProof() as overlap:
+                self._overlap(overlap)
+                self._neither_holds(overlap)
+            case "contains", NestedProof():
+                _nested(self.a, self.b)
+            case "inside", NestedProof():
+                _nested(self.b, self.a)
+            case _:
+                raise Rejected(f"a certificate of this kind proves no relation {relation!r}")
 
-    def prove_free(self, certificate: Any) -> None:
+    def prove_free(self, proof: Proof) -> None:
         """No common interior."""
-        if member(certificate, "kind") != "axis":
+        if not isinstance(proof, AxisProof):
             raise Rejected("a certificate of this kind proves no way out")
-        if self.gap(axis(member(certificate, "axis"))) < 0:
+        if self.gap(axis(proof.axis)) < 0:
             raise Rejected("the bodies overlap along the axis")
 
     def gap(self, n: Point, length: Fraction = Fraction(0)) -> int:
@@ -57,37 +61,53 @@ class CurvedPair:
         less = [forth.p, back.p, *([square] if length > 0 else ())]
         return sign_of(-forth.q - back.q, less, [square] if length < 0 else ())
 
-    def squared_gap(self, certificate: Any) -> Fraction:
+    def squared_gap(self, ends: Ends) -> Fraction:
         """Of two points, one of each."""
-        a = point_of(member(certificate, "a"), self.a)
-        b = point_of(member(certificate, "b"), self.b)
-        return Fraction(dot(step := tuple(q - p for p, q in zip(a, b, strict=True)), step))
+        step = self._step(ends)
+        return Fraction(dot(step, step))
 
-    def prove_apart(self, ends: Any, least: Fraction) -> None:
+    def prove_apart(self, ends: Ends, least: Fraction) -> None:
         """Rejects a gap along these two points that is narrower than that."""
-        a, b = point_of(member(ends, "a"), self.a), point_of(member(ends, "b"), self.b)
-        n = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        n = self._step(ends)
         if not any(n) or self.gap(n, least) < 0:
             raise Rejected("the gap is not shown to be as wide")
 
-    def _overlap(self, certificate: Any) -> None:
+    def _points(self, ends: Ends) -> tuple[Point, Point]:
+        return point_of(ends.a, self.a), point_of(ends.b, self.b)
+
+    def _step(self, ends: Ends) -> Point:
+        a, b = self._points(ends)
+        return b[0] - a[0], b[1] - a[1], b[2] - a[2]
+
+    def _overlap(self, proof: PointProof) -> None:
         """A point inside one of them, and of the other, which has an inside: next to it are points
         inside both."""
-        p = member(certificate, "both")
-        a, b = point_of(member(p, "a"), self.a), point_of(member(p, "b"), self.b)
+        a, b = self._points(proof.both)
         inner = (isinstance(x, Curved) and x.side(a) > 0 for x in (self.a, self.b))
         if a != b or not any(inner):
             raise Rejected("the point does not lie inside both")
 
-    def _neither_holds(self, certificate: Any) -> None:
+    def _neither_holds(self, proof: PointProof) -> None:
         """Each reaches as far as the other along some axis, one of them farther."""
         leads = []
-        for key, x, y in (("a_reaches", self.a, self.b), ("b_reaches", self.b, self.a)):
-            n = axis(member(certificate, key))
-            mine, other = reach(x, n), reach(y, n)
+        for n, x, y in ((proof.a_reaches, self.a, self.b), (proof.b_reaches, self.b, self.a)):
+            mine, other = reach(x, axis(n)), reach(y, axis(n))
             leads.append(sign_of(mine.q - other.q, [other.p], [mine.p]))
         if min(leads) < 0 or max(leads) == 0:
             raise Rejected("the axes do not show that neither body lies inside the other")
+
+
+def curved_pair_of(a: Placed, b: Placed) -> CurvedPair:
+    """World units: one lattice is enough for the vertices of the one mesh at most."""
+    bodies: list[Curved | Exact] = []
+    for body in (a, b):
+        if body.curved is not None:
+            bodies.append(body.curved)
+        elif body.world is None or not body.convex or body.world.is_flat:
+            raise Rejected("a curved shape is certified against convex bodies only")
+        else:
+            bodies.append(Exact(body.world, body.world.lattice))
+    return CurvedPair(bodies[0], bodies[1])
 
 
 def reach(body: Curved | Exact, n: Point) -> Reach:
@@ -97,14 +117,14 @@ def reach(body: Curved | Exact, n: Point) -> Reach:
     return Reach(Fraction(body.extent(n)) / (1 << body.k))
 
 
-def point_of(value: Any, body: Curved | Exact) -> Point:
-    """World units: of a curved shape {"point": [x, y, z]}, of a mesh vertices and weights."""
+def point_of(point: OnBody, body: Curved | Exact) -> Point:
+    """World units."""
     if isinstance(body, Curved):
-        p = vector(member(value, "point"))
+        p = vector(given(point.point, "point"))
         if body.side(p) < 0:
             raise Rejected("a point lies outside of its body")
         return p
-    x, y, z = (c / (1 << body.k) for c in on_body(value, body, of_hull=True))
+    x, y, z = (c / (1 << body.k) for c in on_body(point, body, of_hull=True))
     return x, y, z
 
 

@@ -9,43 +9,43 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
 
+from satcheck.report.certificate import Ends
+from satcheck.report.report import Finding
 from satcheck.verify.boundary import boundary_point
-from satcheck.verify.evidence import gap_along, member, vector
+from satcheck.verify.evidence import gap_along, vector
 from satcheck.verify.exact import Point, Rejected, dot, sub
 from satcheck.verify.figures import Rounding
 from satcheck.verify.relations import Pair
 from satcheck.verify.surfaces import close_pairs
 from satcheck.verify.world import Exact
 
-Json = dict[str, Any]
 # Beyond this many pairs of triangles with near boxes there is no certificate.
 MOST_NEAR = 2_000_000
 
 
-def squared_gap(ends: Any, pair: Pair) -> Fraction:
+def squared_gap(ends: Ends, pair: Pair) -> Fraction:
     """Of a point of either body, world units."""
-    p, q = (
-        boundary_point(member(ends, key), body, of_hull=pair.convex)
-        for key, body in (("a", pair.a), ("b", pair.b))
-    )
+    p = boundary_point(ends.a, pair.a, of_hull=pair.convex)
+    q = boundary_point(ends.b, pair.b, of_hull=pair.convex)
     step = sub(q, p)  # type: ignore[arg-type]
     return Fraction(dot(step, step)) / (1 << 2 * pair.a.k)
 
 
-def spanned(finding: Json, rounding: Rounding, is_apart: Callable[[Point, Fraction], bool]) -> bool:
+def spanned(
+    finding: Finding, rounding: Rounding, is_apart: Callable[[Point, Fraction], bool]
+) -> bool:
     """Whether a convex pair is as far apart, or overlaps as far, as the finding says along its
     normal. Rejects one that is closer. is_apart: whether the gap along an axis is at least a
     length, world units, which may be below 0.
     """
-    figure = finding["distance"] if finding["depth"] is None else -finding["depth"]
-    if finding["normal"] is None or figure is None:
+    figure = finding.distance if finding.depth is None else -finding.depth
+    if finding.normal is None or figure is None:
         return False
     length = Fraction(figure)
-    if not is_apart(vector(finding["normal"]), length - 2 * rounding.of(length)):
+    if not is_apart(vector(finding.normal), length - 2 * rounding.of(length)):
         raise Rejected("along the normal the bodies are closer than the finding says")
-    return finding["witness"] is not None
+    return finding.witness is not None
 
 
 def hulls_are_apart(pair: Pair) -> Callable[[Point, Fraction], bool]:
@@ -59,16 +59,13 @@ def hulls_are_apart(pair: Pair) -> Callable[[Point, Fraction], bool]:
     return is_apart
 
 
-def check_distance(finding: Json, certificate: Json, pair: Pair, rounding: Rounding) -> bool:
-    """Of meshes, by the part `distance` of the certificate, where there is one."""
-    if "distance" not in certificate or finding["distance"] is None:
-        return False
-    length = Fraction(finding["distance"])
+def check_distance(distance: float, ends: Ends, pair: Pair, rounding: Rounding) -> None:
+    """Of meshes. ends: points of them that are as far apart."""
+    length = Fraction(distance)
     slack = rounding.of(length)
-    if squared_gap(certificate["distance"], pair) > (length + slack) ** 2:
+    if squared_gap(ends, pair) > (length + slack) ** 2:
         raise Rejected("the points of the distance are further apart than that")
     nothing_nearer(pair.a, pair.b, length - slack)
-    return True
 
 
 def nothing_nearer(a: Exact, b: Exact, length: Fraction) -> None:

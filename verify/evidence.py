@@ -3,59 +3,60 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TypeVar
 
+from msgspec import UnsetType
+
+from satcheck.report.certificate import Exact as Number
+from satcheck.report.certificate import OnBody
 from satcheck.verify.exact import Point, Rejected, dot
 from satcheck.verify.world import Exact
 
-# An exponent could ask for a number of any length.
+# A number of any length would take any time.
 NUMBER = re.compile(r"-?[0-9]{1,4000}(/[0-9]{1,4000})?")
+Part = TypeVar("Part")
 
 
-def member(value: Any, key: str) -> Any:
-    if not isinstance(value, dict) or key not in value:
-        raise Rejected(f"the certificate has no {key!r}")
-    return value[key]
+def given(part: Part | UnsetType, name: str) -> Part:
+    """A part of a certificate. Rejects one that is left out."""
+    if isinstance(part, UnsetType):
+        raise Rejected(f"the certificate has no {name!r}")
+    return part
 
 
-def rational(value: Any) -> Fraction:
-    """A JSON number, or "numerator/denominator" as text."""
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
-        raise Rejected("a number is expected")
-    if isinstance(value, str) and not NUMBER.fullmatch(value):
+def rational(number: Number) -> Fraction:
+    if isinstance(number, str) and not NUMBER.fullmatch(number):
         raise Rejected("a number is expected")
     try:
-        return Fraction(value)
+        return Fraction(number)
     except (ValueError, OverflowError, ZeroDivisionError):
         raise Rejected("a number is expected") from None
 
 
-def vector(value: Any) -> Point:
-    if not isinstance(value, list) or len(value) != 3:
-        raise Rejected("three numbers are expected")
-    return rational(value[0]), rational(value[1]), rational(value[2])
+def vector(numbers: Sequence[Number]) -> Point:
+    x, y, z = map(rational, numbers)
+    return x, y, z
 
 
-def axis(value: Any) -> Point:
-    found = vector(value)
-    if not any(found):
+def axis(numbers: Sequence[Number]) -> Point:
+    direction = vector(numbers)
+    if not any(direction):
         raise Rejected("an axis of length 0")
-    return found
+    return direction
 
 
-def index(value: Any, count: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < count:
+def index(number: int, count: int) -> int:
+    if not 0 <= number < count:
         raise Rejected("an index is out of range")
-    return value
+    return number
 
 
-def on_body(value: Any, body: Exact, *, of_hull: bool) -> Point:
-    """{"vertices": [i, ...], "weights": [...]}: a convex combination of corners of one triangle, or
-    of any vertices where the body is its own hull. On the lattice of the pair."""
-    vertices, weights = member(value, "vertices"), member(value, "weights")
-    if not isinstance(vertices, list) or not isinstance(weights, list):
-        raise Rejected("a point on a body is a list of vertices and one of weights")
+def on_body(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
+    """A convex combination of corners of one triangle, or of any vertices where the body is its own
+    hull. On the lattice of the pair."""
+    vertices, weights = given(point.vertices, "vertices"), given(point.weights, "weights")
     if not 1 <= len(vertices) == len(weights) <= 4:
         raise Rejected("a point on a body has one to four vertices, each with a weight")
     chosen = [index(v, len(body.points)) for v in vertices]
@@ -71,12 +72,12 @@ def on_body(value: Any, body: Exact, *, of_hull: bool) -> Point:
     return x, y, z
 
 
-def triangle_of(vertices: list[int], body: Exact) -> int:
+def triangle_of(vertices: Sequence[int], body: Exact) -> int:
     """A triangle that has all these corners."""
-    found = (body.world.triangles[:, :, None] == vertices).any(axis=1).all(axis=1)
-    if not found.any():
+    holds = (body.world.triangles[:, :, None] == vertices).any(axis=1).all(axis=1)
+    if not holds.any():
         raise Rejected("the vertices of a point on a surface are corners of one triangle")
-    return int(found.argmax())
+    return int(holds.argmax())
 
 
 def gap_along(a: Exact, b: Exact, n: Point) -> Fraction:

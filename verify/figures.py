@@ -14,14 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from satcheck.verify.bodies import Placed
+from satcheck.report.contacts import Contacts
+from satcheck.report.report import OVERLAPS, Finding
+from satcheck.report.values import Vector
+from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
-from satcheck.verify.evidence import rational, vector
+from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
-from satcheck.verify.relations import OVERLAPS
+from satcheck.verify.rules import Asked
 from satcheck.verify.world import World
 
-Json = dict[str, Any]
 # An interval this narrow, relatively, comes from rounding alone.
 EXACT_WIDTH = Fraction(1, 10**9)
 # Figures of polytopes are at most 6e-12 of the size off, as the tables of hard cases show.
@@ -32,6 +34,7 @@ UNIT_ERROR = 1e-12  # of the length of a unit vector
 # A direction is checked where rounding turns it by no more than this, in radians.
 DIRECTION_ERROR = Fraction(1, 1000)
 ID_DIGITS = 12
+TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
 DEPTH_FIGURES = ("depth", "depth_bounds", "normal", "mtv", "mtv_moves", "mtv_verified")
 ALL_FIGURES = (*DEPTH_FIGURES, "distance", "witness", "quality", "volume", "volume_error")
 
@@ -54,24 +57,49 @@ def rounding_of(a: Placed, b: Placed) -> Rounding:
     return Rounding(CURVED_ERROR if curved else POLYTOPE_ERROR, Fraction(largest))
 
 
-def check_id(finding: Json) -> None:
-    first, second = sorted((finding["a"], finding["b"]))
+def check_id(finding: Finding) -> None:
+    first, second = sorted((finding.a, finding.b))
     key = f"{first}\0{second}".encode(errors="surrogatepass")
-    if finding["id"] != hashlib.sha256(key).hexdigest()[:ID_DIGITS]:
+    if finding.id != hashlib.sha256(key).hexdigest()[:ID_DIGITS]:
         raise Rejected("its id is not that of these two bodies")
 
 
-def check_no_figures(finding: Json) -> None:
+def default_tolerance(a: Placed, b: Placed, across: int | None) -> float:
+    """The input precision of two bodies, but no more than a share of the smaller one, and no less
+    than what their curves may be off their polygons. across: the axis that no size counts along."""
+    axes = [axis for axis in range(3) if axis != across]
+    sizes = [
+        math.dist(*(corner[axes].tolist() for corner in body.bounds))
+        for body in (a, b)
+        if body.bounds is not None
+    ]
+    written = min(a.resolution + b.resolution, TOUCH_FRACTION * min(sizes))
+    return max(written, a.deviation + b.deviation)
+
+
+def check_tolerance(finding: Finding, a: Placed, b: Placed, asked: Asked) -> Fraction:
+    expected = asked.tolerance
+    if expected is None:
+        expected = default_tolerance(a, b, asked.across)
+    tolerance = finding.tolerance
+    if tolerance is None or not math.isclose(tolerance, expected, rel_tol=SAME):
+        raise Rejected(f"the tolerance is {expected!r}")
+    return Fraction(tolerance)
+
+
+def check_no_figures(finding: Finding) -> None:
     """Of a pair that could not be decided."""
-    claims = [key for key in (*ALL_FIGURES, "exact_relation", "contacts", "rule") if finding[key]]
+    claims = [
+        key for key in (*ALL_FIGURES, "exact_relation", "contacts", "rule") if getattr(finding, key)
+    ]
     if claims:
         raise Rejected(f"an indeterminate pair claims nothing, this one claims {claims[0]!r}")
 
 
-def check_figures(finding: Json, a: Placed, b: Placed) -> None:
+def check_figures(finding: Finding, a: Placed, b: Placed) -> None:
     """Of a finding whose exact relation is known."""
     rounding = rounding_of(a, b)
-    if finding["exact_relation"] in OVERLAPS:
+    if finding.exact_relation in OVERLAPS:
         _check_overlap(finding, rounding)
     else:
         _check_gap(finding, rounding)
@@ -81,20 +109,26 @@ def check_figures(finding: Json, a: Placed, b: Placed) -> None:
     _check_volume(finding, a, b)
 
 
-def _check_overlap(finding: Json, rounding: Rounding) -> None:
-    there = [key for key in DEPTH_FIGURES if finding[key] is not None]
-    if finding["distance"] is not None:
+def _check_overlap(finding: Finding, rounding: Rounding) -> None:
+    if finding.distance is not None:
         raise Rejected("bodies that overlap have no distance")
-    if not there:
+    missing = [key for key in DEPTH_FIGURES if getattr(finding, key) is None]
+    if len(missing) == len(DEPTH_FIGURES):
         return
-    if len(there) < len(DEPTH_FIGURES):
-        missing = next(key for key in DEPTH_FIGURES if finding[key] is None)
-        raise Rejected(f"a depth comes with its bounds, its direction and its MTV: no {missing!r}")
-    depth = rational(finding["depth"])
-    low, high = map(rational, finding["depth_bounds"])
-    if not low <= high == depth:
+    bounds = finding.depth_bounds
+    if (
+        finding.depth is None
+        or bounds is None
+        or finding.mtv is None
+        or finding.normal is None
+        or missing
+    ):
+        raise Rejected(
+            f"a depth comes with its bounds, its direction and its MTV: no {missing[0]!r}"
+        )
+    if not bounds[0] <= bounds[1] == finding.depth:
         raise Rejected("the depth is the upper end of its bounds")
-    move, normal = vector(finding["mtv"]), _unit(finding["normal"])
+    depth, move, normal = Fraction(finding.depth), vector(finding.mtv), _unit(finding.normal)
     # The MTV and the depth may differ by rounding, either way.
     length = _length(move)
     longer = EXACT_WIDTH * (depth + rounding.largest)
@@ -105,36 +139,38 @@ def _check_overlap(finding: Json, rounding: Rounding) -> None:
         raise Rejected("the MTV does not run against the normal")
 
 
-def _check_gap(finding: Json, rounding: Rounding) -> None:
-    there = [key for key in DEPTH_FIGURES if key != "normal" and finding[key] is not None]
+def _check_gap(finding: Finding, rounding: Rounding) -> None:
+    there = [key for key in DEPTH_FIGURES if key != "normal" and getattr(finding, key) is not None]
     if there:
         raise Rejected(f"bodies without a common interior have no {there[0]!r}")
-    contacts = finding["contacts"]
-    if finding["exact_relation"] == "separated" and contacts is not None:
-        lists = [contacts[key] for key in ("curves", "patches", "points", "triangle_pairs")]
-        if any(lists) or any(contacts["totals"].values()):
-            raise Rejected("bodies that are apart have no contacts")
-    distance = finding["distance"]
+    contacts = finding.contacts
+    if (
+        contacts is not None
+        and finding.exact_relation == "separated"
+        and contacts != Contacts(truncated=contacts.truncated)
+    ):
+        raise Rejected("bodies that are apart have no contacts")
+    distance = finding.distance
     if distance is None:
-        if finding["normal"] is not None or finding["witness"] is not None:
+        if finding.normal is not None or finding.witness is not None:
             raise Rejected("a direction or witness points without the distance")
         return
     if distance < 0 or (
-        finding["exact_relation"] == "touching" and rational(distance) > rounding.of(Fraction(0))
+        finding.exact_relation == "touching" and Fraction(distance) > rounding.of(Fraction(0))
     ):
         raise Rejected("the distance does not fit the relation")
 
 
-def _check_witness(finding: Json, bodies: tuple[Placed, Placed], rounding: Rounding) -> None:
+def _check_witness(finding: Finding, bodies: tuple[Placed, Placed], rounding: Rounding) -> None:
     """Points on the bodies, as far apart, and along the normal, as the distance or the depth."""
-    normal = None if finding["normal"] is None else _unit(finding["normal"])
-    witness = finding["witness"]
+    normal = None if finding.normal is None else _unit(finding.normal)
+    witness = finding.witness
     if witness is None:
         return
-    ends = vector(witness["a"]), vector(witness["b"])
+    ends = vector(witness.a), vector(witness.b)
     step = sub(ends[1], ends[0])  # type: ignore[arg-type]
-    overlap = finding["exact_relation"] in OVERLAPS
-    length = -rational(finding["depth"] or 0) if overlap else rational(finding["distance"])
+    overlap = finding.exact_relation in OVERLAPS
+    length = Fraction(-(finding.depth or 0.0) if overlap else finding.distance or 0.0)
     slack = rounding.of(length)
     if normal is None:
         if length > slack or _length(step) > slack + abs(length):
@@ -146,11 +182,11 @@ def _check_witness(finding: Json, bodies: tuple[Placed, Placed], rounding: Round
             raise Rejected(f"a witness point does not lie on {body.id}")
 
 
-def shows_direction(finding: Json, a: Placed, b: Placed) -> bool:
+def shows_direction(finding: Finding, a: Placed, b: Placed) -> bool:
     """Whether witness points are far enough apart that rounding does not change their direction."""
-    if finding["witness"] is None or finding["normal"] is None:
+    if finding.witness is None or finding.normal is None:
         return False
-    length = rational(finding["distance"] or finding["depth"] or 0)
+    length = Fraction(finding.distance or finding.depth or 0)
     return abs(length) > rounding_of(a, b).of(length) / DIRECTION_ERROR
 
 
@@ -188,39 +224,38 @@ def _on_mesh(p: Point, world: World, slack: Fraction) -> bool:
     return False
 
 
-def _check_distance_bounds(finding: Json, a: Placed, b: Placed, rounding: Rounding) -> None:
+def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rounding) -> None:
     """The distance of polygons says of curves no more than how far these are off them allows."""
-    bounds, distance = finding.get("distance_bounds"), finding["distance"]
+    bounds, distance = finding.distance_bounds, finding.distance
     closer = Fraction(a.deviation) + Fraction(b.deviation)
     if (bounds is not None) is not (distance is not None and closer > 0):
         raise Rejected("bounds come with the distance of polygons that stand for curves")
-    if bounds is None:
+    if bounds is None or distance is None:
         return
     farther = sum((Fraction(body.deviation) for body in (a, b) if not body.inscribed), Fraction(0))
-    low, high, length = rational(bounds[0]), rational(bounds[1]), rational(distance)
+    low, high, length = Fraction(bounds[0]), Fraction(bounds[1]), Fraction(distance)
     slack = rounding.of(length)
     if low > max(length - closer + slack, Fraction(0)) or high < length + farther - slack:
         raise Rejected("the bounds of the distance leave out how far the curves may be off")
 
 
-def _check_quality(finding: Json) -> None:
+def _check_quality(finding: Finding) -> None:
     """Of a relation that is proven."""
-    bounds = finding["depth_bounds"]
-    wide = bounds is not None and rational(bounds[1]) - rational(bounds[0]) > (
-        EXACT_WIDTH * rational(bounds[1])
-    )
-    expected = "bounded" if wide or finding.get("distance_bounds") is not None else "exact"
-    if finding["quality"] != expected:
+    bounds = finding.depth_bounds
+    low, high = map(Fraction, bounds or (0, 0))
+    wide = high - low > EXACT_WIDTH * high
+    expected = "bounded" if wide or finding.distance_bounds is not None else "exact"
+    if finding.quality != expected:
         raise Rejected(f"the quality that follows is {expected!r}")
 
 
-def _check_volume(finding: Json, a: Placed, b: Placed) -> None:
-    volume, error = finding["volume"], finding["volume_error"]
+def _check_volume(finding: Finding, a: Placed, b: Placed) -> None:
+    volume, error = finding.volume, finding.volume_error
     if (volume is None) is not (error is None):
         raise Rejected("a volume comes with its error")
-    if volume is None:
+    if volume is None or error is None:
         return
-    if finding["exact_relation"] not in OVERLAPS:
+    if finding.exact_relation not in OVERLAPS:
         if volume or error:
             raise Rejected("bodies without a common interior share no volume")
         return
@@ -228,12 +263,12 @@ def _check_volume(finding: Json, a: Placed, b: Placed) -> None:
         return
     low, high = np.maximum(a.bounds[0], b.bounds[0]), np.minimum(a.bounds[1], b.bounds[1])
     room = math.prod((Fraction(h) - Fraction(g) for g, h in zip(low, high, strict=True)), start=1)
-    if rational(volume) - rational(error) > room:
+    if Fraction(volume) - Fraction(error) > room:
         raise Rejected("the common volume is more than that of the boxes")
 
 
-def _unit(value: Any) -> Point:
-    normal = vector(value)
+def _unit(direction: Vector) -> Point:
+    normal = vector(direction)
     if abs(float(_length(normal)) - 1) > UNIT_ERROR:
         raise Rejected("the normal is no unit vector")
     return normal

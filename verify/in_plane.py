@@ -14,20 +14,30 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
+from msgspec import UnsetType
 
+from satcheck.report.certificate import (
+    AxisProof,
+    Certificate,
+    ExactVector,
+    OverlapProof,
+    PointProof,
+    PolytopeProof,
+    Proof,
+)
+from satcheck.report.report import Finding
+from satcheck.report.values import Relation
 from satcheck.verify.bodies import Placed
 from satcheck.verify.distances import nothing_nearer
-from satcheck.verify.evidence import exceeds, gap_along, member, on_body, vector
+from satcheck.verify.evidence import exceeds, gap_along, on_body, vector
 from satcheck.verify.exact import Rejected
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import Pair
 from satcheck.verify.world import World
 
 ACROSS = {"xy": 2, "yz": 0, "xz": 1}
-Json = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +48,9 @@ class CurveError:
     closer: Fraction
     farther: Fraction
 
-    def check_overlap(self, relation: str, proof: Any, pair: Pair, across: int) -> None:
+    def check_overlap(
+        self, relation: Relation | None, proof: Proof, pair: Pair, across: int
+    ) -> None:
         """Rejects an exact relation of bodies that meet, where it is shown of the polygons alone.
         pair: with heights that suit the relation.
 
@@ -52,10 +64,10 @@ class CurveError:
         if relation in ("contains", "inside"):
             nothing_nearer(pair.a, pair.b, self.closer)
             return
-        if relation != "penetrating" or (self.farther and member(proof, "kind") != "polytope"):
-            raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
-        if self.farther:
+        if relation == "penetrating" and self.farther and isinstance(proof, PolytopeProof):
             inner_radius_exceeds(proof, pair.a, pair.b, self.farther)
+        elif relation != "penetrating" or self.farther:
+            raise Rejected(f"{relation!r} is shown of polygons alone, not of the curves")
         a, b = pair.a.world, pair.b.world
         if not (self._sticks_out(a, b, across) and self._sticks_out(b, a, across)):
             raise Rejected("one body may hold the other, by what its curve is off its polygon")
@@ -69,13 +81,13 @@ class CurveError:
             for p, q, r, s in steps
         )
 
-    def leaves_gap(self, certificate: Any, pair: Pair) -> bool:
+    def leaves_gap(self, proof: Proof, pair: Pair) -> bool:
         """Whether the polygons are as far apart along the axis as the curves may be off them."""
         if not self.closer:
             return True
-        if member(certificate, "kind") != "axis":
+        if not isinstance(proof, AxisProof):
             return False
-        n = vector(member(certificate, "axis"))
+        n = vector(proof.axis)
         return any(n) and exceeds(gap_along(pair.a, pair.b, n), n, self.closer)
 
 
@@ -86,10 +98,10 @@ def curve_error(a: Placed, b: Placed) -> CurveError:
     return CurveError(closer, sum(outward, Fraction(0)))
 
 
-def reaching(relation: str, a: World, b: World, across: int) -> tuple[World, World]:
+def reaching(relation: Relation | None, a: World, b: World, across: int) -> tuple[World, World]:
     """The prisms with heights that suit the relation to be proven."""
     height = max(float(world.bounds[1][across]) for world in (a, b))
-    heights = {
+    heights: dict[Relation | None, tuple[float, float]] = {
         "contains": (2 * height, height),
         "inside": (height, 2 * height),
         "penetrating": (height, height),
@@ -107,24 +119,27 @@ def _reaching(world: World, height: float, across: int) -> World:
     return World(vertices, world.triangles, world.solid)
 
 
-def check_in_plane(finding: Json, across: int) -> None:
+def check_in_plane(finding: Finding, certificate: Certificate, across: int) -> None:
     """Directions and moves of a finding, and of its certificate, run along the plane."""
-    certificate = finding["certificate"]
-    parts = [finding["mtv"], finding["normal"], (certificate.get("depth") or {}).get("upper")]
-    band = certificate.get("band") or {}
-    for direction in (*parts, band.get("axis"), band.get("move")):
-        if direction is not None and vector(direction)[across] != 0:
+    directions: list[ExactVector | UnsetType | None] = [finding.mtv, finding.normal]
+    if not isinstance(certificate.depth, UnsetType):
+        directions.append(certificate.depth.upper)
+    if not isinstance(certificate.band, UnsetType):
+        directions += [certificate.band.axis, certificate.band.move]
+    for direction in directions:
+        if isinstance(direction, tuple) and vector(direction)[across] != 0:
             raise Rejected("a direction leaves the plane")
 
 
-def check_proof_in_plane(proof: Json, pair: Pair, across: int) -> None:
+def check_proof_in_plane(proof: Proof, pair: Pair, across: int) -> None:
     """What shows that neither outline holds the other: no axis across the plane, and no point at
     the ends of the prisms, which are of one height."""
-    for key in ("a_reaches", "b_reaches"):
-        if key in proof and vector(proof[key])[across] != 0:
-            raise Rejected("an axis leaves the plane")
-    if "meet" in proof:
-        p = on_body(member(proof["meet"], "a"), pair.a, of_hull=False)
+    if isinstance(proof, PointProof | PolytopeProof) and any(
+        vector(reach)[across] != 0 for reach in (proof.a_reaches, proof.b_reaches)
+    ):
+        raise Rejected("an axis leaves the plane")
+    if isinstance(proof, OverlapProof) and not isinstance(proof.meet, UnsetType):
+        p = on_body(proof.meet.a, pair.a, of_hull=False)
         ends = {abs(point[across]) for point in pair.a.points}
         if abs(p[across]) in ends:
             raise Rejected("the common point lies at the end of a prism")

@@ -3,33 +3,31 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
-from satcheck.verify.evidence import index, member
+from satcheck.report.certificate import Indices, Polytope, PolytopeProof
+from satcheck.verify.evidence import index
 from satcheck.verify.exact import Rejected, Vector, cross, dot, sub
 from satcheck.verify.world import Exact
 
 MOST_FACES = 100_000
 
 
-def inner_radius_exceeds(certificate: Any, a: Exact, b: Exact, radius: Fraction) -> None:
+def inner_radius_exceeds(
+    polytope: Polytope | PolytopeProof, a: Exact, b: Exact, radius: Fraction
+) -> None:
     """Rejects a polytope that does not hold the ball of this radius (world) around the origin.
 
-    {"vertices": [[i, j], ...], "faces": [[p, q, r], ...]}: its vertices are a_i - b_j. Where each
-    directed edge meets its reverse once, and the origin lies behind every face, the surface runs
-    around the origin, so every ray from there meets it, nowhere nearer than the nearest face plane.
+    Its vertices are a_i - b_j. Where each directed edge meets its reverse once, and the origin
+    lies behind every face, the surface runs around the origin. So every ray from there meets it,
+    nowhere nearer than the nearest face plane.
     """
-    vertices, faces = member(certificate, "vertices"), member(certificate, "faces")
-    if not isinstance(vertices, list) or not isinstance(faces, list):
-        raise Rejected("a polytope has lists of vertices and faces")
+    vertices, faces = polytope.vertices, polytope.faces
     if not 4 <= len(faces) <= MOST_FACES or len(vertices) > MOST_FACES:
         raise Rejected("a polytope has at least 4 faces, and not too many")
     points = [_difference(pair, a, b) for pair in vertices]
     edges: set[tuple[int, int]] = set()
     least = radius * (1 << a.k)
     for face in faces:
-        if not isinstance(face, list) or len(face) != 3:
-            raise Rejected("a face has three corners")
         corner = [index(v, len(points)) for v in face]
         p, q, r = (points[v] for v in corner)
         normal = cross(sub(q, p), sub(r, p))
@@ -47,7 +45,5 @@ def inner_radius_exceeds(certificate: Any, a: Exact, b: Exact, radius: Fraction)
         raise Rejected("the polytope is not closed")
 
 
-def _difference(pair: Any, a: Exact, b: Exact) -> Vector:
-    if not isinstance(pair, list) or len(pair) != 2:
-        raise Rejected("a vertex of the polytope is a pair of vertices")
+def _difference(pair: Indices, a: Exact, b: Exact) -> Vector:
     return sub(a.points[index(pair[0], len(a.points))], b.points[index(pair[1], len(b.points))])

@@ -1,43 +1,71 @@
-"""Check of a report against its published schema."""
+"""A report read strictly by its published schema."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from msgspec import ValidationError, convert, to_builtins
 
-from satcheck.report.report import Finding, Report
+from satcheck.report.report import SCHEMA, Finding, Report
 from satcheck.report.schema import TIMING
+from satcheck.verify.exact import Rejected
 
 LONGEST_MESSAGE = 200
+Form = TypeVar("Form", Report, Finding)
 
 
-def departures(document: dict[str, Any]) -> dict[int | None, str]:
-    """Index of a finding, or None for the rest of the report -> the first thing that is wrong.
+@dataclass(frozen=True, slots=True)
+class IllFormed:
+    """A finding that is none by the schema, and the first thing that is wrong with it."""
 
-    Values of a wrong type, unknown keys and words, missing keys, numbers that are not finite.
+    a: str
+    b: str
+    relation: str
+    reason: str
+
+
+def report_of(document: Any) -> tuple[Report, list[Finding | IllFormed]]:
+    """The report without its findings, and these.
+
+    Rejected: a value of a wrong type, an unknown key or word, a missing key, or a number that is
+    not finite, outside of the findings.
     """
+    if not isinstance(document, dict) or document.get("schema") != SCHEMA:
+        raise Rejected(f'not a report: "schema" is not "{SCHEMA}"')
     findings = document.get("findings")
     if not isinstance(findings, list):
-        return {None: "`findings` is no list"}
-    parts: dict[int | None, str | None] = dict(
-        enumerate(_departure(finding, Finding) for finding in findings)
-    )
-    parts[None] = _departure({**document, "findings": []}, Report)
-    return {part: why for part, why in parts.items() if why is not None}
-
-
-def _departure(value: Any, form: type[Report | Finding]) -> str | None:
+        raise Rejected("not a report by its schema: `findings` is no list")
+    if not all(isinstance(finding, dict) for finding in findings):
+        raise Rejected("not a report: a finding is no object")
     try:
-        whole = to_builtins(convert(value, form))
+        report = _strictly({**document, "findings": []}, Report)
     except ValidationError as why:
-        message = str(why)
-        if len(message) > LONGEST_MESSAGE:
-            message = f"{message[: LONGEST_MESSAGE // 2]} ... {message[-LONGEST_MESSAGE // 2 :]}"
+        raise Rejected(f"not a report by its schema: {_shortened(str(why))}") from None
+    return report, [_finding(finding) for finding in findings]
+
+
+def _finding(values: dict[str, Any]) -> Finding | IllFormed:
+    try:
+        return _strictly(values, Finding)
+    except ValidationError as why:
+        a, b, relation = (str(values.get(key)) for key in ("a", "b", "relation"))
+        return IllFormed(a, b, relation, _shortened(str(why)))
+
+
+def _strictly(values: dict[str, Any], form: type[Form]) -> Form:
+    struct = convert(values, form)
+    for departure in _beyond_types(values, to_builtins(struct), "$"):
+        raise ValidationError(departure)
+    return struct
+
+
+def _shortened(message: str) -> str:
+    if len(message) <= LONGEST_MESSAGE:
         return message
-    return next(_beyond_types(value, whole, "$"), None)
+    return f"{message[: LONGEST_MESSAGE // 2]} ... {message[-LONGEST_MESSAGE // 2 :]}"
 
 
 def _beyond_types(value: Any, whole: Any, path: str) -> Iterator[str]:

@@ -2,19 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
+from msgspec import UNSET, UnsetType
+
+from satcheck.report.certificate import (
+    AxisProof,
+    CrossingProof,
+    Ends,
+    ExactVector,
+    OnBody,
+    OverlapProof,
+    PolytopeProof,
+    Proof,
+    SameProof,
+    SurfacesProof,
+)
+from satcheck.report.certificate import Point as ProofPoint
+from satcheck.report.values import Relation
+from satcheck.verify.bodies import Placed
 from satcheck.verify.boundary import boundary_point, contacts_if_apart
 from satcheck.verify.cells import Sides, sheets_among, sides_of
 from satcheck.verify.evidence import (
     axis,
     exceeds,
     gap_along,
+    given,
     index,
-    member,
     on_body,
     triangle_of,
     vector,
@@ -23,9 +38,8 @@ from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.sheets import no_crossing
 from satcheck.verify.surfaces import common, meeting
-from satcheck.verify.world import Exact, count_by_triangle
+from satcheck.verify.world import Exact, World, count_by_triangle
 
-OVERLAPS = ("penetrating", "contains", "inside", "coincident")
 # How a point lies: (in A, in B).
 BOTH, A_ALONE, B_ALONE = (True, True), (True, False), (False, True)
 Way = tuple[bool, bool]
@@ -41,69 +55,76 @@ class Pair:
     convex: bool
 
 
-def prove(relation: str, certificate: Any, pair: Pair, beyond: Fraction, least: Fraction) -> bool:
-    """Rejects a certificate that does not prove the exact relation.
+def pair_of(a: Placed, b: Placed, world_a: World, world_b: World) -> Pair:
+    k = max(world_a.lattice, world_b.lattice)
+    return Pair(Exact(world_a, k), Exact(world_b, k), a.convex and b.convex)
+
+
+def prove(
+    relation: Relation | None, proof: Proof, pair: Pair, beyond: Fraction, least: Fraction
+) -> bool:
+    """Rejects a proof that does not prove the exact relation.
 
     A separation has to be over `beyond` and at least `least`, world units. Returns whether the
     hulls have no common interior, so that neither body can lie inside the other.
     """
-    kind = member(certificate, "kind")
-    proofs: dict[tuple[str, str], Callable[[Any, Pair], None]] = {
-        ("touching", "axis"): _touching_by_axis,
-        ("touching", "surfaces"): _touching_by_surfaces,
-        ("penetrating", "overlap"): _overlap,
-        ("penetrating", "crossing"): _crossing,
-        ("penetrating", "polytope"): _hulls_overlap,
-        ("contains", "surfaces"): _contains,
-        ("inside", "surfaces"): _inside,
-        ("coincident", "same"): _same,
-    }
-    if (relation, kind) == ("separated", "axis"):
-        n = axis(member(certificate, "axis"))
-        gap = gap_along(pair.a, pair.b, n)
-        if not exceeds(gap, n, beyond) or gap * gap < least * least * dot(n, n):
-            raise Rejected("the axis does not separate the bodies by as much as claimed")
-        return True
-    if (relation, kind) == ("separated", "surfaces"):
-        _nowhere({BOTH}, pair, contacts_if_apart(pair.a, pair.b, beyond, least))
-        return False
-    if not isinstance(kind, str) or (relation, kind) not in proofs:
-        raise Rejected(f"a certificate of this kind proves no relation {relation!r}")
-    proofs[relation, kind](certificate, pair)
-    return (relation, kind) == ("touching", "axis")
+    match relation, proof:
+        case "separated", AxisProof() as separation:
+            _separated_by_axis(separation, pair, beyond, least)
+            return True
+        case "separated", SurfacesProof():
+            _nowhere({BOTH}, pair, contacts_if_apart(pair.a, pair.b, beyond, least))
+        case "touching", AxisProof() as separation:
+            common_point(given(separation.contact, "contact"), pair, of_hulls=pair.convex)
+            _weakly_separated(separation, pair)
+            return True
+        case "touching", SurfacesProof() as surfaces:
+            common_point(given(surfaces.contact, "contact"), pair, of_hulls=False)
+            _no_overlap(pair)
+        case "penetrating", OverlapProof() as overlap:
+            _overlap(overlap, pair)
+        case "penetrating", CrossingProof() as crossing:
+            _crossing(crossing, pair)
+        case "penetrating", PolytopeProof() as polytope:
+            _hulls_overlap(polytope, pair)
+        case "contains", SurfacesProof() as surfaces:
+            _holds(pair.a, surfaces, B_ALONE, pair)
+        case "inside", SurfacesProof() as surfaces:
+            _holds(pair.b, surfaces, A_ALONE, pair)
+        case "coincident", SameProof() as same:
+            _same(same, pair)
+        case _:
+            raise Rejected(f"a certificate of this kind proves no relation {relation!r}")
+    return False
 
 
-def prove_free(certificate: Any, pair: Pair) -> None:
+def prove_free(proof: Proof, pair: Pair) -> None:
     """No common interior: separated or touching."""
-    kind = member(certificate, "kind")
-    if kind == "axis":
-        _weakly_separated(certificate, pair)
-    elif kind == "surfaces":
+    if isinstance(proof, AxisProof):
+        _weakly_separated(proof, pair)
+    elif isinstance(proof, SurfacesProof):
         _no_overlap(pair)
     else:
         raise Rejected("a certificate of this kind proves no way out")
 
 
-def common_point(certificate: Any, pair: Pair, *, of_hulls: bool) -> None:
-    """{"a": point, "b": point}, which must be the same, of both boundaries or both hulls."""
-    p = boundary_point(member(certificate, "a"), pair.a, of_hull=of_hulls)
-    if p != boundary_point(member(certificate, "b"), pair.b, of_hull=of_hulls):
+def common_point(ends: Ends, pair: Pair, *, of_hulls: bool) -> None:
+    """One point of both boundaries or both hulls."""
+    p = boundary_point(ends.a, pair.a, of_hull=of_hulls)
+    if p != boundary_point(ends.b, pair.b, of_hull=of_hulls):
         raise Rejected("the common point is not the same point on both bodies")
 
 
-def _weakly_separated(certificate: Any, pair: Pair) -> None:
-    if gap_along(pair.a, pair.b, axis(member(certificate, "axis"))) < 0:
+def _separated_by_axis(proof: AxisProof, pair: Pair, beyond: Fraction, least: Fraction) -> None:
+    n = axis(proof.axis)
+    gap = gap_along(pair.a, pair.b, n)
+    if not exceeds(gap, n, beyond) or gap * gap < least * least * dot(n, n):
+        raise Rejected("the axis does not separate the bodies by as much as claimed")
+
+
+def _weakly_separated(proof: AxisProof, pair: Pair) -> None:
+    if gap_along(pair.a, pair.b, axis(proof.axis)) < 0:
         raise Rejected("the bodies overlap along the axis")
-
-
-def _touching_by_axis(certificate: Any, pair: Pair) -> None:
-    common_point(member(certificate, "contact"), pair, of_hulls=pair.convex)
-    _weakly_separated(certificate, pair)
-
-
-def _touching_by_surfaces(certificate: Any, pair: Pair) -> None:
-    common_point(member(certificate, "contact"), pair, of_hulls=False)
-    _no_overlap(pair)
 
 
 def _no_overlap(pair: Pair) -> None:
@@ -139,60 +160,65 @@ def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
     return ways | {(True, inside) for inside in (sides.front[1],) if inside == sides.back[1]}
 
 
-def _contains(certificate: Any, pair: Pair) -> None:
-    if not pair.a.world.solid:
+def _holds(outer: Exact, proof: SurfacesProof, alone: Way, pair: Pair) -> None:
+    """alone: a point of the inner body that lies outside of the outer one."""
+    if not outer.world.solid:
         raise Rejected("what is not solid contains nothing")
-    _has_point(BOTH, certificate, "both", pair)
-    _nowhere({B_ALONE}, pair, contacts_if_apart(pair.a, pair.b, Fraction(0), Fraction(0)))
+    _has_point(BOTH, proof.both, "both", pair)
+    _nowhere({alone}, pair, contacts_if_apart(pair.a, pair.b, Fraction(0), Fraction(0)))
 
 
-def _inside(certificate: Any, pair: Pair) -> None:
-    if not pair.b.world.solid:
-        raise Rejected("what is not solid contains nothing")
-    _has_point(BOTH, certificate, "both", pair)
-    _nowhere({A_ALONE}, pair, contacts_if_apart(pair.a, pair.b, Fraction(0), Fraction(0)))
-
-
-def _overlap(certificate: Any, pair: Pair) -> None:
+def _overlap(proof: OverlapProof, pair: Pair) -> None:
     """A point inside both, and one inside either alone; or inside one of them alone, and a common
     point of the boundaries. Something of a solid is always outside of a sheet."""
     if not (pair.a.world.solid or pair.b.world.solid):
         raise Rejected("two bodies without an inside have no common interior")
-    _has_point(BOTH, certificate, "both", pair)
+    _has_point(BOTH, proof.both, "both", pair)
     alone = 0
-    for key, way, other in (("a_alone", A_ALONE, pair.b), ("b_alone", B_ALONE, pair.a)):
-        if other.world.solid and key in certificate:
-            _has_point(way, certificate, key, pair)
-        alone += not other.world.solid or key in certificate
+    for name, point, way, other in (
+        ("a_alone", proof.a_alone, A_ALONE, pair.b),
+        ("b_alone", proof.b_alone, B_ALONE, pair.a),
+    ):
+        if other.world.solid and point is not UNSET:
+            _has_point(way, point, name, pair)
+        alone += not other.world.solid or point is not UNSET
     if alone == 0:
         raise Rejected("no point shows that one is not the other")
     if alone == 1:
-        common_point(member(certificate, "meet"), pair, of_hulls=False)
+        common_point(given(proof.meet, "meet"), pair, of_hulls=False)
 
 
-def _has_point(way: Way, certificate: Any, key: str, pair: Pair) -> None:
+def _has_point(way: Way, point: ProofPoint | UnsetType, name: str, pair: Pair) -> None:
     """Of two solids: three numbers. Of a solid and a sheet: a point of the sheet."""
-    value, bodies = member(certificate, key), (pair.a, pair.b)
-    sheet = next((body for body in bodies if not body.world.solid), None)
-    inside = _solids_at(value, pair) if sheet is None else _solid_at(value, sheet, pair)
+    if isinstance(point, UnsetType):
+        raise Rejected(f"the certificate has no {name!r}")
+    sheet = next((body for body in (pair.a, pair.b) if not body.world.solid), None)
+    if isinstance(point, OnBody):
+        if sheet is None:
+            raise Rejected("a point inside two solids is three numbers")
+        inside = _solid_at(point, sheet, pair)
+    else:
+        if sheet is not None:
+            raise Rejected("a point of a solid and a sheet is a point of the sheet")
+        inside = _solids_at(point, pair)
     if inside != way:
-        raise Rejected(f"the point given as {key!r} lies otherwise")
+        raise Rejected(f"the point given as {name!r} lies otherwise")
 
 
-def _solids_at(value: Any, pair: Pair) -> Way:
-    x, y, z = (c * (1 << pair.a.k) for c in vector(value))
+def _solids_at(place: ExactVector, pair: Pair) -> Way:
+    x, y, z = (c * (1 << pair.a.k) for c in vector(place))
     windings = [body.winding((x, y, z)) for body in (pair.a, pair.b)]
     if None in windings:
         raise Rejected("a point lies on a surface")
     return windings[0] != 0, windings[1] != 0
 
 
-def _solid_at(value: Any, sheet: Exact, pair: Pair) -> Way:
+def _solid_at(place: OnBody, sheet: Exact, pair: Pair) -> Way:
     solid = pair.b if sheet is pair.a else pair.a
-    p = on_body(value, sheet, of_hull=False)
+    p = on_body(place, sheet, of_hull=False)
     winding = solid.winding(p)
     if winding is None:  # within the material or outside, if both sides of the sheet are there
-        corners = sheet.corners(triangle_of(value["vertices"], sheet))
+        corners = sheet.corners(triangle_of(given(place.vertices, "vertices"), sheet))
         normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
         front, back = (any(normal) and solid.beside(p, normal)) or (0, 1)
         if (front != 0) != (back != 0):
@@ -201,15 +227,10 @@ def _solid_at(value: Any, sheet: Exact, pair: Pair) -> Way:
     return (True, winding != 0) if sheet is pair.a else (winding != 0, True)
 
 
-def _crossing(certificate: Any, pair: Pair) -> None:
+def _crossing(proof: CrossingProof, pair: Pair) -> None:
     """Two triangles of which each passes through the other's inside, one of them of a sheet."""
-    named = member(certificate, "triangles")
-    if not isinstance(named, list) or len(named) != 2:
-        raise Rejected("a crossing names two triangles")
-    s, t = (
-        index(named[0], len(pair.a.world.triangles)),
-        index(named[1], len(pair.b.world.triangles)),
-    )
+    s = index(proof.triangles[0], len(pair.a.world.triangles))
+    t = index(proof.triangles[1], len(pair.b.world.triangles))
     corners = pair.a.corners(s), pair.b.corners(t)
     normals = [cross(sub(c[1], c[0]), sub(c[2], c[0])) for c in corners]
     shared = common(*corners)
@@ -228,26 +249,29 @@ def _crossing(certificate: Any, pair: Pair) -> None:
 
 def _sides(body: Exact, p: Point, normal: Vector) -> tuple[bool, bool]:
     """Whether there is material in front of a triangle of the body and behind it, next to p."""
-    found = body.beside(p, normal)
-    if found is None:
+    windings = body.beside(p, normal)
+    if windings is None:
         raise Rejected("where the triangles cross another one lies")
-    return (found[0] != 0, found[1] != 0) if body.world.solid else (False, False)
+    return (windings[0] != 0, windings[1] != 0) if body.world.solid else (False, False)
 
 
-def _hulls_overlap(certificate: Any, pair: Pair) -> None:
+def _hulls_overlap(proof: PolytopeProof, pair: Pair) -> None:
     """For convex bodies; each reaches as far as the other along some axis, one of them farther."""
     if not pair.convex:
         raise Rejected("a polytope proves something about convex bodies only")
-    inner_radius_exceeds(certificate, pair.a, pair.b, Fraction(0))
+    inner_radius_exceeds(proof, pair.a, pair.b, Fraction(0))
     leads = []
-    for key, body, other in (("a_reaches", pair.a, pair.b), ("b_reaches", pair.b, pair.a)):
-        n = axis(member(certificate, key))
+    for reach, body, other in (
+        (proof.a_reaches, pair.a, pair.b),
+        (proof.b_reaches, pair.b, pair.a),
+    ):
+        n = axis(reach)
         leads.append(Fraction(body.extent(n)) - Fraction(other.extent(n)))
     if min(leads) < 0 or max(leads) == 0:
         raise Rejected("the axes do not show that neither body lies inside the other")
 
 
-def _same(certificate: Any, pair: Pair) -> None:
+def _same(proof: SameProof, pair: Pair) -> None:
     """The same triangles; or solids with a common point, and no point in one of them alone."""
     a, b = pair.a.world, pair.b.world
     if a.solid != b.solid:
@@ -258,5 +282,5 @@ def _same(certificate: Any, pair: Pair) -> None:
         return
     if not a.solid:
         raise Rejected("the surfaces do not have the same triangles")
-    _has_point(BOTH, certificate, "both", pair)
+    _has_point(BOTH, proof.both, "both", pair)
     _nowhere({A_ALONE, B_ALONE}, pair, meeting(pair.a, pair.b))

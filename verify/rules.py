@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from itertools import combinations
 from typing import Any
 
+from satcheck.report.report import Exempt, RuleReport
 from satcheck.verify.bodies import Placed
 
 GROUP = "group:"
@@ -52,7 +53,7 @@ class Asked:
 # What a rule may say of a pair in the place of the settings.
 ASKED = frozenset(("tolerance", "clearance", "max_depth", "max_volume", "severity"))
 
-Json = dict[str, Any]
+Terms = dict[str, Any]  # key of a rule -> its value
 # What the rules see of a body: on which sides of which rules it is, the ignored groups it is in,
 # whether it stands still while pairs of such bodies are not asked about.
 Kind = tuple[tuple[tuple[int, bool], ...], frozenset[str], bool]
@@ -61,37 +62,39 @@ Kind = tuple[tuple[tuple[int, bool], ...], frozenset[str], bool]
 class Rules:
     """bodies: those of the report, by id."""
 
-    def __init__(self, document: Json, bodies: Mapping[str, Placed]) -> None:
-        self._rules = document["rules"]
-        groups, static = {*document["exempt"]["groups"]}, document["exempt"]["static_pairs"]
+    def __init__(
+        self, exempt: Exempt, rules: Sequence[RuleReport], bodies: Mapping[str, Placed]
+    ) -> None:
+        self._rules = rules
+        groups, static = {*exempt.groups}, exempt.static_pairs
         about = self._about(bodies)
         self._kinds: dict[str, Kind] = {
             id_: (tuple(about[id_]), body.groups & groups, static and body.static)
             for id_, body in bodies.items()
         }
-        self._terms: dict[tuple[Kind, Kind], tuple[Json, dict[str, str]]] = {}
+        self._terms: dict[tuple[Kind, Kind], tuple[Terms, dict[str, str]]] = {}
 
     def _about(self, bodies: Mapping[str, Placed]) -> dict[str, list[tuple[int, bool]]]:
         """id -> the rules that are about the body, each with whether it is on the side a."""
         selected = _Selected(bodies)
         about: dict[str, list[tuple[int, bool]]] = {id_: [] for id_ in bodies}
         for number, rule in enumerate(self._rules):
-            for side in "ab":
-                for id_ in selected.by(rule[side]):
-                    about[id_].append((number, side == "a"))
+            for selector, first in ((rule.a, True), (rule.b, False)):
+                for id_ in selected.by(selector):
+                    about[id_].append((number, first))
         return about
 
     def is_ignored(self, a: Placed, b: Placed) -> bool:
         """Neither asked about nor counted."""
         return _ignored(self._kinds[a.id], self._kinds[b.id])
 
-    def terms(self, a: Placed, b: Placed) -> Json:
+    def terms(self, a: Placed, b: Placed) -> Terms:
         """key -> value, of those that a rule sets for the pair."""
-        return self._of_kinds(self._kinds[a.id], self._kinds[b.id])[0]
+        return self._terms_of(self._kinds[a.id], self._kinds[b.id])[0]
 
     def names(self, a: Placed, b: Placed) -> dict[str, str]:
         """key -> the name of the rule that sets it for the pair."""
-        return self._of_kinds(self._kinds[a.id], self._kinds[b.id])[1]
+        return self._terms_of(self._kinds[a.id], self._kinds[b.id])[1]
 
     def is_exempt(self, a: Placed, b: Placed) -> bool:
         return self.is_ignored(a, b) or self.terms(a, b).get("allowed") is True
@@ -100,32 +103,35 @@ class Rules:
         """Pairs that are counted, and how many of these are allowed."""
         sizes = Counter(self._kinds.values())
         pairs = [(kind, kind, n * (n - 1) // 2) for kind, n in sizes.items()]
-        pairs += [(one, other, sizes[one] * sizes[other]) for one, other in combinations(sizes, 2)]
-        counted = [(one, other, n) for one, other, n in pairs if not _ignored(one, other)]
+        pairs += [
+            (first, second, sizes[first] * sizes[second])
+            for first, second in combinations(sizes, 2)
+        ]
+        counted = [(first, second, n) for first, second, n in pairs if not _ignored(first, second)]
         allowed = sum(
-            n for one, other, n in counted if self._of_kinds(one, other)[0].get("allowed")
+            n for first, second, n in counted if self._terms_of(first, second)[0].get("allowed")
         )
         return sum(n for *_, n in counted), allowed
 
-    def _of_kinds(self, one: Kind, other: Kind) -> tuple[Json, dict[str, str]]:
-        if not one[0] or not other[0]:
+    def _terms_of(self, first: Kind, second: Kind) -> tuple[Terms, dict[str, str]]:
+        if not first[0] or not second[0]:
             return {}, {}
-        if (one, other) not in self._terms:
-            others = set(other[0])
-            terms: Json = {}
+        if (first, second) not in self._terms:
+            others = set(second[0])
+            terms: Terms = {}
             names: dict[str, str] = {}
-            for number, first in one[0]:
-                if (number, not first) in others:
+            for number, is_a in first[0]:
+                if (number, not is_a) in others:
                     rule = self._rules[number]
-                    said = [key for key in KEYS if rule.get(key) is not None]
-                    terms |= {key: rule[key] for key in said}
-                    names |= dict.fromkeys(said, _name(rule))
-            self._terms[one, other] = terms, names
-        return self._terms[one, other]
+                    said = [key for key in KEYS if getattr(rule, key) is not None]
+                    terms |= {key: getattr(rule, key) for key in said}
+                    names |= dict.fromkeys(said, rule.name)
+            self._terms[first, second] = terms, names
+        return self._terms[first, second]
 
 
-def _ignored(one: Kind, other: Kind) -> bool:
-    return bool(one[1] & other[1]) or (one[2] and other[2])
+def _ignored(first: Kind, second: Kind) -> bool:
+    return bool(first[1] & second[1]) or (first[2] and second[2])
 
 
 class _Selected:
@@ -142,23 +148,18 @@ class _Selected:
             True: {_escaped(name): name for name in self._groups},
             False: {_escaped(name): name for name in self._ids},
         }
-        self._found: dict[str, frozenset[str]] = {}
+        self._selected: dict[str, frozenset[str]] = {}
 
     def by(self, selector: str) -> frozenset[str]:
-        if selector not in self._found:
-            of_groups, glob = selector.startswith(GROUP), selector.removeprefix(GROUP)
-            members = self._groups if of_groups else self._ids
-            spelt = self._escaped[of_groups].get(glob, glob)
+        if selector not in self._selected:
+            is_group, glob = selector.startswith(GROUP), selector.removeprefix(GROUP)
+            members = self._groups if is_group else self._ids
+            spelt = self._escaped[is_group].get(glob, glob)
             names = [spelt] if spelt in members else [n for n in members if fnmatchcase(n, glob)]
-            self._found[selector] = frozenset(id_ for name in names for id_ in members[name])
-        return self._found[selector]
+            self._selected[selector] = frozenset(id_ for name in names for id_ in members[name])
+        return self._selected[selector]
 
 
 def _escaped(name: str) -> str:
     text = re.sub(r"[*?\[]", r"[\g<0>]", name)
     return f"[g]{text[1:]}" if text.startswith(GROUP) else text
-
-
-def _name(rule: Json) -> str:
-    """Where it is written, or else which pairs it is about."""
-    return rule.get("where") or f"{rule['a']} and {rule['b']}"

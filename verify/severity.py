@@ -9,15 +9,25 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from math import isqrt
 
+from satcheck.report.report import CROSS_CHECK, OVERLAPS, Finding
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Rejected, dot
-from satcheck.verify.relations import OVERLAPS
 from satcheck.verify.rules import SEVERITIES, Asked
 
 CLEARANCE = "clearance"
-Json = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Proven:
+    """What was proven of an accepted finding besides its relation."""
+
+    depth: bool = False
+    mtv: bool = False
+    distance: bool = False
+    normal: bool = False
+    contacts: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,40 +52,37 @@ class Known:
     rounding: Fraction
 
 
-def check_severity(finding: Json, asked: Asked, known: Known) -> None:
+def check_severity(finding: Finding, asked: Asked, known: Known) -> None:
     """Rejects a severity, a rule or an `undecided` that does not follow."""
-    relation = finding["relation"]
+    relation = finding.relation
     if relation in OVERLAPS:
-        found = _limited(finding, asked, known) if asked.limited else Judgement("error")
+        judgement = _limited(finding, asked, known) if asked.limited else Judgement("error")
     else:
-        found = _apart(finding, asked, known)
-    if found.severity == "error" and asked.severity is not None:
+        judgement = _apart(finding, asked, known)
+    if judgement.severity == "error" and asked.severity is not None:
         severity = "silenced" if asked.severity == "none" else asked.severity
-        found = replace(found, severity=severity, rule=asked.name("severity"))
+        judgement = replace(judgement, severity=severity, rule=asked.name("severity"))
     if _is_disputed(finding):
-        found = replace(
-            found,
-            severity=max(found.severity, "warning", key=SEVERITIES.index),
-            undecided=found.undecided or "cross-check",
+        judgement = replace(
+            judgement,
+            severity=max(judgement.severity, "warning", key=SEVERITIES.index),
+            undecided=judgement.undecided or "cross-check",
         )
-    said = Judgement(finding["severity"], finding["undecided"], finding["rule"])
-    if said != found:
+    said = Judgement(finding.severity, finding.undecided, finding.rule)
+    if said != judgement:
         raise Rejected(
-            f"its severity is {found.severity!r} by the rule {found.rule!r}, "
-            f"and what is undecided {found.undecided!r}"
+            f"its severity is {judgement.severity!r} by the rule {judgement.rule!r}, "
+            f"and what is undecided {judgement.undecided!r}"
         )
 
 
-def _is_disputed(finding: Json) -> bool:
+def _is_disputed(finding: Finding) -> bool:
     """Whether the report says that another library contradicts the relation."""
-    return any(
-        stage["stage"] == "cross-check" and stage["result"] == "disagrees"
-        for stage in finding["plan"]
-    )
+    return any(stage.stage == CROSS_CHECK and stage.result == "disagrees" for stage in finding.plan)
 
 
-def _apart(finding: Json, asked: Asked, known: Known) -> Judgement:
-    relation = finding["relation"]
+def _apart(finding: Finding, asked: Asked, known: Known) -> Judgement:
+    relation = finding.relation
     rule = asked.name("clearance") or CLEARANCE
     if relation == "near":
         return Judgement("error", None, rule)
@@ -103,7 +110,7 @@ class _Limit:
         return self.greatest is not None and self.greatest <= self.most * (1 + rounding)
 
 
-def _limited(finding: Json, asked: Asked, known: Known) -> Judgement:
+def _limited(finding: Finding, asked: Asked, known: Known) -> Judgement:
     limits = list(_limits(finding, asked, known))
     broken = [limit for limit in limits if not limit.is_kept(known.rounding)]
     for limit in broken:
@@ -117,14 +124,14 @@ def _limited(finding: Json, asked: Asked, known: Known) -> Judgement:
     return Judgement("note", None, ", ".join(dict.fromkeys(names)))
 
 
-def _limits(finding: Json, asked: Asked, known: Known) -> Iterator[_Limit]:
+def _limits(finding: Finding, asked: Asked, known: Known) -> Iterator[_Limit]:
     if asked.max_depth is not None:
-        low, high = finding["depth_bounds"] or (None, None)
+        low, high = finding.depth_bounds or (None, None)
         most, proven = Fraction(asked.max_depth), known.depth_at_most
         within = proven is not None and proven <= most * (1 + known.rounding)
         yield _Limit("max_depth", most, _fraction(low), _fraction(high), within)
     if asked.max_volume is not None:
-        volume, error = _fraction(finding["volume"]), _fraction(finding["volume_error"])
+        volume, error = _fraction(finding.volume), _fraction(finding.volume_error)
         least = greatest = None
         if volume is not None and error is not None:
             least, greatest = volume - error, volume + error
@@ -135,21 +142,18 @@ def _fraction(value: float | None) -> Fraction | None:
     return None if value is None else Fraction(value)
 
 
-def proven_depth(finding: Json, depth: bool, mtv: bool) -> Fraction | None:
+def proven_depth(finding: Finding, proven: Proven) -> Fraction | None:
     """An upper bound, world units, of the depth that is certified; None: none is."""
     bounds = []
-    if depth:
-        bounds.append(Fraction(finding["depth"]))
-    if mtv:
-        move = vector(finding["mtv"])
-        squared = dot(move, move)
-        bounds.append(_root_above(squared))
+    if proven.depth and finding.depth is not None:
+        bounds.append(Fraction(finding.depth))
+    if proven.mtv and finding.mtv is not None:
+        move = vector(finding.mtv)
+        bounds.append(_root_above(dot(move, move)))
     return min(bounds, default=None)
 
 
 def _root_above(value: Fraction) -> Fraction:
     """At least the square root, by a relative 2**-50 at most."""
-    from math import isqrt
-
     shift = 200 + max(value.denominator.bit_length(), value.numerator.bit_length())
     return Fraction(isqrt((value.numerator << (2 * shift)) // value.denominator) + 1, 1 << shift)

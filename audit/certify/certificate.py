@@ -40,14 +40,15 @@ from satcheck.report.certificate import (
     SameProof,
     SurfacesProof,
 )
-from satcheck.report.report import OVERLAPS, plain
+from satcheck.report.report import OVERLAPS
 from satcheck.report.values import Vector
 from satcheck.verify import Rejected
 from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector
 from satcheck.verify.figures import rounding_of
-from satcheck.verify.findings import check_finding, depth_at_most, pair_of
+from satcheck.verify.findings import check_finding, depth_at_most
 from satcheck.verify.in_plane import curve_error, reaching
+from satcheck.verify.relations import pair_of
 from satcheck.verify.rules import Asked
 
 SURFACES = SurfacesProof()
@@ -76,7 +77,7 @@ def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
     if isinstance(certificate, NoCertificate):
         return certificate
     try:
-        check_finding(plain(replace(finding, certificate=certificate)), a, b, request)
+        check_finding(replace(finding, certificate=certificate), a, b, request)
     except Rejected as why:
         return NoCertificate(f"what was found does not prove it: {why}")
     return certificate
@@ -95,7 +96,7 @@ class _Maker:
         self.error = curve_error(a, b)
         self.across = None if plane is None else axis_across(plane)
         if self.across is not None:
-            relation = str(self.finding.exact_relation)
+            relation = self.finding.exact_relation
             self.ends = pair_of(a, b, *reaching(relation, a.world, b.world, self.across))
 
     def certificate(self) -> Certificate | NoCertificate:
@@ -276,7 +277,7 @@ class _Maker:
         ends = self._nearest()
         rounding = rounding_of(self.a, self.b)
         try:
-            check_distance(plain(self.finding), {"distance": plain(ends)}, self.placed, rounding)
+            check_distance(self.finding.distance or 0.0, ends, self.placed, rounding)
         except Rejected:
             return None
         return ends

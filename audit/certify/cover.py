@@ -11,10 +11,10 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from msgspec import convert
 from numpy.typing import NDArray
 
 from satcheck.report.certificate import Cover
-from satcheck.report.report import plain
 from satcheck.verify import Rejected
 from satcheck.verify.cover import (
     LEVELS,
@@ -66,7 +66,7 @@ def cover(pair: Pair, depth: Fraction) -> Cover | None:
         tuple(number[leaf] for leaf in search.cubes),
     )
     try:
-        depth_is_at_least(plain(certificate), pair.a, pair.b, depth)
+        depth_is_at_least(certificate, pair.a, pair.b, depth)
     except Rejected:
         return None
     return certificate

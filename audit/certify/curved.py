@@ -35,10 +35,9 @@ from satcheck.report.certificate import (
 from satcheck.report.report import OVERLAPS, Finding
 from satcheck.verify import Rejected
 from satcheck.verify.curved import Curved
-from satcheck.verify.curved_pair import CurvedPair, reach
+from satcheck.verify.curved_pair import CurvedPair, curved_pair_of, reach
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, cross, dot
-from satcheck.verify.findings import curved_pair_of
 from satcheck.verify.roots import sign_of
 from satcheck.verify.world import Exact
 

@@ -12,7 +12,6 @@ import numpy as np
 
 from satcheck.audit.certify.values import exact_number, exact_point, or_unset
 from satcheck.report.certificate import CrossingProof, Ends, ExactVector, OnBody, OverlapProof
-from satcheck.report.report import plain
 from satcheck.verify.boundary import Boundary
 from satcheck.verify.cells import sides_of
 from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, nearest_to_origin, sub
@@ -280,7 +279,7 @@ def crossing(pair: Pair, hint: tuple[int, int] | None) -> CrossingProof | None:
     for s, t in islice(contacts(pair, hint), MOST_CANDIDATES):
         certificate = CrossingProof((s, t))
         try:
-            prove("penetrating", plain(certificate), pair, Fraction(0), Fraction(0))
+            prove("penetrating", certificate, pair, Fraction(0), Fraction(0))
         except Rejected:
             continue
         return certificate

@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from msgspec import ValidationError, convert
 
 from satcheck.audit.certify import overlaps
-from satcheck.report.certificate import Ends
+from satcheck.report.certificate import Ends, Proof
 from satcheck.report.report import plain
+from satcheck.report.values import Relation
 from satcheck.verify.boundary import Boundary
 from satcheck.verify.exact import Rejected, cross, dot, sub
 from satcheck.verify.relations import Pair, prove
@@ -117,10 +119,11 @@ def true_evidence(relation: str, pair: Pair) -> Json | None:
     return {"kind": kind, "both": plain(overlaps.inside_both(pair))}
 
 
-def proves(relation: str, certificate: Json | None, pair: Pair) -> bool:
+def proves(relation: Relation, certificate: Json | None, pair: Pair) -> bool:
     try:
-        prove(relation, certificate, pair, Fraction(0), Fraction(0))
-    except Rejected:
+        proof = convert(certificate, Proof)  # type: ignore[arg-type]
+        prove(relation, proof, pair, Fraction(0), Fraction(0))
+    except (Rejected, ValidationError):
         return False
     return True
 
@@ -134,7 +137,8 @@ def all_evidence(relation: str, a: Pile, b: Pile, pair: Pair) -> Iterator[Json]:
         key: (np.argwhere(cells)[0] - 0.5).tolist() for key, cells in ways.items() if cells.any()
     }
     if relation not in ("touching", "penetrating"):
-        yield {"kind": "same" if relation == "coincident" else "surfaces", **points}
+        both = {"both": points["both"]} if "both" in points else {}
+        yield {"kind": "same" if relation == "coincident" else "surfaces", **both}
         return
     if relation == "penetrating":
         yield {"kind": "overlap", **points}

@@ -10,12 +10,16 @@ from tempfile import mkdtemp
 from typing import Any
 
 import pytest
+from msgspec import convert
+from msgspec.structs import replace
 
 from satcheck.core.conventions import PLANES, Plane
+from satcheck.report.bodies import BodyReport
+from satcheck.report.certificate import CrossingProof, PolytopeProof
 from satcheck.verify.bodies import Bodies
 from satcheck.verify.exact import Rejected
-from satcheck.verify.findings import pair_of
 from satcheck.verify.in_plane import CurveError, curve_error, reaching
+from satcheck.verify.relations import pair_of
 from tests.audit.shapes import bracket, unit_box, write
 from tests.verify.honest import body, document, meshes, placed
 from tests.verify.reports import PAIRS, Json, is_accepted, verified
@@ -96,18 +100,19 @@ def test_convex_outlines_overlap_by_more_than_they_reach_out_of_their_curves(
     (finding,) = made["findings"]
     assert finding["exact_relation"] == "penetrating"
     assert verified(made).findings[0].outcome == "accepted"
-    a, b = Bodies(Path("/")).place_all(made["bodies"], "xy")
+    a, b = Bodies(Path("/")).place_all(convert(made["bodies"], list[BodyReport]), "xy")
     assert a.world is not None
     assert b.world is not None
     pair = pair_of(a, b, *reaching("penetrating", a.world, b.world, 2))
     proof = finding["certificate"]["relation"]
     error = curve_error(a, b)
-    error.check_overlap("penetrating", proof, pair, 2)
-    for forged in (proof | {"kind": "overlap"}, proof | {"faces": proof["faces"][:-1]}):
+    honest = convert(proof, PolytopeProof)
+    error.check_overlap("penetrating", honest, pair, 2)
+    for forged in (CrossingProof((0, 0)), replace(honest, faces=honest.faces[:-1])):
         with pytest.raises(Rejected):
             error.check_overlap("penetrating", forged, pair, 2)
     with pytest.raises(Rejected):
-        CurveError(Fraction(2), Fraction(2)).check_overlap("penetrating", proof, pair, 2)
+        CurveError(Fraction(2), Fraction(2)).check_overlap("penetrating", honest, pair, 2)
 
 
 def test_a_ball_within_a_ball_needs_room(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from satcheck.audit import Settings, check
 from satcheck.audit.request.rule_book import RuleBook, Subject
 from satcheck.core.shapes import Box
+from satcheck.report.report import Exempt, RuleReport
 from satcheck.scene import Body, Rule, Scene, Selector
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify import Rejected
@@ -149,15 +150,9 @@ def test_a_rule_that_is_none_makes_it_no_report(change: Json) -> None:
 def test_the_same_as_the_rules_of_the_solver(seed: int) -> None:
     rules, bodies = random_rules(seed), subjects(seed)
     book = RuleBook(bodies, rules, frozenset("gh"), check_static=False)
-    document = {
-        "exempt": {"groups": ["g", "h"], "static_pairs": True},
-        "rules": [
-            {"a": one.a.text, "b": one.b.text, "allowed": one.allowed, "clearance": one.clearance}
-            for one in rules
-        ],
-    }
+    stated = [stated_rule(each.a.text, each.b.text, each.allowed, each.clearance) for each in rules]
     placed = {one.id: _placed(one) for one in bodies}
-    found = Rules(document, placed)
+    found = Rules(Exempt(("g", "h"), True), stated, placed)
     for i, j in combinations(range(len(bodies)), 2):
         a, b = placed[bodies[i].id], placed[bodies[j].id]
         assert found.is_exempt(a, b) == (not book.is_asked(i, j))
@@ -174,13 +169,17 @@ TEXTS = (*NAMES, "[a]b", "br?", "[b]r[0]", "*x", "[!a]*")
 def test_brackets_read_the_same_as_by_the_solver(text: str) -> None:
     bodies = [Subject(name, (name,)) for name in NAMES]
     book = RuleBook(bodies, [rule(text, "*", allowed=True)], check_static=True)
-    stated = {"a": text, "b": "*", "allowed": True}
+    stated = [stated_rule(text, "*", True)]
     placed = {one.id: _placed(one) for one in bodies}
-    found = Rules({"exempt": {"groups": [], "static_pairs": False}, "rules": [stated]}, placed)
+    found = Rules(Exempt(), stated, placed)
     for i, j in combinations(range(len(bodies)), 2):
         exempt = found.is_exempt(placed[bodies[i].id], placed[bodies[j].id])
         assert exempt == (not book.is_asked(i, j))
     assert book.count()[1] > 0
+
+
+def stated_rule(a: str, b: str, allowed: bool | None, clearance: float | None = None) -> RuleReport:
+    return RuleReport(a, b, allowed, None, None, clearance, None, None, "", "")
 
 
 def _placed(body: Subject) -> Placed:

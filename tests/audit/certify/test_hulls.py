@@ -6,9 +6,11 @@ import math
 from fractions import Fraction
 
 import numpy as np
+from msgspec import convert
 
 from satcheck import core
 from satcheck.audit.certify.hulls import expanded, nearest_point
+from satcheck.report.certificate import Polytope
 from satcheck.verify.exact import dot, lattice
 from satcheck.verify.findings import depth_at_most
 from satcheck.verify.polytope import inner_radius_exceeds
@@ -33,10 +35,7 @@ def test_depth_and_distance_are_those_of_the_core() -> None:
         distance = truth.distance or 0.0
         if found.overlaps:
             overlaps += 1
-            polytope = {
-                "vertices": [list(v) for v in found.vertices],
-                "faces": [list(f) for f in found.faces],
-            }
+            polytope = convert({"vertices": found.vertices, "faces": found.faces}, Polytope)
             # Its nearest face is one of the difference itself: both bounds meet there.
             inner_radius_exceeds(polytope, pair.a, pair.b, Fraction(-distance * (1 - 1e-12)))
             n = tuple(Fraction(c) for c in found.axis)

@@ -1,0 +1,68 @@
+"""One finding of a pair with a curved shape."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from satcheck.report.certificate import Certificate
+from satcheck.report.report import OVERLAPS, Finding
+from satcheck.verify.bodies import Placed
+from satcheck.verify.clearance import keeps_clearance, least_gap
+from satcheck.verify.curved_pair import CurvedPair, curved_pair_of
+from satcheck.verify.distances import spanned
+from satcheck.verify.evidence import axis, given
+from satcheck.verify.exact import Rejected
+from satcheck.verify.figures import EXACT_WIDTH, rounding_of
+from satcheck.verify.rules import Asked
+from satcheck.verify.severity import Known, Proven, check_severity, proven_depth
+from satcheck.verify.way_out import check_mtv
+
+
+def check_curved(
+    finding: Finding,
+    certificate: Certificate,
+    a: Placed,
+    b: Placed,
+    asked: Asked,
+    tolerance: Fraction,
+) -> Proven:
+    """Of two solids, so that neither can hide in the other; their depth is not certified."""
+    pair = curved_pair_of(a, b)
+    relation, exact = finding.relation, finding.exact_relation
+    clearance = Fraction(asked.clearance or 0.0)
+    separated = relation == "separated"
+    beyond, least = (tolerance if separated else Fraction(0)), least_gap(finding, asked)
+    pair.prove(exact, certificate.relation, beyond, least)
+    mtv = check_mtv(finding, certificate, a, b)
+    distance = spanned(finding, rounding_of(a, b), lambda n, length: pair.gap(n, length) >= 0)
+    proven = Proven(False, mtv, distance or exact == "touching", distance or mtv)
+    if relation != exact:
+        band = tolerance * (1 + EXACT_WIDTH)
+        if exact == "separated" and relation in ("touching", "near"):
+            squared, near = pair.squared_gap(given(certificate.gap, "gap")), relation == "near"
+            if not (squared < clearance**2 if near else squared <= band**2):
+                raise Rejected("the points of the gap are further apart than that")
+        elif not (
+            exact in OVERLAPS and relation == "touching" and _in_band(certificate, pair, band)
+        ):
+            raise Rejected(f"{relation!r} does not follow from {exact!r}")
+
+    def keeps(length: Fraction) -> bool | None:
+        return keeps_clearance(
+            finding,
+            length,
+            lambda: pair.squared_gap(given(certificate.gap, "gap")),
+            lambda least: pair.prove_apart(given(certificate.gap, "gap"), least),
+        )
+
+    most = proven_depth(finding, proven)
+    check_severity(finding, asked, Known(most, keeps, EXACT_WIDTH))
+    return proven
+
+
+def _in_band(certificate: Certificate, pair: CurvedPair, band: Fraction) -> bool:
+    """Whether an overlap is no deeper than that, along the axis of the certificate."""
+    proof = given(certificate.band, "band")
+    if pair.gap(axis(given(proof.axis, "axis")), -band) < 0:
+        raise Rejected("the bodies overlap by more than the tolerance")
+    return True

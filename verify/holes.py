@@ -1,0 +1,36 @@
+"""Open surfaces: what may fill their holes, and pieces that may surround the other body."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from satcheck.scene.health import MOST_AROUND
+from satcheck.verify.bodies import Placed
+from satcheck.verify.exact import Rejected
+from satcheck.verify.figures import EXACT_WIDTH
+from satcheck.verify.open_parts import turns_around
+
+
+def check_pieces(a: Placed, b: Placed) -> None:
+    """Rejects bodies that do not meet, of which open pieces of one surround the other."""
+    for outer, inner in ((a, b), (b, a)):
+        if outer.world is None or inner.world is None or outer.pieces is None:
+            continue
+        world, point = outer.world, inner.world.vertices[0]
+        low, high = world.bounds
+        is_within = (low <= point).all() and (point <= high).all()
+        if is_within and abs(turns_around(world.vertices[outer.pieces], point)) > MOST_AROUND:
+            raise Rejected(f"open pieces of {outer.id} surround {inner.id}")
+
+
+def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
+    """Rejects bodies of which one has holes, unless their boxes are farther apart than that: what
+    fills a hole may be there."""
+    if not (a.holed or b.holed) or a.bounds is None or b.bounds is None:
+        return
+    (a_low, a_high), (b_low, b_high) = a.bounds, b.bounds
+    gaps = np.concatenate([b_low - a_high, a_low - b_high])
+    if Fraction(gaps.max()) <= margin * (1 + EXACT_WIDTH):
+        raise Rejected("what fills a hole is not certified, and may be where the other body is")

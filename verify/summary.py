@@ -1,0 +1,82 @@
+"""Whether the summary of a report follows from its findings."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from satcheck.report.report import EFFECTS, Finding, Report
+from satcheck.verify.exact import Rejected
+from satcheck.verify.rules import SEVERITIES, Rules
+
+# Counts of the summary, and what was left undecided of the findings that they count.
+UNDECIDED = (
+    ("surfaces_only", "inside"),
+    ("limits_undecided", "limit"),
+    ("sweeps_undecided", "motion"),
+    ("disputed", "cross-check"),
+)
+
+
+def check_summary(
+    report: Report, findings: Sequence[Finding], rules: Rules, pruned: int, listed_apart: int
+) -> None:
+    """pruned: pairs without a finding whose boxes are apart. listed_apart: pairs with one whose
+    boxes may be apart."""
+    total, allowed = rules.count()
+    relations = Counter(str(finding.relation) for finding in findings)
+    undecided = Counter(finding.undecided for finding in findings)
+    _check_pairs(report, total, allowed, relations["indeterminate"], pruned, listed_apart)
+    relations["separated"] += pruned
+    by_relation = Counter({str(key): n for key, n in report.summary.by_relation.items()})
+    if by_relation != relations:
+        raise Rejected("the summary's counts by relation are not those of the findings")
+    for key, kind in UNDECIDED:
+        if getattr(report.summary, key) != undecided[kind]:  # type: ignore[index]
+            raise Rejected(f"the summary's {key} is not {undecided[kind]}")  # type: ignore[index]
+    _check_effects(report, total)
+    truncated = report.truncated
+    if (0 if truncated is None else truncated.pairs) != pruned:
+        raise Rejected(f"the findings leave out {pruned} pairs")
+    least = SEVERITIES.index(report.settings.fail_on)
+    failed = any(_fails(finding, least) for finding in findings)
+    left_open = undecided.total() > undecided[None] or total == allowed
+    verdict = "fail" if failed else "incomplete" if left_open else "pass"
+    if report.summary.verdict != verdict:
+        raise Rejected(f"the verdict that follows from the findings is {verdict!r}")
+
+
+def _check_pairs(
+    report: Report, total: int, allowed: int, indeterminate: int, pruned: int, listed_apart: int
+) -> None:
+    pairs, bodies = report.summary.pairs, len(report.bodies)
+    expected = {
+        "total": total,
+        "allowed": allowed,
+        "indeterminate": indeterminate,
+        "exempt": bodies * (bodies - 1) // 2 - total,
+    }
+    for key, count in expected.items():
+        stated = getattr(pairs, key)
+        if stated != count:
+            raise Rejected(f"the summary counts {stated!r} pairs as {key}, not {count}")
+    if pairs.pruned != pruned and not (pruned == 0 and pairs.pruned <= listed_apart):
+        raise Rejected("the summary's count of pruned pairs is not that of the boxes apart")
+    if pairs.decided != total - allowed - indeterminate - pairs.pruned:
+        raise Rejected("the summary's counts of pairs do not add up")
+
+
+def _check_effects(report: Report, total: int) -> None:
+    names = Counter(effect.effect for effect in report.effects)
+    expected = set(EFFECTS) if report.motions else set(EFFECTS) - {"sweep"}
+    if names.keys() != expected or names.total() > len(names):
+        raise Rejected("the list of effects has each of them once")
+    for effect in report.effects:
+        if effect.pairs + sum(effect.not_run.values()) != total:
+            raise Rejected(f"the pairs of the effect {effect.effect} are not all pairs")
+
+
+def _fails(finding: Finding, least: int) -> bool:
+    """Whether what is decided, and not what is left open, is as grave as that."""
+    decided = finding.undecided is None or finding.severity == "error"
+    return decided and finding.severity in SEVERITIES[least:]
