@@ -11,7 +11,6 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from msgspec import convert
 from numpy.typing import NDArray
 
 from satcheck.report.certificate import Cover

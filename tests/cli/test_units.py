@@ -122,7 +122,9 @@ def test_what_resolve_writes_is_in_the_same_units(tmp_path: Path) -> None:
     assert [body.get("units") for body in scene["bodies"]] == [None, None, "cm"]
     ran = satcheck(*JSON, "moved.json", cwd=tmp_path)
     assert ran.code == 0
-    sizes = [body["unit_scale"] for body in ran.document["bodies"] if body["unit_scale"] is not None]
+    sizes = [
+        body["unit_scale"] for body in ran.document["bodies"] if body["unit_scale"] is not None
+    ]
     assert sizes == [1000, 10]
 
 
