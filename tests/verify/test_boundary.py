@@ -112,11 +112,13 @@ def pile_pairs() -> Iterator[tuple[Pile, Pile, Pair, int]]:
 
 def true_evidence(relation: str, pair: Pair) -> Json | None:
     if relation == "touching":
-        return {"kind": "surfaces", "contact": plain(overlaps.boundary_contact(pair, None))}
+        contact = overlaps.boundary_contact(pair, None)
+        return {"kind": "surfaces", **({} if contact is None else {"contact": plain(contact)})}
     if relation == "penetrating":
         return plain(overlaps.overlap(pair, None) or overlaps.crossing(pair, None))
     kind = "same" if relation == "coincident" else "surfaces"
-    return {"kind": kind, "both": plain(overlaps.inside_both(pair))}
+    both = overlaps.inside_both(pair)
+    return {"kind": kind, **({} if both is None else {"both": plain(both)})}
 
 
 def proves(relation: Relation, certificate: Json | None, pair: Pair) -> bool:
