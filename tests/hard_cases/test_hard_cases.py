@@ -13,7 +13,7 @@ from tests.hard_cases.families import FAMILIES
 from tests.hard_cases.score import HEAD, Score, row
 from tests.hard_cases.suite import CATEGORIES, all_scores
 
-README = Path(__file__).resolve().parent.parent.parent / "README.md"
+PAGE = Path(__file__).resolve().parents[2] / "bench" / "README.md"
 SHOWN = 20
 
 
@@ -40,13 +40,14 @@ def test_names_are_unique_and_a_seed_fixes_the_cases() -> None:
 
 
 def printed_rows() -> dict[str, list[str]]:
-    """The table of the README by category; the columns of this suite alone."""
-    lines = [re.split(r"\s*\|\s*", line.strip("| ")) for line in README.read_text().splitlines()]
-    return {cells[0]: cells for cells in lines if len(cells) >= len(HEAD) and cells[0] in scores()}
+    """The table of this suite by category; those of other libraries have several counts a cell."""
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    rows = [re.split(r"\s*\|\s*", line.strip("| ")) for line in lines if line.startswith("|")]
+    return {cells[0]: cells for cells in rows if cells[0] in scores() and cells[2].isdigit()}
 
 
 @pytest.mark.parametrize("category", CATEGORIES)
-def test_the_readme_shows_these_figures(category: str) -> None:
+def test_the_page_shows_these_figures(category: str) -> None:
     """The counts are the same; no error is larger than the one printed."""
     printed, measured = printed_rows()[category], row(scores()[category])
     assert printed[1:4] == list(measured[1:4])
