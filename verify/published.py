@@ -19,7 +19,7 @@ Form = TypeVar("Form", Report, Finding)
 
 @dataclass(frozen=True, slots=True)
 class IllFormed:
-    """A finding that is none by the schema, and the first thing that is wrong with it."""
+    """A finding that breaks the schema, and its first error."""
 
     a: str
     b: str

@@ -55,10 +55,7 @@ def resolve(
     Raises SatcheckError: `bad-setting`, `unknown-pin`, and what `check` raises.
     """
     settings = settings or Settings()
-    if max_motion is not None and not (math.isfinite(max_motion) and max_motion > 0):
-        raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
-    if iterations < 0:
-        raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
+    _require_limits(max_motion, iterations)
     scene.require_in_space("resolve moves bodies in space only")
     scene.require_one_unit()
     staying = _staying(scene, pins)
@@ -93,6 +90,13 @@ def resolve(
         left=tuple(left_pairs(report, why)),
         report=report,
     )
+
+
+def _require_limits(max_motion: float | None, iterations: int) -> None:
+    if max_motion is not None and not (math.isfinite(max_motion) and max_motion > 0):
+        raise SatcheckError("bad-setting", f"max_motion must be positive, not {max_motion!r}")
+    if iterations < 0:
+        raise SatcheckError("bad-setting", f"iterations must be 0 or more, not {iterations!r}")
 
 
 def _shortest(

@@ -1,7 +1,7 @@
 // The ladder: each rung settles what it can prove about a pair and leaves the rest to the next.
 //
 // aabb -> obb -> hull -> triangles. A rung that proves the bodies apart by more than was asked about ends the climb.
-// After the triangles comes the touch band, all of it that needs no search. What the rungs found makes the verdict.
+// After the triangles it tests the touch band, as far as that needs no search. Then it draws the verdict.
 #pragma once
 
 #include <vector>
