@@ -59,11 +59,11 @@ class PairQueue(Struct, frozen=True):
             workers = _Workers(threads, stack)
             batches = _batches(pairs, order, threads)
             for batch, climbs in _climbed(pairs, batches, steps, threads):
-                done = workers.do([pairs[k] for k in batch], climbs, steps)
-                for k, one in zip(batch, done, strict=True):
+                results = workers.do([pairs[k] for k in batch], climbs, steps)
+                for k, result in zip(batch, results, strict=True):
                     for body in leaving.get(k, ()):
                         body.release()
-                    yield k, one
+                    yield k, result
 
     def _threads(self, pairs: int) -> int:
         import os

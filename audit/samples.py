@@ -179,9 +179,9 @@ def check_poses(
     samples: list[Sample] = []
     common: dict[Issue, None] = {}
     report: Report | None = None
-    for number, one in enumerate(placed, 1):
-        report = check(one, replace(settings, list_pruned=False), cache=cache)
-        sample, others = _sample(number, report, one.posture)
+    for number, posed_scene in enumerate(placed, 1):
+        report = check(posed_scene, replace(settings, list_pruned=False), cache=cache)
+        sample, others = _sample(number, report, posed_scene.posture)
         samples.append(sample)
         common |= dict.fromkeys(others)
         for finding in sample.findings:

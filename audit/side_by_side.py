@@ -16,10 +16,10 @@ def side_by_side(work: Callable[[T], R], things: Sequence[T], threads: int) -> l
 
     pool = ThreadPoolExecutor(threads)
     try:
-        waiting = [pool.submit(work, thing) for thing in things]
+        futures = [pool.submit(work, thing) for thing in things]
     except RuntimeError:  # can't start new thread
         return list(map(work, things))
     else:
-        return [one.result() for one in waiting]
+        return [future.result() for future in futures]
     finally:
         pool.shutdown(wait=False, cancel_futures=True)

@@ -97,7 +97,7 @@ def suggest(
     ids = [body.id for body in report.bodies]
     asked = [(ids[i], ids[j]) for i, j in cache.book.asked_pairs()]
     unchecked = _unchecked(scene, report, asked)
-    left_out = {(one.a, one.b) for one in unchecked}
+    left_out = {(pair.a, pair.b) for pair in unchecked}
     pairs, may_meet = _suggestions(scene, report, samples, asked, left_out)
     return Suggestions(
         tool=report.tool,
@@ -117,7 +117,7 @@ def _undecided(report: Report, samples: Samples | None) -> tuple[Undecided, ...]
     """As placed, then in the poses."""
     findings = list(report.findings)
     if samples:
-        open_in_poses = {(one.a, one.b) for one in samples.pairs if one.undecided}
+        open_in_poses = {(pair.a, pair.b) for pair in samples.pairs if pair.undecided}
         of_poses = (finding for sample in samples.samples for finding in sample.findings)
         findings += [f for f in of_poses if (f.a, f.b) in open_in_poses]
     first: dict[Names, Undecided] = {}
@@ -156,7 +156,7 @@ def _suggestions(
     suggested: list[Suggestion] = []
     may_meet = set()
     findings = {(f.a, f.b): f for f in report.findings}
-    tallies = {(one.a, one.b): one for one in samples.pairs} if samples else {}
+    tallies = {(tally.a, tally.b): tally for tally in samples.pairs} if samples else {}
     links, adjacent = _links(scene), _adjacent(scene)
     for a, b in asked:
         finding, tally = findings.get((a, b)), tallies.get((a, b))

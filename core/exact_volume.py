@@ -47,23 +47,23 @@ def exact_common_volume(a: Mesh, b: Mesh) -> Fraction | None:
     if max(len(a.triangles), len(b.triangles)) > MOST_TRIANGLES:
         return None
     cells_a, cells_b = _cells(a), _cells(b)
-    pairs = [(one, other) for one in cells_a for other in cells_b if one.meets(other)]
-    pairs = min(pairs, [(other, one) for one, other in pairs], key=_clips)
+    pairs = [(cell, clipper) for cell in cells_a for clipper in cells_b if cell.meets(clipper)]
+    pairs = min(pairs, [(clipper, cell) for cell, clipper in pairs], key=_clips)
     if _clips(pairs) > MOST_CLIPS:
         return None
     total = Fraction(0)
-    for one, other in pairs:
-        common = one.faces
-        for side in other.sides:
+    for cell, clipper in pairs:
+        common = cell.faces
+        for side in clipper.sides:
             common = clipped(common, side)
             if not common:
                 break
-        total += one.sign * other.sign * volume(common)
+        total += cell.sign * clipper.sign * volume(common)
     return total
 
 
 def _clips(pairs: list[tuple[_Cell, _Cell]]) -> int:
-    return sum(len(one.faces) * len(other.sides) for one, other in pairs)
+    return sum(len(cell.faces) * len(clipper.sides) for cell, clipper in pairs)
 
 
 def clipped(solid: Polyhedron, side: HalfSpace) -> Polyhedron:

@@ -32,8 +32,10 @@ PAPER, COPPER, ICE, RED = (255, 255, 255), (196, 128, 84), (120, 170, 214), (214
 def translations() -> list[tuple[float, float, float]]:
     """None, out of the deepest pair of parts, and the translation that satcheck verified."""
     parts = [[core.Hull(np.array(p)) for p in of] for of in (kettle_parts(), snowflake_parts())]
-    found = [core.check_pair(p, q, query="depth") for p in parts[0] for q in parts[1]]
-    deepest = min((p for p in found if p.outcome == "penetrating"), key=lambda p: p.distance or 0.0)
+    results = [core.check_pair(p, q, query="depth") for p in parts[0] for q in parts[1]]
+    deepest = min(
+        (p for p in results if p.outcome == "penetrating"), key=lambda p: p.distance or 0.0
+    )
     (finding,) = check(FILES).findings
     if deepest.normal is None or deepest.distance is None or finding.mtv is None:
         raise AssertionError("the samples overlap")
@@ -49,9 +51,9 @@ def corners(mesh: core.Mesh) -> Floats:
 def colliding(flake: Floats, kettle: core.Mesh) -> list[bool]:
     """Per triangle of the snowflake: does it share more than a touch with the kettle?"""
     solid = core.Surface(kettle, True)
-    one = np.array([[0, 1, 2]], dtype=np.uint32)
+    triangle = np.array([[0, 1, 2]], dtype=np.uint32)
     return [
-        core.mesh_relation(core.Surface(core.Mesh(t, one), False), solid).relation
+        core.mesh_relation(core.Surface(core.Mesh(t, triangle), False), solid).relation
         not in ("separated", "touching")
         for t in flake
     ]

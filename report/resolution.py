@@ -33,7 +33,7 @@ class ResolutionSummary(Value, frozen=True, kw_only=True):
     """verdict: of the check of the moved scene. resolved: everything was checked, and no pair
     fails. incomplete: no pair is known to fail, but not everything could be checked.
 
-    found: pairs that did not pass a check before: they overlapped beyond what rules allow, were
+    conflicts: pairs that did not pass a check before: they overlapped beyond what rules allow, were
     closer than their clearance (gaps), or met a hole that leaves open whether they overlap (open).
     remaining: pairs of the moved scene that do not pass. flush: pairs that overlap by no more than
     the tolerance, which counts as touching. moved, pinned: bodies. total_motion: the sum of the
@@ -41,7 +41,7 @@ class ResolutionSummary(Value, frozen=True, kw_only=True):
     """
 
     verdict: ResolutionVerdict
-    found: Count
+    conflicts: Count
     gaps: Count
     open: Count
     remaining: Count

@@ -47,13 +47,13 @@ class Boundary:
         if not any(normal):
             return []
         others = [body.corners(u) for u in own_partners(body, [t]).get(t, [])]
-        found: list[Piece] = []
+        pieces: list[Piece] = []
         for cell in cells_of(corners, normal, others):
             _, [(front, back)] = look(corners, normal, cell, [body])
             if not (front and back):
                 polygon = [in_space(corners, p) for p in cell]
-                found += [(polygon[0], p, q) for p, q in pairwise(polygon[1:])]
-        return found
+                pieces += [(polygon[0], p, q) for p, q in pairwise(polygon[1:])]
+        return pieces
 
     def holds(self, p: Point) -> bool:
         """p: on the lattice of the body."""

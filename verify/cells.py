@@ -84,10 +84,10 @@ def _point(p: Vector) -> Point:
 
 
 def _winding(solid: Exact, p: Point) -> int:
-    found = solid.winding(p)
-    if found is None:
+    number = solid.winding(p)
+    if number is None:
         raise Rejected("a point that should be off a surface lies on it")
-    return found
+    return number
 
 
 def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
@@ -107,13 +107,13 @@ def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
 
 def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
     """Triangles of A itself that meet those of the index. None where A has no inside."""
-    found: dict[int, list[int]] = {}
+    partners: dict[int, list[int]] = {}
     if not a.world.solid or not index:
-        return found
+        return partners
     for s, t in meeting(a.part(index), a):
         if index[s] != t:
-            found.setdefault(index[s], []).append(t)
-    return found
+            partners.setdefault(index[s], []).append(t)
+    return partners
 
 
 def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set[int]:
@@ -122,7 +122,7 @@ def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set
     triangles = sorted({pair[side] for pair in contacts})
     if not body.world.solid:
         return set(triangles)
-    found = set()
+    sheets = set()
     for t, own in _with_own_partners(body, triangles):
         corners = body.corners(t)
         normal = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0]))
@@ -131,9 +131,9 @@ def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set
         for cell in cells_of(corners, normal, [body.corners(u) for u in own]):
             _, [sides] = look(corners, normal, cell, [body])
             if sides == (False, False):
-                found.add(t)
+                sheets.add(t)
                 break
-    return found
+    return sheets
 
 
 def _with_own_partners(a: Exact, chosen: list[int]) -> Iterator[tuple[int, list[int]]]:
@@ -263,7 +263,7 @@ def look(
         )
         point = in_space(corners, (s, r))
         seen = [e.beside(point, normal) if e.world.solid else (0, 0) for e in bodies]
-        found = [(both[0] != 0, both[1] != 0) for both in seen if both is not None]
-        if len(found) == len(seen):
-            return point, found
+        sides = [(both[0] != 0, both[1] != 0) for both in seen if both is not None]
+        if len(sides) == len(seen):
+            return point, sides
     raise Rejected("every point tried of a piece of the contact lies on another triangle")

@@ -101,14 +101,14 @@ def half_spaces(s: Corners, t: Corners) -> list[HalfSpace]:
     faces = [cross(e[0], e[1]) for e in edges]
     if not any(cross(*faces)):
         raise Rejected("two parallel triangles show no overlap")
-    found = []
+    bounds = []
     for n in (*faces, *(cross(e, f) for e in edges[0] for f in edges[1])):
         if not any(n):
             continue
         on_s, on_t = [dot(n, p) for p in s], [dot(n, p) for p in t]
-        found.append((n, max(on_t) - min(on_s)))
-        found.append(((-n[0], -n[1], -n[2]), max(on_s) - min(on_t)))
-    return found
+        bounds.append((n, max(on_t) - min(on_s)))
+        bounds.append(((-n[0], -n[1], -n[2]), max(on_s) - min(on_t)))
+    return bounds
 
 
 def not_plain(body: Exact, triangles: list[int]) -> list[int]:

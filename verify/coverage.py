@@ -115,13 +115,13 @@ def uncovered(document: dict[str, Any], left: Iterable[str]) -> tuple[Uncovered,
     counts: dict[str, int] = {}
     for field in left:
         counts[field] = counts.get(field, 0) + 1
-    found = []
+    fields = []
     for field, cover in COVERAGE.items():
         if cover.kind == "certified" and field in counts:
-            found.append(Uncovered(field, cover.kind, cover.called, counts[field]))
+            fields.append(Uncovered(field, cover.kind, cover.called, counts[field]))
         elif cover.kind in ("stated", "not covered") and any(_values(document, field)):
-            found.append(Uncovered(field, cover.kind, cover.called))
-    return tuple(found)
+            fields.append(Uncovered(field, cover.kind, cover.called))
+    return tuple(fields)
 
 
 def _says_something(value: Any) -> bool:

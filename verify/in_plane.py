@@ -72,9 +72,9 @@ class CurveError:
         if not (self._sticks_out(a, b, across) and self._sticks_out(b, a, across)):
             raise Rejected("one body may hold the other, by what its curve is off its polygon")
 
-    def _sticks_out(self, one: World, other: World, across: int) -> bool:
+    def _sticks_out(self, world: World, other: World, across: int) -> bool:
         """By their boxes."""
-        (low, high), (least, most) = one.bounds, other.bounds
+        (low, high), (least, most) = world.bounds, other.bounds
         steps = ((least[k], low[k], high[k], most[k]) for k in range(3) if k != across)
         return any(
             max(Fraction(p) - Fraction(q), Fraction(r) - Fraction(s)) > self.closer

@@ -89,14 +89,14 @@ def _count(pages: list[tuple[Any, bool]], line: Any) -> int:
     def half(w: Any) -> bool:
         return (dot(w, north), dot(w, east)) < (0, 0)
 
-    def order(one: tuple[Any, bool], other: tuple[Any, bool]) -> int:
-        u, v = one[0], other[0]
+    def order(page: tuple[Any, bool], other: tuple[Any, bool]) -> int:
+        u, v = page[0], other[0]
         if half(u) != half(v):
             return -1 if half(v) else 1
         return -sign(dot(cross(u, v), line))
 
     turned = sorted(pages, key=cmp_to_key(order))
-    for one, other in pairwise(turned):
-        if one[1] != other[1] and order(one, other) == 0:
+    for page, following in pairwise(turned):
+        if page[1] != following[1] and order(page, following) == 0:
             raise Rejected("two open surfaces lie in each other")
     return sum(turned[k - 1][1] != turned[k][1] for k in range(len(turned)))

@@ -174,7 +174,7 @@ def half_spaces(t: Corners) -> list[HalfSpace]:
     point that it is."""
     n = _normal(t)
     if any(n):
-        found = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
+        normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]
         anchors = [t[0], t[0], *t]
     else:
         spans = [(p, q) for p in t for q in t if p != q]
@@ -182,9 +182,9 @@ def half_spaces(t: Corners) -> list[HalfSpace]:
         along = sub(q, p)
         units = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
         across = [cross(along, u) for u in units] if any(along) else units
-        found = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
-        anchors = [q] + [p] * (len(found) - 1)
-    return [(v, dot(v, anchor)) for v, anchor in zip(found, anchors, strict=True)]
+        normals = [along, _negated(along)] + [v for u in across for v in (u, _negated(u))]
+        anchors = [q] + [p] * (len(normals) - 1)
+    return [(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
 
 
 def _negated(v: Vector) -> Vector:

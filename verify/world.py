@@ -242,17 +242,17 @@ class Exact:
 
     def winding(self, p: Point) -> int | None:
         """How often the surface runs around p; None where p lies on it."""
-        found = self.ray(p, 0, None)
-        return None if found is None else found[0]
+        crossings = self.ray(p, 0, None)
+        return None if crossings is None else crossings[0]
 
     def beside(self, p: Point, normal: Vector) -> tuple[int, int] | None:
         """Winding numbers in front of and behind a point of a plane, next to it; None where p also
         lies on a triangle of another plane."""
         axis = max(range(3), key=lambda k: abs(normal[k]))
-        found = self.ray(p, axis, normal)
-        if found is None:
+        crossings = self.ray(p, axis, normal)
+        if crossings is None:
             return None
-        ahead, flush = found
+        ahead, flush = crossings
         return (ahead, ahead + flush) if normal[axis] > 0 else (ahead + flush, ahead)
 
     def ray(self, p: Point, axis: int, plane: Vector | None) -> tuple[int, int] | None:
@@ -334,9 +334,9 @@ def count_by_triangle(
     vertices: Floats, triangles: Indices, wound: bool
 ) -> Counter[tuple[tuple[float, ...], ...]]:
     """The triangles by coordinates, from their least corner on; not wound: sorted."""
-    found: Counter[tuple[tuple[float, ...], ...]] = Counter()
+    count: Counter[tuple[tuple[float, ...], ...]] = Counter()
     for corners in vertices[triangles].tolist():
         points = [tuple(c) for c in corners]
         first = points.index(min(points))
-        found[(*points[first:], *points[:first]) if wound else tuple(sorted(points))] += 1
-    return found
+        count[(*points[first:], *points[:first]) if wound else tuple(sorted(points))] += 1
+    return count

@@ -230,10 +230,8 @@ class PlacedBody:
             return 1.0
         columns = [[transform[4 * row + axis] for row in range(3)] for axis in range(3)]
         rows = [
-            math.fsum(
-                abs(math.fsum(p * q for p, q in zip(one, other, strict=True))) for other in columns
-            )
-            for one in columns
+            math.fsum(abs(math.fsum(p * q for p, q in zip(u, v, strict=True))) for v in columns)
+            for u in columns
         ]
         return math.sqrt(max(rows)) * (1 + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF)
 

@@ -26,10 +26,12 @@ class Movers:
 
     def paths(self, a: str, b: str) -> Paths | None:
         """None where neither moves against the other: both stand, or move as one."""
-        one, other = self._motion.get(a), self._motion.get(b)
-        if one is other:
+        motion_a, motion_b = self._motion.get(a), self._motion.get(b)
+        if motion_a is motion_b:
             return None
-        return Paths(None if one is None else one.path, None if other is None else other.path)
+        return Paths(
+            None if motion_a is None else motion_a.path, None if motion_b is None else motion_b.path
+        )
 
     def bounds(self, body: str, placed: Box) -> Box:
         """The world box of a body over its whole motion, the placement included."""
@@ -40,10 +42,14 @@ class Movers:
         """The motions as a report states them."""
         return tuple(
             convert(
-                {"kind": KINDS[type(one.path)], "bodies": one.bodies, **to_builtins(one.path)},
+                {
+                    "kind": KINDS[type(motion.path)],
+                    "bodies": motion.bodies,
+                    **to_builtins(motion.path),
+                },
                 StatedMotion,
             )
-            for one in self._motions
+            for motion in self._motions
         )
 
     def issues(self, bodies: Sequence[str]) -> list[Issue]:

@@ -160,13 +160,13 @@ class MovingPair:
         offset: Vector = ORIGIN,
         **bounds: float,
     ) -> core.MotionAnswer:
-        one = self._side(self.pair.a, self.track_a, t, offset)
-        other = self._side(self.pair.b, self.track_b, t, ORIGIN)
+        first = self._side(self.pair.a, self.track_a, t, offset)
+        second = self._side(self.pair.b, self.track_b, t, ORIGIN)
         if self.pair.b.curved is not None:  # the shape comes first
-            one, other = other, one
+            first, second = second, first
         self._count()
         work, slack = VISITS - self.visits, self._slack(t)
-        result = ask(*one, *other, pad=self.pad, slack=slack, work=work, **bounds)
+        result = ask(*first, *second, pad=self.pad, slack=slack, work=work, **bounds)
         self.visits += result.visits
         return result
 

@@ -85,8 +85,8 @@ class FreePlaces:
         if self._extents is None:
             along = [body.mesh.vertices @ AXES.T for body in self._bodies]
             self._extents = (
-                np.stack([one.min(axis=0) for one in along]),
-                np.stack([one.max(axis=0) for one in along]),
+                np.stack([projections.min(axis=0) for projections in along]),
+                np.stack([projections.max(axis=0) for projections in along]),
             )
         return self._extents
 

@@ -186,11 +186,11 @@ class Layout:
         strict = self.pair(pair)
         if at_home or pair in self._excused:
             request = self._planner.request(*self._members(pair))
-            found = examine(replace(strict, request=request), Trace()).finding
-            objected = is_objected(found, self.settings.fail_on)
-            if not objected and found.relation != "indeterminate":
-                return PairState("free", excused=is_overlap_excused(found))
-            return state_of(strict, found)
+            finding = examine(replace(strict, request=request), Trace()).finding
+            objected = is_objected(finding, self.settings.fail_on)
+            if not objected and finding.relation != "indeterminate":
+                return PairState("free", excused=is_overlap_excused(finding))
+            return state_of(strict, finding)
         return state_of(strict, examine(strict, Trace()).finding)
 
 

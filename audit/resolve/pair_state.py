@@ -82,9 +82,9 @@ def separation(pair: Pair) -> tuple[Vector, float] | None:
     much for small translations only. Of an overlap within limits it is the way out, and the gap is
     the depth, negative.
     """
-    found = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
-    if found.outcome in ("separated", "touching") and found.normal is not None:
-        return scaled(found.normal, -1.0), max(found.lower or 0.0, 0.0)
+    distance = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
+    if distance.outcome in ("separated", "touching") and distance.normal is not None:
+        return scaled(distance.normal, -1.0), max(distance.lower or 0.0, 0.0)
     if pair.request.limited:
         way = examine(pair, Trace()).finding.mtv
         if way is not None and any(way):
@@ -116,9 +116,9 @@ def parting_step(pair: Pair, length: float) -> Vector | None:
 
 def out_of_hull(pair: Pair) -> Vector:
     """The shortest translation of A that parts the hulls and leaves the clearance between them."""
-    found = way_out_of_hulls(pair)
+    way = way_out_of_hulls(pair)
     more = (pair.request.clearance or 0.0) + rounding_pad(pair.largest_coordinate)
-    return scaled(found.normal, -(found.upper + more))
+    return scaled(way.normal, -(way.upper + more))
 
 
 def way_outside(pair: Pair) -> Vector | None:

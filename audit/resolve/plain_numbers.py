@@ -42,7 +42,7 @@ def _plainer(layout: Layout, i: int) -> list[Vector]:
     """Translations that end at shorter numbers, those with the fewest digits first."""
     offset, body = layout.offsets[i], layout.home[i].body
     start = (0.0, 0.0, 0.0) if body.transform is None else body.transform[3:12:4]
-    found: list[Vector] = []
+    translations: list[Vector] = []
     for digits in DIGITS:
         grain = _grain(layout, i, digits)
         decimals = -round(math.log10(grain))
@@ -51,9 +51,9 @@ def _plainer(layout: Layout, i: int) -> list[Vector]:
                 _rounded(at, way, decimals, away * math.copysign(grain, way))
                 for at, way in zip(start, offset, strict=True)
             )
-            if (x, y, z) != offset and (x, y, z) not in found:
-                found.append((x, y, z))
-    return found
+            if (x, y, z) != offset and (x, y, z) not in translations:
+                translations.append((x, y, z))
+    return translations
 
 
 def _grain(layout: Layout, i: int, digits: int) -> float:

@@ -53,12 +53,12 @@ def pull_back(layout: Layout, left: Collection[BodyPair], longest: float) -> Non
 def walled(layout: Layout, pair: BodyPair) -> Wall | None:
     """The wall between two bodies where they are, as far off as they may come closer or overlap;
     None where no direction is known."""
-    asked = layout.pair(pair)
-    found = separation(asked)
-    if found is None:
+    placed = layout.pair(pair)
+    apart = separation(placed)
+    if apart is None:
         return _wall_of_contact(layout, pair) if layout.careful else None
-    normal, gap = found
-    room = max(0.0, gap - layout.clearance(pair) + may_overlap(asked))
+    normal, gap = apart
+    room = max(0.0, gap - layout.clearance(pair) + may_overlap(placed))
     return Wall(*pair, normal, dot(normal, layout.offset(pair)) - room)
 
 
@@ -73,10 +73,10 @@ def _wall_of_contact(layout: Layout, pair: BodyPair) -> Wall | None:
     if way is not None and any(way):
         normal, gap = unit(way), -math.hypot(*way)
     else:
-        found = separation(back)
-        if found is None:
+        apart = separation(back)
+        if apart is None:
             return None
-        normal, gap = found
+        normal, gap = apart
     along = dot(normal, there)
     return Wall(*pair, normal, min(along, along * (1 - STEP_BACK) - gap))
 
@@ -129,15 +129,15 @@ def _groups(layout: Layout, left: Collection[BodyPair], longest: float) -> list[
     """Where the bodies would go, those together that share walls, and that it is worth it for."""
     walls, held = _walls(layout, left)
     free = layout.movable - held.keys()
-    found: list[Offsets] = []
+    goals: list[Offsets] = []
     for group in connected(walls, free):
         moved = least_motion(group, held)
         if not moved.broken:
-            found.append(moved.offsets)
+            goals.append(moved.offsets)
     walled_in = {body for wall in walls for body in (wall.a, wall.b)}
-    found += [{body: ORIGIN} for body in sorted(free - walled_in)]
-    found = [_within(longest, layout, group) for group in found]
-    return [group for group in found if _is_worth_it(layout, group)]
+    goals += [{body: ORIGIN} for body in sorted(free - walled_in)]
+    goals = [_within(longest, layout, group) for group in goals]
+    return [group for group in goals if _is_worth_it(layout, group)]
 
 
 def _within(longest: float, layout: Layout, group: Offsets) -> Offsets:

@@ -54,7 +54,7 @@ class Resolution(Struct, frozen=True):
         return _VERDICTS[self.report.summary.verdict]
 
     @property
-    def found(self) -> int:
+    def conflicts(self) -> int:
         return self.overlaps + self.gaps + self.open
 
     @property
@@ -101,7 +101,7 @@ class Resolution(Struct, frozen=True):
     def _summary(self) -> ResolutionSummary:
         return ResolutionSummary(
             verdict=self.verdict,
-            found=self.found,
+            conflicts=self.conflicts,
             gaps=self.gaps,
             open=self.open,
             remaining=len(self.remaining),
@@ -127,25 +127,25 @@ def reasons(
     given_up: dict[BodyPair, str],
 ) -> dict[frozenset[str], str]:
     """Why pairs are left, including those that no check fails on as they are placed."""
-    found = {}
+    why = {}
     for pair, state in layout.states(layout.close_pairs()).items():
         ids = frozenset(layout.home[i].id for i in pair)
         if state.kind == "free":
-            found[ids] = ONLY_MOVING
+            why[ids] = ONLY_MOVING
         elif ids <= links:
-            found[ids] = LINKS_STAY
+            why[ids] = LINKS_STAY
         elif ids <= staying:
-            found[ids] = BOTH_STAY
+            why[ids] = BOTH_STAY
         else:
-            found[ids] = given_up.get(pair, NO_WAY)
-    return found
+            why[ids] = given_up.get(pair, NO_WAY)
+    return why
 
 
-def left_pairs(report: Report, known: dict[frozenset[str], str]) -> Iterator[Left]:
+def left_pairs(report: Report, why_left: dict[frozenset[str], str]) -> Iterator[Left]:
     for finding in objected(report):
         motion = finding.motion
         far = NO_WAY if motion is None else ONLY_MOVING
-        why, relation = known.get(frozenset((finding.a, finding.b)), far), finding.at_rest
+        why, relation = why_left.get(frozenset((finding.a, finding.b)), far), finding.at_rest
         if why == ONLY_MOVING and motion is not None:
             relation = motion.relation
         yield Left(finding.a, finding.b, relation, why)

@@ -64,8 +64,8 @@ def _groups(layout: Layout, overlaps: Iterable[BodyPair]) -> list[frozenset[int]
         if i in moved and j in moved and group[i] is not group[j]:
             group[i] |= group[j]
             group.update(dict.fromkeys(group[j], group[i]))
-    found = {min(members): frozenset(members) for members in group.values()}
-    return sorted(found.values(), key=lambda one: (-layout.squares(one), min(one)))
+    distinct = {min(members): frozenset(members) for members in group.values()}
+    return sorted(distinct.values(), key=lambda group: (-layout.squares(group), min(group)))
 
 
 def _start_with(
@@ -138,7 +138,7 @@ def _around(layout: Layout, i: int, longest: float) -> list[PlacedBody] | None:
     """The bodies that it may meet within its longest way; None: not all of them are solid meshes
     that it only has to leave."""
     home = layout.home[i]
-    found = []
+    near = []
     for j, other in enumerate(layout.placed):
         if j == i or not layout.is_asked((i, j)):
             continue
@@ -146,10 +146,10 @@ def _around(layout: Layout, i: int, longest: float) -> list[PlacedBody] | None:
             continue
         if layout.clearance((i, j)) or layout.is_limited((i, j)):
             return None
-        found.append(other)
-    solid = all(body.solid and body.curved is None for body in (home, *found))
-    few = sum(body.mesh.triangle_count for body in found) <= MOST_TRIANGLES
-    return found if solid and few else None
+        near.append(other)
+    solid = all(body.solid and body.curved is None for body in (home, *near))
+    few = sum(body.mesh.triangle_count for body in near) <= MOST_TRIANGLES
+    return near if solid and few else None
 
 
 def _as_one(bodies: list[PlacedBody]) -> core.Surface:

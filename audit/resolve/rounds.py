@@ -92,15 +92,15 @@ class Rounds:
     def overlaps(self) -> dict[BodyPair, PairState]:
         """Pairs of which one body at least can be moved, in a fixed order."""
         layout = self._layout
-        found = layout.states(
+        states = layout.states(
             [
                 pair
                 for pair in layout.close_pairs()
                 if pair not in self.left and not layout.movable.isdisjoint(pair)
             ]
         )
-        asking = ("overlap", "near", "open")
-        return {pair: state for pair, state in found.items() if state.kind in asking}
+        unresolved = ("overlap", "near", "open")
+        return {pair: state for pair, state in states.items() if state.kind in unresolved}
 
     def _push_apart(self, overlaps: dict[BodyPair, PairState]) -> None:
         stuck = [pair for pair, state in overlaps.items() if not self._add_wall(pair, state)]
@@ -128,16 +128,16 @@ class Rounds:
         for group in connected(self.walls, layout.movable):
             bodies = {body for wall in group for body in (wall.a, wall.b)}
             held = {body: layout.offsets[body] for body in bodies - layout.movable}
-            found = least_motion(group, held)
-            blamed = found.broken or self._too_hard(group, found.offsets)
+            solution = least_motion(group, held)
+            blamed = solution.broken or self._too_hard(group, solution.offsets)
             if blamed:
                 conflicts.append(list(blamed))
                 for wall in group:
                     wall.multiplier = 0.0
-                for body in found.offsets:
+                for body in solution.offsets:
                     del offsets[body]
             else:
-                offsets.update(found.offsets)
+                offsets.update(solution.offsets)
         layout.move(offsets)
         return conflicts
 
@@ -205,15 +205,15 @@ class Rounds:
             self._layout.offset(pair),
             self._size(pair),
         )
-        asked = layout.pair(pair)
-        if asked.request.limited or asked.request.clearance or self._repairs[pair] > REPAIRS:
+        placed = layout.pair(pair)
+        if placed.request.limited or placed.request.clearance or self._repairs[pair] > REPAIRS:
             return False
         if any(wall.slack(there) < -ROUNDING_SHARE * size for wall in walls):
             return False
         steps = [rounding_pad(size) * REPAIR_GROWTH**k for k in range(ROUNDING_STEPS)]
         for wall in reversed(walls):
-            if _is_free_after(asked, wall.normal, steps[-1]):
-                least = next(s for s in steps if _is_free_after(asked, wall.normal, s))
+            if _is_free_after(placed, wall.normal, steps[-1]):
+                least = next(s for s in steps if _is_free_after(placed, wall.normal, s))
                 wall.least += least * REPAIR_GROWTH ** self._repairs[pair]
                 self._repairs[pair] += 1
                 return True
@@ -242,7 +242,7 @@ class Rounds:
         ways = [(way, i) for i in bodies if (way := self._free_place(i)) is not None]
         if not ways:
             return ()
-        way, i = min(ways, key=lambda found: math.hypot(*found[0]))
+        way, i = min(ways, key=lambda candidate: math.hypot(*candidate[0]))
         self.put(i, way)
         return (i,)
 

@@ -56,7 +56,7 @@ def least_motion(walls: Sequence[Wall], held: Mapping[int, Vector]) -> Motion:
         dot(wall.normal, added(held.get(wall.a, ORIGIN), scaled(held.get(wall.b, ORIGIN), -1.0)))
         for wall in walls
     ]
-    found, multipliers = core.least_motion(
+    translations, multipliers = core.least_motion(
         [body not in held for body in bodies],
         [(place[wall.a], place[wall.b]) for wall in walls],
         [wall.normal for wall in walls],
@@ -66,7 +66,9 @@ def least_motion(walls: Sequence[Wall], held: Mapping[int, Vector]) -> Motion:
     for wall, multiplier in zip(walls, multipliers, strict=True):
         wall.multiplier = multiplier
     unit = max((abs(wall.least) for wall in walls), default=0.0)
-    at = {body: held.get(body) or _clean(found[place[body]], NOISE * unit) for body in bodies}
+    at = {
+        body: held.get(body) or _clean(translations[place[body]], NOISE * unit) for body in bodies
+    }
     missed = [(wall.slack(added(at[wall.a], scaled(at[wall.b], -1.0))), wall) for wall in walls]
     missed.sort(key=lambda entry: entry[0])
     return Motion(
@@ -94,7 +96,7 @@ def connected(walls: Sequence[Wall], movable: Collection[int]) -> list[list[Wall
     for wall in walls:
         if wall.a in parent and wall.b in parent:
             parent[root(wall.b)] = root(wall.a)
-    found: dict[int, list[Wall]] = {}
+    components: dict[int, list[Wall]] = {}
     for wall in walls:
-        found.setdefault(root(wall.a if wall.a in parent else wall.b), []).append(wall)
-    return list(found.values())
+        components.setdefault(root(wall.a if wall.a in parent else wall.b), []).append(wall)
+    return list(components.values())

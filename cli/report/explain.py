@@ -38,10 +38,14 @@ def explanation(
 
 def _effects(effects: Sequence[EffectReport], *, timings: bool) -> Table:
     table = _grid(columns=4 if timings else 3)
-    for one in effects:
-        cost = [duration(one.microseconds) if one.pairs else ""] if timings else []
+    for effect in effects:
+        cost = [duration(effect.microseconds) if effect.pairs else ""] if timings else []
         table.add_row(
-            "", Text(one.effect, style="bold"), counted(one.pairs, "pair"), *cost, _who(one)
+            "",
+            Text(effect.effect, style="bold"),
+            counted(effect.pairs, "pair"),
+            *cost,
+            _who(effect),
         )
     return table
 

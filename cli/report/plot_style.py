@@ -113,8 +113,8 @@ class Labels:
             at = axes.transData.transform(marker)
             self._taken.append(Bbox([at - _CLEARANCE, at + _CLEARANCE]))
 
-    def keep_clear_of_line(self, one: Point, other: Point) -> None:
-        ends = self._axes.transData.transform([one, other])
+    def keep_clear_of_line(self, start: Point, end: Point) -> None:
+        ends = self._axes.transData.transform([start, end])
         for k in range(_PIECES):
             piece = [ends[0] + (ends[1] - ends[0]) * share / _PIECES for share in (k, k + 1)]
             low, high = np.minimum(*piece), np.maximum(*piece)
@@ -134,10 +134,10 @@ class Labels:
         self._cost(label, *best)
         self._taken.append(label.get_window_extent())
 
-    def _between(self, one: Point, other: Point) -> Point:
-        middle = self._axes.transData.transform([one, other]).mean(axis=0)
+    def _between(self, left: Point, right: Point) -> Point:
+        middle = self._axes.transData.transform([left, right]).mean(axis=0)
         x, _ = self._axes.transData.inverted().transform(middle)
-        return float(x), one[1]
+        return float(x), left[1]
 
     def _cost(
         self, label: Annotation, at: Point, dx: float, dy: float, across: str, up: str
@@ -153,7 +153,7 @@ class Labels:
         inside = Bbox.intersection(box, frame)
         outside = _area(box) - (0.0 if inside is None else _area(inside))
         covered = (Bbox.intersection(box, other) for other in self._taken)
-        return outside + sum(_area(one) for one in covered if one is not None)
+        return outside + sum(_area(overlap) for overlap in covered if overlap is not None)
 
 
 def _area(box: Bbox) -> float:

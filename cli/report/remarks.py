@@ -117,7 +117,7 @@ def _moving(finding: Finding, unit: str | None) -> list[str]:
         return [f"{pair}, while they move: {swept.reason}"]
     if swept.worst is None or swept.worst.depth is None:
         return []
-    where = ", ".join(place(one, unit) for one in swept.worst.at)
+    where = ", ".join(place(at, unit) for at in swept.worst.at)
     deep = with_unit(bounds(*swept.worst.depth), unit)
     return [f"{pair}, while they move: deepest at {where}, {deep}"]
 

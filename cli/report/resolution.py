@@ -25,23 +25,23 @@ if TYPE_CHECKING:
 ROWS = 60
 
 
-def render(found: Resolution, page: Page, output: str | None) -> str:
+def render(resolution: Resolution, page: Page, output: str | None) -> str:
     """The whole text, final newline included. output: the file that the scene was written to."""
     console = Canvas(page)
-    shown = _shown(found.moves)
+    shown = _shown(resolution.moves)
     if shown:
         console.print(_moves(shown, unicode=page.unicode))
-    if rest := len(found.moves) - len(shown):
+    if rest := len(resolution.moves) - len(shown):
         console.print(f"{counted(rest, 'more body', 'more bodies')} moved by less")
-    for one in found.left:
-        console.print(_left_line(one))
-    console.print(_motion_line(found))
-    if found.flush:
+    for left in resolution.left:
+        console.print(_left_line(left))
+    console.print(_motion_line(resolution))
+    if resolution.flush:
         console.print(
-            f"{counted(found.flush, 'pair')} within the tolerance: they count as touching."
+            f"{counted(resolution.flush, 'pair')} within the tolerance: they count as touching."
         )
     subject = "The moved scene" if output is None else output
-    console.print(f"{subject}, checked: {summary_line(found.report, offers_depth=False)}")
+    console.print(f"{subject}, checked: {summary_line(resolution.report, offers_depth=False)}")
     return console.text()
 
 
@@ -78,31 +78,35 @@ _RELATIONS = {
 }
 
 
-def _found(found: Resolution) -> str:
+def _conflicts(resolution: Resolution) -> str:
     """`2 overlaps, 3 gaps below their clearance, 1 pair left open by a hole`."""
     kinds = {
-        counted(found.overlaps, "overlap"): found.overlaps,
-        counted(found.gaps, "gap below its clearance", "gaps below their clearance"): found.gaps,
-        counted(found.open, "pair") + " left open by a hole": found.open,
+        counted(resolution.overlaps, "overlap"): resolution.overlaps,
+        counted(
+            resolution.gaps, "gap below its clearance", "gaps below their clearance"
+        ): resolution.gaps,
+        counted(resolution.open, "pair") + " left open by a hole": resolution.open,
     }
     return ", ".join(text for text, count in kinds.items() if count)
 
 
-def _motion_line(found: Resolution) -> str:
+def _motion_line(resolution: Resolution) -> str:
     """`2 overlaps: 3 bodies moved by 1.25 mm in total, at most 0.75 mm, in 2 rounds; 1 stays.`"""
-    unit = unit_of(found.report.units)
+    unit = unit_of(resolution.report.units)
     unit = f" {unit}" if unit else ""
     stays = ""
-    if count := len(found.pinned):
+    if count := len(resolution.pinned):
         stays = f" {counted(count, 'body', 'bodies')} had to stay."
-    if not found.found:
-        apart = "as the bodies are placed" if found.report.motions else "beyond what is allowed"
-        return f"Nothing overlaps {apart}: nothing was moved.{stays}"
-    done = _found(found)
-    if not found.moves:
-        return f"{done}: nothing was moved.{stays}"
+    if not resolution.conflicts:
+        motions = resolution.report.motions
+        where = "as the bodies are placed" if motions else "beyond what is allowed"
+        return f"Nothing overlaps {where}: nothing was moved.{stays}"
+    conflicts = _conflicts(resolution)
+    total, largest = number(resolution.total_motion), number(resolution.largest_motion)
+    if not resolution.moves:
+        return f"{conflicts}: nothing was moved.{stays}"
     return (
-        f"{done}: {counted(len(found.moves), 'body', 'bodies')} moved, "
-        f"by {number(found.total_motion)}{unit} in total and {number(found.largest_motion)}{unit} "
-        f"at most, in {counted(found.rounds, 'round')}.{stays}"
+        f"{conflicts}: {counted(len(resolution.moves), 'body', 'bodies')} moved, "
+        f"by {total}{unit} in total and {largest}{unit} at most, "
+        f"in {counted(resolution.rounds, 'round')}.{stays}"
     )

@@ -34,26 +34,26 @@ REMARKS = 10
 _COLOURS = {"pass": "green", "fail": "bold red", "incomplete": "bold magenta"}
 
 
-def render(found: Samples, page: Page) -> str:
+def render(result: Samples, page: Page) -> str:
     """The whole text, final newline included. Errors are not in it: they go to stderr."""
     console = Canvas(page)
-    if len(found.samples) <= FEW_POSES:
-        console.print(_poses(found.samples, unit_of(found.units), unicode=page.unicode))
+    if len(result.samples) <= FEW_POSES:
+        console.print(_poses(result.samples, unit_of(result.units), unicode=page.unicode))
     else:
         met = sorted(
-            (pair for pair in found.pairs if not pair.settled),
+            (pair for pair in result.pairs if not pair.settled),
             key=lambda pair: (-pair.overlaps, -pair.undecided, -pair.near, -pair.touches),
         )
         if met:
-            console.print(_pairs(met[:ROWS], found.samples, unicode=page.unicode))
+            console.print(_pairs(met[:ROWS], result.samples, unicode=page.unicode))
         if len(met) > ROWS:
             console.print(f"{counted(len(met) - ROWS, 'more pair')}: JSON has all")
-    for issue in found.issues:
+    for issue in result.issues:
         if issue.severity != "error":
             console.print(issue_line(issue))
-    for line in _remarks(found.samples):
+    for line in _remarks(result.samples):
         console.print(line)
-    console.print(samples_line(found))
+    console.print(samples_line(result))
     return console.text()
 
 

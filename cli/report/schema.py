@@ -32,7 +32,7 @@ def text(name: str = "report") -> str:
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     if name in STRUCTS:
         return json.dumps(schema_of(name, STRUCTS[name]), indent=2) + "\n"
-    found = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")
-    document = json.loads(found)
+    text = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")
+    document = json.loads(text)
     document["$defs"] = {**document.get("$defs", {}), "report": schema_of("report", Report)}
     return json.dumps(document, indent=2) + "\n"

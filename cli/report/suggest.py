@@ -34,14 +34,14 @@ _SRDF_REASONS: dict[Why, str] = {
 }
 
 
-def chosen(found: Suggestions, *, never: bool) -> list[Suggestion]:
+def chosen(suggestions: Suggestions, *, never: bool) -> list[Suggestion]:
     """never: also the pairs that did not meet in any pose, which proves nothing."""
-    return [pair for pair in found.pairs if never or pair.why != "never"]
+    return [pair for pair in suggestions.pairs if never or pair.why != "never"]
 
 
-def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
+def toml(suggestions: Suggestions, pairs: Iterable[Suggestion]) -> str:
     """A scene file of `[[rules]]` alone; the reason of each says that it is to be confirmed."""
-    blocks = [f"# {_left_out(one)}" for one in found.unchecked if one.adjacent]
+    blocks = [f"# {_left_out(pair)}" for pair in suggestions.unchecked if pair.adjacent]
     blocks += [
         "\n".join(
             (
@@ -49,7 +49,7 @@ def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
                 f"a = {_quoted(Selector.writable(pair.a).text)}",
                 f"b = {_quoted(Selector.writable(pair.b).text)}",
                 "allowed = true",
-                f"reason = {_quoted(f'suggested: {evidence(pair, found)}; confirm')}",
+                f"reason = {_quoted(f'suggested: {evidence(pair, suggestions)}; confirm')}",
             )
         )
         for pair in pairs
@@ -57,15 +57,17 @@ def toml(found: Suggestions, pairs: Iterable[Suggestion]) -> str:
     return "\n".join((_RULES_ALONE, *(f"{block}\n" for block in blocks)))
 
 
-def srdf(found: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
+def srdf(suggestions: Suggestions, pairs: Iterable[Suggestion], robot: str) -> str:
     """A line for each two links with a suggested pair of bodies, by the strongest of their reasons;
     no "Never" where some of their bodies may meet. robot: its name.
 
     None where some of their bodies could not be checked: a comment says so in its place."""
-    unchecked = {frozenset(one.links): one for one in found.unchecked if one.links is not None}
-    lines = {links: _comment(_left_out(one)) for links, one in unchecked.items() if one.adjacent}
+    unchecked = {
+        frozenset(pair.links): pair for pair in suggestions.unchecked if pair.links is not None
+    }
+    lines = {links: _comment(_left_out(pair)) for links, pair in unchecked.items() if pair.adjacent}
     for reason, a, b in _links(pairs):
-        if reason == _SRDF_REASONS["never"] and frozenset((a, b)) in found.may_meet:
+        if reason == _SRDF_REASONS["never"] and frozenset((a, b)) in suggestions.may_meet:
             continue
         links = frozenset((a, b))
         attributes = f"link1={quoteattr(a)} link2={quoteattr(b)} reason={quoteattr(reason)}"
@@ -86,15 +88,15 @@ def _links(pairs: Iterable[Suggestion]) -> Iterator[tuple[str, str, str]]:
                 yield reason, *pair.links
 
 
-def evidence(pair: Suggestion, found: Suggestions) -> str:
+def evidence(pair: Suggestion, suggestions: Suggestions) -> str:
     """`penetrating by 0.2 mm at the placement`."""
     said = []
     if pair.why == "adjacent":
         said.append("a joint connects them")
     if pair.relation is not None and pair.relation != "separated":
-        said.append(f"{_contact(pair, unit_of(found.units))} at the placement")
-    if found.poses and pair.contacts is not None:
-        poses = _poses(found)
+        said.append(f"{_contact(pair, unit_of(suggestions.units))} at the placement")
+    if suggestions.poses and pair.contacts is not None:
+        poses = _poses(suggestions)
         if pair.why == "never":
             said.append(f"never in contact in {poses}, which is no proof")
         else:
@@ -102,20 +104,20 @@ def evidence(pair: Suggestion, found: Suggestions) -> str:
     return ", ".join(said)
 
 
-def remark(found: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> str:
+def remark(suggestions: Suggestions, pairs: Iterable[Suggestion], *, never: bool) -> str:
     """A few lines for standard error."""
     said = counted(len(list(pairs)), "pair") + " suggested: confirm each before you allow it."
-    left = sum(pair.why == "never" for pair in found.pairs)
+    left = sum(pair.why == "never" for pair in suggestions.pairs)
     if left and not never:
-        poses = _poses(found)
+        poses = _poses(suggestions)
         said += f" {counted(left, 'more pair')} never met in {poses}, which proves nothing:"
         said += " --never suggests them."
-    if left_out := sum(one.adjacent for one in found.unchecked):
+    if left_out := sum(pair.adjacent for pair in suggestions.unchecked):
         pairs_left = counted(left_out, "pair")
         said += f" Not suggested, as not checked: {pairs_left} with a joint between the links."
-    for one in found.undecided[:_NAMED]:
-        said += f"\nNot decided: {one.a} and {one.b}: {one.reason.removeprefix('undecided: ')}"
-    if (more := len(found.undecided) - _NAMED) > 0:
+    for pair in suggestions.undecided[:_NAMED]:
+        said += f"\nNot decided: {pair.a} and {pair.b}: {pair.reason.removeprefix('undecided: ')}"
+    if (more := len(suggestions.undecided) - _NAMED) > 0:
         said += f"\nNot decided: {counted(more, 'more pair')}"
     return said
 
@@ -133,10 +135,12 @@ def _comment(text: str) -> str:
     return f"<!-- {re.sub('-(?=-)', '- ', text)} -->"
 
 
-def _poses(found: Suggestions) -> str:
+def _poses(suggestions: Suggestions) -> str:
     """`20 random poses with 1 joint held`."""
-    poses = counted(found.poses, "pose" if found.seed is None else "random pose")
-    return poses + (f" with {counted(len(found.held), 'joint')} held" if found.held else "")
+    poses = counted(suggestions.poses, "pose" if suggestions.seed is None else "random pose")
+    return poses + (
+        f" with {counted(len(suggestions.held), 'joint')} held" if suggestions.held else ""
+    )
 
 
 def _contact(pair: Suggestion, unit: str | None) -> str:

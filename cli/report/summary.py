@@ -37,11 +37,11 @@ def summary_line(report: Report, *, offers_depth: bool = True) -> str:
         line = f"{bodies}, {counted(pairs.total, 'pair')}."
         unchecked = nothing_checked(report.issues)
         return " ".join([line, *unchecked, *_errors(report), *doubts(report.issues)])
-    found = _found(report)
+    counts = _counts(report)
     if pairs.allowed:
-        found.append(f"{pairs.allowed:,} allowed by the scene")
+        counts.append(f"{pairs.allowed:,} allowed by the scene")
     exempt = _exempt(report)
-    line = f"{bodies}, {counted(pairs.total, 'pair')}: {', '.join(found)}{exempt}."
+    line = f"{bodies}, {counted(pairs.total, 'pair')}: {', '.join(counts)}{exempt}."
     return " ".join(
         [
             line,
@@ -60,10 +60,10 @@ def samples_line(result: Samples) -> str:
     kind = "pose" if result.seed is None else "random pose"
     seed = "" if result.seed is None else f" (seed {result.seed})"
     verdicts = Counter(sample.verdict for sample in result.samples)
-    one = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
-    many = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
+    singular = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
+    plural = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
     parts = [
-        f"{count:,} {one[verdict] if count == 1 else many[verdict]}"
+        f"{count:,} {singular[verdict] if count == 1 else plural[verdict]}"
         for verdict in ("pass", "fail", "incomplete")
         if (count := verdicts[verdict])
     ]
@@ -104,24 +104,24 @@ def _exempt(report: Report) -> str:
     return f"; {counted(count, 'pair')} exempt ({why})"
 
 
-def _found(report: Report) -> list[str]:
+def _counts(report: Report) -> list[str]:
     """`2 separated`, `1 possibly penetrating (not proven at --accuracy aabb)`."""
     accuracy = report.settings.accuracy
     why = "" if accuracy == "exact" else f" (not proven at --accuracy {accuracy})"
     guesses = [f for f in report.findings if f.quality == "estimate"]
     overlaps = Counter(f.relation for f in guesses if _surely_overlaps(f, report))
     estimates = Counter(f.relation for f in guesses) - overlaps
-    found = []
+    counts = []
     for name in RELATIONS:
         word, unproven = _WORDS.get(name, name), estimates[name]
         proven = report.summary.by_relation.get(name, 0) - unproven - overlaps[name]
         if proven:
-            found.append(f"{proven:,} {word}")
+            counts.append(f"{proven:,} {word}")
         if unproven:
-            found.append(f"{unproven:,} possibly {word}{why}")
+            counts.append(f"{unproven:,} possibly {word}{why}")
     if count := overlaps.total():
-        found.append(f"{count:,} overlapping in a way that is not proven")
-    return found
+        counts.append(f"{count:,} overlapping in a way that is not proven")
+    return counts
 
 
 def _surely_overlaps(estimate: Finding, report: Report) -> bool:

@@ -40,21 +40,21 @@ _FRAME = 3
 EXACT_WIDTH = 1e-9
 
 
-def render(found: Tradeoff, page: Page) -> str:
+def render(result: Tradeoff, page: Page) -> str:
     """The whole text, final newline included."""
     console = Canvas(page)
-    for pair in found.pairs:
+    for pair in result.pairs:
         _print_pair(console, pair, page)
-    if found.left_out:
-        console.print(f"{counted(found.left_out, 'more pair')} with boxes that meet: see --pairs.")
+    if result.left_out:
+        console.print(f"{counted(result.left_out, 'more pair')} with boxes that meet: see --pairs.")
     console.print(
         "* on the Pareto front: no rung is better in time, error or proof without being worse in "
         "another; times within the spread of their runs (middle half) are alike. Error: signed "
         "distance said minus proven; below 0: closer or deeper than it is. Volume error: of what "
         "stands for A, and for B. Memory: what a rung adds."
     )
-    spent = f"{number(round(found.spent, 1))} s of {number(found.budget)} s"
-    console.print(f"Medians of up to {counted(found.repeat, 'run')} in turn, {spent}.")
+    spent = f"{number(round(result.spent, 1))} s of {number(result.budget)} s"
+    console.print(f"Medians of up to {counted(result.repeat, 'run')} in turn, {spent}.")
     return console.text()
 
 
@@ -175,16 +175,16 @@ def _relation(row: Row) -> str:
     return f"possibly {row.relation}"
 
 
-def figure(found: Figure) -> str:
+def figure(error: Figure) -> str:
     """`gap 0.5`, `depth <= 2`, `depth 0.25 .. 0.26`, `gap >= 1`."""
-    low, high = found.low, found.high
-    if found.value < 0:
+    low, high = error.low, error.high
+    if error.value < 0:
         if high is None or high >= 0:
-            return f"depth <= {number(-found.value)}"
-        return f"depth {_interval(-high, -found.value)}"
+            return f"depth <= {number(-error.value)}"
+        return f"depth {_interval(-high, -error.value)}"
     if high is None:
-        return f"gap >= {number(found.value)}"
-    return f"gap {number(found.value)}" if low is None else f"gap {_interval(max(low, 0.0), high)}"
+        return f"gap >= {number(error.value)}"
+    return f"gap {number(error.value)}" if low is None else f"gap {_interval(max(low, 0.0), high)}"
 
 
 def _interval(low: float, high: float) -> str:

@@ -200,7 +200,7 @@ class _Panel:
     def _corners(self) -> list[tuple[float, float]]:
         """Of the line along the front."""
         best = sorted(self._place(row) for row in self._rows if row.on_front)
-        turns = [[one, (other[0], one[1])] for one, other in pairwise(best)]
+        turns = [[left, (right[0], left[1])] for left, right in pairwise(best)]
         return [corner for turn in turns for corner in turn] + best[-1:]
 
     def _mark(self, axes: Axes, row: Row, palette: Palette) -> None:
@@ -219,8 +219,8 @@ class _Panel:
             if row.cached is not None
         ]
         labels = Labels(axes, [*map(self._place, self._rows), *cached])
-        for one, other in pairwise(self._corners):
-            labels.keep_clear_of_line(one, other)
+        for start, end in pairwise(self._corners):
+            labels.keep_clear_of_line(start, end)
         for group in self._groups(axes):
             places = [self._place(row) for row in group]
             labels.place(labels_of([row.rung for row in group]), places)

@@ -20,7 +20,7 @@ def steps(pair: PairTradeoff) -> list[str]:
     worth = sorted((row for row in pair.rows if row.on_front), key=_time)
     if len(worth) == 1:
         return [f"{worth[0].rung.label}: no slower rung is nearer or more sure"]
-    return [_step(one, other) for one, other in pairwise(worth)]
+    return [_step(faster, slower) for faster, slower in pairwise(worth)]
 
 
 def _time(row: Row) -> float:
@@ -28,23 +28,22 @@ def _time(row: Row) -> float:
     return row.cold.median
 
 
-def _step(one: Row, other: Row) -> str:
-    factor = _time(other) / _time(one)
+def _step(faster: Row, slower: Row) -> str:
+    factor = _time(slower) / _time(faster)
     longer = f"{factor:.2g}" if factor < 10 else f"{factor:,.0f}"
     won = [
-        *_change("error ", *_errors(one.size_of_error or 0.0, other.size_of_error or 0.0)),
-        *_verdict(STANDING[one.standing], STANDING[other.standing]),
+        *_change("error ", *_errors(faster.size_of_error or 0.0, slower.size_of_error or 0.0)),
+        *_verdict(STANDING[faster.standing], STANDING[slower.standing]),
     ]
-    return (
-        f"{one.rung.label} to {other.rung.label}: {', '.join([f'{longer} times the time', *won])}"
-    )
+    changes = ", ".join([f"{longer} times the time", *won])
+    return f"{faster.rung.label} to {slower.rung.label}: {changes}"
 
 
 def _errors(before: float, after: float) -> tuple[str, str]:
     """In as many digits as tell them apart."""
     said = [tuple(f"{size:.{digits}g}" for size in (before, after)) for digits in _DIGITS]
-    one, other = next((both for both in said if len({*both}) > 1), said[0])
-    return one, other
+    smaller, other = next((both for both in said if len({*both}) > 1), said[0])
+    return smaller, other
 
 
 def _verdict(before: str, after: str) -> list[str]:

@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 NEGLIGIBLE = 1e-3
 
 
-def counted(count: int, one: str, many: str | None = None) -> str:
+def counted(count: int, singular: str, plural: str | None = None) -> str:
     """`1 pair`, `2 pairs`."""
-    return f"{count:,} {one if count == 1 else many or one + 's'}"
+    return f"{count:,} {singular if count == 1 else plural or singular + 's'}"
 
 
 def issue_line(issue: Issue | InputIssue) -> str:
@@ -46,15 +46,17 @@ def contacts(finding: Finding) -> str:
         return ""
     curves, totals = finding.contacts.curves, finding.contacts.totals
     loops = len(curves) == totals.curves and all(curve.closed for curve in curves)
-    found = []
+    counts = []
     if totals.patches:
-        found.append(f"{counted(totals.patches, 'patch', 'patches')} of area {number(totals.area)}")
+        counts.append(
+            f"{counted(totals.patches, 'patch', 'patches')} of area {number(totals.area)}"
+        )
     if totals.curves:
         name = counted(totals.curves, "loop" if loops else "curve")
-        found.append(f"{name} of length {number(totals.length)}")
+        counts.append(f"{name} of length {number(totals.length)}")
     if totals.points:
-        found.append(counted(totals.points, "point"))
-    return ", ".join(found) or "none"
+        counts.append(counted(totals.points, "point"))
+    return ", ".join(counts) or "none"
 
 
 def past_holes(finding: Finding) -> bool:
@@ -85,11 +87,11 @@ def in_motion(finding: Finding, unit: str | None) -> str:
     return f"{with_unit(bounds(*distance), unit)} apart" if distance else "apart"
 
 
-def place(one: Place, unit: str | None) -> str:
+def place(at: Place, unit: str | None) -> str:
     """`60 deg`, `2.5 mm of travel`, `t = 0.3`."""
-    value = number(one.value)
+    value = number(at.value)
     travelled = f"{with_unit(value, unit)} of travel"
-    return {"degrees": f"{value} deg", "length": travelled, "t": f"t = {value}"}[one.term]
+    return {"degrees": f"{value} deg", "length": travelled, "t": f"t = {value}"}[at.term]
 
 
 def with_unit(figure: str, unit: str | None) -> str:

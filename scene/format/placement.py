@@ -94,12 +94,12 @@ def singular(transform: Transform) -> str | None:
     if transform[12:] != (0.0, 0.0, 0.0, 1.0):
         return "the last row should be 0 0 0 1"
     a, b, c, _, d, e, f, _, g, h, i, _ = transform[:12]
-    one, two, three = math.hypot(a, b, c), math.hypot(d, e, f), math.hypot(g, h, i)
-    if 0.0 in (one, two, three):
+    length_x, length_y, length_z = math.hypot(a, b, c), math.hypot(d, e, f), math.hypot(g, h, i)
+    if 0.0 in (length_x, length_y, length_z):
         return "singular transform: it scales by 0"
-    a, b, c = a / one, b / one, c / one
-    d, e, f = d / two, e / two, f / two
-    g, h, i = g / three, h / three, i / three
+    a, b, c = a / length_x, b / length_x, c / length_x
+    d, e, f = d / length_y, e / length_y, f / length_y
+    g, h, i = g / length_z, h / length_z, i / length_z
     determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     return "singular transform: it flattens space" if abs(determinant) < _SINGULAR else None
 

@@ -38,15 +38,15 @@ def probe(
     done, total = 1, 1 + samples * len(families) - (samples - 1) * ("swap" in families)
     results = []
     for family in families:
-        asked = []
+        family_samples = []
         for variant in variants(family, question, samples, seed):
             varied = ask(variant, settings)
-            asked.append(Sample(variant.how, varied, compare(answer, varied, variant)))
+            family_samples.append(Sample(variant.how, varied, compare(answer, varied, variant)))
             done += 1
             if progress is not None:
                 progress(done, total)
-        skipped = None if asked else NO_VARIANTS.get(family)
-        results.append(FamilyResult(family, tuple(asked), skipped))
+        skipped = None if family_samples else NO_VARIANTS.get(family)
+        results.append(FamilyResult(family, tuple(family_samples), skipped))
     band = pair_of((given.a, given.b), Settings()).tolerance
     return Stability(question.a.path, question.b.path, seed, answer, tuple(results), band)
 

@@ -50,7 +50,7 @@ class _Work:
     def __init__(self, mesh: Mesh) -> None:
         self.vertices: list[tuple[float, ...]] = [tuple(p) for p in mesh.vertices.tolist()]
         self.triangles: Triangles = mesh.triangles.copy()
-        self.known = set(self.vertices)
+        self.coordinates = set(self.vertices)
         self.splits = self.turns = 0
         self.rounded = False
 
@@ -80,11 +80,11 @@ class _Work:
             for m, a, b in zip(middle, p, q, strict=True)
         )
         around = self._around(tail, head)
-        if (exact and not is_exact) or middle in self.known or not around:
+        if (exact and not is_exact) or middle in self.coordinates or not around:
             return False
         new = len(self.vertices)
         self.vertices.append(middle)
-        self.known.add(middle)
+        self.coordinates.add(middle)
         added = []
         for row, start, third in around:
             first, second = (int(self.triangles[row][(start + k) % 3]) for k in range(2))

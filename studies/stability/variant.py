@@ -113,4 +113,4 @@ def stretch(turn: Rows) -> float:
         for i in range(3)
         for j in range(3)
     ]
-    return math.hypot(*(float(one) for one in excess)) * (1 + 8 * UNIT_ROUNDOFF)
+    return math.hypot(*(float(part) for part in excess)) * (1 + 8 * UNIT_ROUNDOFF)

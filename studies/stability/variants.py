@@ -62,8 +62,8 @@ def _exponents(question: Question) -> list[int]:
     coordinates = np.abs(question.points)
     edges = [np.ptp(file.mesh.vertices, axis=0).max() for file in question.files]
     smallest, largest, least = (
-        math.frexp(float(one))[1]
-        for one in (coordinates[coordinates > 0].min(), coordinates.max(), min(edges))
+        math.frexp(float(length))[1]
+        for length in (coordinates[coordinates > 0].min(), coordinates.max(), min(edges))
     )
     first = max(SMALLEST_EXPONENT - smallest, SMALLEST_SIZE_EXPONENT - least) + 1
     last = LARGEST_EXPONENT - largest - ROOM_EXPONENTS
@@ -141,7 +141,7 @@ def in_motion(question: Question, samples: int, rng: Generator) -> Iterator[Vari
         to = rng.uniform(-diagonal, diagonal, 3)
         by = (to - np.array(turn) @ centre).tolist()
         a, b = body("a", question.a, turn, by), body("b", question.b, turn, by)
-        largest = [float(np.abs(one.world_mesh().vertices).max()) for one in (a, b)]
+        largest = [float(np.abs(body.world_mesh().vertices).max()) for body in (a, b)]
         moved = sum(rounded_once(each) for each in largest)
         yield Variant(
             "motion",

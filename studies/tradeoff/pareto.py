@@ -85,10 +85,10 @@ def _keys(points: Sequence[Point], pad: float) -> list[_Key | None]:
     ]
 
 
-def _beats(one: _Key, other: _Key) -> bool:
+def _beats(point: _Key, rival: _Key) -> bool:
     """Of a ring of points that beat each other all would be as good, and each faster than the next:
     there is none, so the front of any points is not empty."""
-    (time, answer), (others_time, others_answer) = one, other
-    as_good = all(p <= q for p, q in zip(answer, others_answer, strict=True))
-    better = answer != others_answer or time.is_below(others_time)
-    return as_good and better and not others_time.is_below(time)
+    (time, answer), (rival_time, rival_answer) = point, rival
+    as_good = all(p <= q for p, q in zip(answer, rival_answer, strict=True))
+    better = answer != rival_answer or time.is_below(rival_time)
+    return as_good and better and not rival_time.is_below(time)

@@ -60,7 +60,7 @@ def test_what_was_moved_out_of_a_hole_is_counted(tmp_path: Path) -> None:
     found = satcheck("resolve", *paths, "--format", "json").document
     Draft202012Validator(SCHEMA).validate(found)
     summary = found["summary"]
-    assert (summary["found"], summary["open"], summary["moved"]) == (1, 1, 2)
+    assert (summary["conflicts"], summary["open"], summary["moved"]) == (1, 1, 2)
 
 
 def test_a_pair_that_is_left_is_named_as_it_is(tmp_path: Path) -> None:

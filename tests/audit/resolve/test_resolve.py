@@ -16,11 +16,15 @@ from tests.audit.shapes import bracket, open_box, scene_of, unit_box, write
 
 def test_two_free_boxes_share_the_shortest_way(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.75, 0.25)})
-    found = resolve(scene)
-    assert moves(found) == {"a": (-0.125, 0.0, 0.0), "b": (0.125, 0.0, 0.0)}
-    assert found.verdict == "resolved"
-    assert found.report.summary.by_relation["touching"] == 1
-    assert (found.found, found.total_motion, found.largest_motion) == (1, 0.25, 0.125)
+    resolution = resolve(scene)
+    assert moves(resolution) == {"a": (-0.125, 0.0, 0.0), "b": (0.125, 0.0, 0.0)}
+    assert resolution.verdict == "resolved"
+    assert resolution.report.summary.by_relation["touching"] == 1
+    assert (resolution.conflicts, resolution.total_motion, resolution.largest_motion) == (
+        1,
+        0.25,
+        0.125,
+    )
 
 
 @pytest.mark.parametrize("how", ["static", "pin", "group"])
@@ -32,9 +36,9 @@ def test_a_box_beside_one_that_stays_moves_all_the_way(tmp_path, how) -> None:
         groups={"a": "fixed"},
     )
     pins = {"static": (), "pin": ("a*",), "group": ("group:fix*",)}[how]
-    found = resolve(scene, pins=pins)
-    assert moves(found) == {"b": (0.25, 0.0, 0.0)}
-    assert found.pinned == ("a",)
+    resolution = resolve(scene, pins=pins)
+    assert moves(resolution) == {"b": (0.25, 0.0, 0.0)}
+    assert resolution.pinned == ("a",)
 
 
 def test_a_pin_is_the_body_of_that_very_name(tmp_path) -> None:
@@ -49,10 +53,10 @@ def test_the_links_of_a_robot_stay(tmp_path) -> None:
     )
     (tmp_path / "robot.urdf").write_text(f'<robot name="r">{link}</robot>')
     files = [tmp_path / "robot.urdf", *write(tmp_path, box=unit_box())]
-    found = resolve(load_scene(files, units="m"))
-    assert found.pinned == ("base",)
-    assert list(moves(found)) == ["box"]
-    assert found.verdict == "resolved"
+    resolution = resolve(load_scene(files, units="m"))
+    assert resolution.pinned == ("base",)
+    assert list(moves(resolution)) == ["box"]
+    assert resolution.verdict == "resolved"
 
 
 def test_a_box_in_the_corner_of_two_walls_leaves_both(tmp_path) -> None:
@@ -65,13 +69,13 @@ def test_a_box_in_the_corner_of_two_walls_leaves_both(tmp_path) -> None:
         },
         static=("left", "floor"),
     )
-    found = resolve(scene)
-    assert moves(found) == {"box": (0.25, 0.0, 0.125)}
+    resolution = resolve(scene)
+    assert moves(resolution) == {"box": (0.25, 0.0, 0.125)}
     # The walls cross each other, and both stay.
-    assert [(one.a, one.b, one.reason) for one in found.left] == [
+    assert [(one.a, one.b, one.reason) for one in resolution.left] == [
         ("left", "floor", "both bodies stay")
     ]
-    assert found.verdict == "unresolved"
+    assert resolution.verdict == "unresolved"
 
 
 def test_a_stack_on_the_floor_rises(tmp_path) -> None:
@@ -84,19 +88,19 @@ def test_a_stack_on_the_floor_rises(tmp_path) -> None:
         },
         static=("floor",),
     )
-    found = resolve(scene)
-    assert not overlapping(after(scene, found))
-    rises = [moves(found)[f"box{k}"] for k in range(3)]
+    resolution = resolve(scene)
+    assert not overlapping(after(scene, resolution))
+    rises = [moves(resolution)[f"box{k}"] for k in range(3)]
     for k, way in enumerate(rises):
         assert way == pytest.approx((0, 0, 0.25 * (k + 1)), abs=1e-12)
 
 
 def test_a_free_row_spreads_about_its_middle(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {f"box{k}": unit_at(0.5 * k) for k in range(3)})
-    found = resolve(scene)
-    assert not overlapping(after(scene, found))
-    assert set(moves(found)) == {"box0", "box2"}
-    assert moves(found)["box0"] == pytest.approx((-0.5, 0, 0), abs=1e-12)
+    resolution = resolve(scene)
+    assert not overlapping(after(scene, resolution))
+    assert set(moves(resolution)) == {"box0", "box2"}
+    assert moves(resolution)["box0"] == pytest.approx((-0.5, 0, 0), abs=1e-12)
 
 
 def test_a_row_too_long_for_its_place_sends_some_elsewhere(tmp_path) -> None:
@@ -110,19 +114,19 @@ def test_a_row_too_long_for_its_place_sends_some_elsewhere(tmp_path) -> None:
         },
         static=("left", "right"),
     )
-    found = resolve(scene)
-    assert found.verdict == "resolved"
-    assert not overlapping(after(scene, found))
-    assert not {"left", "right"} & set(moves(found))
+    resolution = resolve(scene)
+    assert resolution.verdict == "resolved"
+    assert not overlapping(after(scene, resolution))
+    assert not {"left", "right"} & set(moves(resolution))
     # One box gives way by its width, shared with a neighbour; the others close up.
-    assert 0.5 <= found.largest_motion <= 1
-    assert found.total_motion <= 3
+    assert 0.5 <= resolution.largest_motion <= 1
+    assert resolution.total_motion <= 3
 
 
 def test_a_box_in_another_comes_out(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {"big": ((0, 0, 0), (8, 8, 8)), "small": unit_at(6.5, 3, 3)})
-    found = resolve(scene, pins=["big"])
-    assert moves(found) == {"small": (1.5, 0.0, 0.0)}
+    resolution = resolve(scene, pins=["big"])
+    assert moves(resolution) == {"small": (1.5, 0.0, 0.0)}
 
 
 def test_what_nobody_asks_about_stays(tmp_path) -> None:
@@ -133,8 +137,8 @@ def test_what_nobody_asks_about_stays(tmp_path) -> None:
         allowed_pairs=[["a", "b", "welded"]],
         ignore_within_groups=["g"],
     )
-    found = resolve(scene)
-    assert (found.found, found.moves, found.verdict) == (0, (), "resolved")
+    resolution = resolve(scene)
+    assert (resolution.conflicts, resolution.moves, resolution.verdict) == (0, (), "resolved")
 
 
 def test_exempt_pairs_stay_together_only_as_far_as_others_let_them(tmp_path) -> None:
@@ -144,15 +148,20 @@ def test_exempt_pairs_stay_together_only_as_far_as_others_let_them(tmp_path) -> 
         {"a": unit_at(0), "b": unit_at(0.25), "c": unit_at(0.75, 0.5, 0.5)},
         allowed_pairs=[["a", "b"]],
     )
-    found = resolve(scene)
-    assert found.verdict == "resolved"
-    assert overlapping(after(scene, found)) <= {("a", "b")}
+    resolution = resolve(scene)
+    assert resolution.verdict == "resolved"
+    assert overlapping(after(scene, resolution)) <= {("a", "b")}
 
 
 def test_nothing_to_do(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(1), "c": unit_at(3)})
-    found = resolve(scene)
-    assert (found.found, found.moves, found.rounds, found.verdict) == (0, (), 0, "resolved")
+    resolution = resolve(scene)
+    assert (resolution.conflicts, resolution.moves, resolution.rounds, resolution.verdict) == (
+        0,
+        (),
+        0,
+        "resolved",
+    )
 
 
 def test_an_overlap_of_two_that_stay_is_said_and_the_rest_resolved(tmp_path) -> None:
@@ -161,20 +170,20 @@ def test_an_overlap_of_two_that_stay_is_said_and_the_rest_resolved(tmp_path) -> 
         {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(5), "d": unit_at(5.5)},
         static=("a",),
     )
-    found = resolve(scene, pins=["b"])
-    assert [(one.a, one.b, one.relation) for one in found.left] == [("a", "b", "penetrating")]
-    assert set(moves(found)) == {"c", "d"}
-    assert found.verdict == "unresolved"
+    resolution = resolve(scene, pins=["b"])
+    assert [(one.a, one.b, one.relation) for one in resolution.left] == [("a", "b", "penetrating")]
+    assert set(moves(resolution)) == {"c", "d"}
+    assert resolution.verdict == "unresolved"
 
 
 def test_a_longest_motion_is_kept_or_the_pair_is_left(tmp_path) -> None:
     boxes = {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(5), "d": unit_at(5.125)}
     scene = boxes_scene(tmp_path, boxes)
-    found = resolve(scene, max_motion=0.3)
-    assert found.largest_motion <= 0.3
-    assert set(moves(found)) == {"a", "b"}
-    assert [(one.a, one.b) for one in found.left] == [("c", "d")]
-    assert "longest motion" in found.left[0].reason
+    resolution = resolve(scene, max_motion=0.3)
+    assert resolution.largest_motion <= 0.3
+    assert set(moves(resolution)) == {"a", "b"}
+    assert [(one.a, one.b) for one in resolution.left] == [("c", "d")]
+    assert "longest motion" in resolution.left[0].reason
 
 
 def test_a_longest_motion_is_kept_where_one_body_could_make_way_for_many(tmp_path) -> None:
@@ -186,55 +195,55 @@ def test_a_longest_motion_is_kept_where_one_body_could_make_way_for_many(tmp_pat
         boxes[f"y{k}"] = ((-4.0, 4.1, low), (4.0, 14.1, high))
     scene = boxes_scene(tmp_path, boxes)
     assert resolve(scene).largest_motion > 1.1
-    found = resolve(scene, max_motion=1.0)
-    assert found.verdict == "resolved"
-    assert found.largest_motion <= 1.0
+    resolution = resolve(scene, max_motion=1.0)
+    assert resolution.verdict == "resolved"
+    assert resolution.largest_motion <= 1.0
 
 
 def test_the_clearance_is_what_is_left_between(tmp_path) -> None:
     boxes = {"a": unit_at(0), "b": unit_at(0.75, 0.25), "c": unit_at(5), "d": unit_at(6.125)}
     scene = boxes_scene(tmp_path, boxes)
-    found = resolve(scene, Settings(clearance=0.25))
-    assert found.verdict == "resolved"
-    assert moves(found)["a"] == pytest.approx((-0.25, 0, 0), abs=1e-12)
-    assert moves(found)["d"] == pytest.approx((0.0625, 0, 0), abs=1e-12)
+    resolution = resolve(scene, Settings(clearance=0.25))
+    assert resolution.verdict == "resolved"
+    assert moves(resolution)["a"] == pytest.approx((-0.25, 0, 0), abs=1e-12)
+    assert moves(resolution)["d"] == pytest.approx((0.0625, 0, 0), abs=1e-12)
 
 
 def test_touching_concave_bodies_can_be_given_a_clearance(tmp_path) -> None:
     """A box in the notch of a bracket, flush with both walls."""
     scene = scene_of(tmp_path, bracket=bracket(), box=unit_box(2, 2, 1))
-    found = resolve(scene, Settings(clearance=0.25), pins=["bracket"])
-    assert found.verdict == "resolved"
-    assert found.total_motion <= 0.75
+    resolution = resolve(scene, Settings(clearance=0.25), pins=["bracket"])
+    assert resolution.verdict == "resolved"
+    assert resolution.total_motion <= 0.75
 
 
 def test_a_box_leaves_the_notch_of_a_bracket_by_the_notch(tmp_path) -> None:
     scene = scene_of(tmp_path, bracket=bracket(), box=unit_box(1.75, 1.875, 1))
-    found = resolve(scene, pins=["bracket"])
-    assert found.verdict == "resolved"
-    assert moves(found)["box"] == pytest.approx((0.25, 0.125, 0), abs=0.02)
+    resolution = resolve(scene, pins=["bracket"])
+    assert resolution.verdict == "resolved"
+    assert moves(resolution)["box"] == pytest.approx((0.25, 0.125, 0), abs=0.02)
 
 
 def test_an_open_surface_is_left(tmp_path) -> None:
     scene = scene_of(tmp_path, tray=open_box(), box=unit_box(1.5, 1.5, -0.25))
-    found = resolve(scene, Settings(allow_open=True), pins=["tray"])
-    assert found.verdict == "resolved"
-    assert moves(found)["box"] == pytest.approx((0, 0, 0.25), abs=0.01)
+    resolution = resolve(scene, Settings(allow_open=True), pins=["tray"])
+    assert resolution.verdict == "resolved"
+    assert moves(resolution)["box"] == pytest.approx((0, 0, 0.25), abs=0.01)
 
 
 def test_coincident_bodies_part(tmp_path) -> None:
     scene = scene_of(tmp_path, a=bracket(), b=bracket())
-    found = resolve(scene)
-    assert found.verdict == "resolved"
-    assert found.found == 1
+    resolution = resolve(scene)
+    assert resolution.verdict == "resolved"
+    assert resolution.conflicts == 1
 
 
 def test_an_unreadable_mesh_is_left_alone(tmp_path) -> None:
     paths = write(tmp_path, a=unit_box(), b=unit_box(0.5))
     (tmp_path / "c.obj").write_text("no mesh\n")
-    found = resolve(load_scene([*paths, tmp_path / "c.obj"]))
-    assert len(found.moves) == 2
-    assert found.verdict == "incomplete"
+    resolution = resolve(load_scene([*paths, tmp_path / "c.obj"]))
+    assert len(resolution.moves) == 2
+    assert resolution.verdict == "incomplete"
 
 
 @pytest.mark.parametrize(
@@ -255,16 +264,16 @@ def test_wrong_arguments_are_refused(tmp_path, code, arguments) -> None:
 
 def test_without_rounds_bodies_are_taken_out(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {f"box{k}": unit_at(0.5 * k) for k in range(4)})
-    found = resolve(scene, iterations=0)
-    assert found.verdict == "resolved"
-    assert not overlapping(after(scene, found))
+    resolution = resolve(scene, iterations=0)
+    assert resolution.verdict == "resolved"
+    assert not overlapping(after(scene, resolution))
 
 
 def test_rounds_are_counted(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {f"box{k}": unit_at(0.5 * k) for k in range(4)})
-    found = resolve(scene, iterations=1)
-    assert found.rounds == 1
-    assert found.verdict == "resolved"
+    resolution = resolve(scene, iterations=1)
+    assert resolution.rounds == 1
+    assert resolution.verdict == "resolved"
 
 
 def test_a_pair_that_fails_does_not_take_the_others_with_it(tmp_path, monkeypatch) -> None:
@@ -279,10 +288,10 @@ def test_a_pair_that_fails_does_not_take_the_others_with_it(tmp_path, monkeypatc
 
     monkeypatch.setattr(layout, "examine", broken)
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.5), "c": unit_at(-0.5)})
-    found = resolve(scene)
-    assert {move.body for move in found.moves} == {"a", "b"}
-    assert found.verdict == "unresolved"  # a and c were not looked at while b was pushed
-    assert [(one.a, one.b) for one in found.left] == [("a", "c")]
+    resolution = resolve(scene)
+    assert {move.body for move in resolution.moves} == {"a", "b"}
+    assert resolution.verdict == "unresolved"  # a and c were not looked at while b was pushed
+    assert [(one.a, one.b) for one in resolution.left] == [("a", "c")]
 
 
 def test_a_moved_body_does_not_end_inside_an_open_one(tmp_path) -> None:

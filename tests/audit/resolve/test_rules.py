@@ -37,24 +37,24 @@ def test_what_no_check_fails_on_is_left_alone(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(1.25)})
     scene = with_rules(scene, {"clearance": 0.5, "severity": "warning"})
     assert resolve(scene).moves == ()
-    found = resolve(scene, Settings(fail_on="warning"))
-    assert (found.overlaps, found.gaps, found.verdict) == (0, 1, "resolved")
-    assert found.total_motion == pytest.approx(0.25, abs=1e-12)
+    resolution = resolve(scene, Settings(fail_on="warning"))
+    assert (resolution.overlaps, resolution.gaps, resolution.verdict) == (0, 1, "resolved")
+    assert resolution.total_motion == pytest.approx(0.25, abs=1e-12)
 
 
 def test_an_overlap_is_only_reduced_to_its_limit(tmp_path) -> None:
     scene = boxes_scene(tmp_path, {"a": unit_at(0), "b": unit_at(0.75, 0.125)})
-    found = resolve(with_rules(scene, {"max_depth": 0.125}))
-    assert found.total_motion == pytest.approx(0.125, abs=1e-9)
-    assert found.verdict == "resolved"
+    resolution = resolve(with_rules(scene, {"max_depth": 0.125}))
+    assert resolution.total_motion == pytest.approx(0.125, abs=1e-9)
+    assert resolution.verdict == "resolved"
 
 
 def test_an_overlap_of_concave_bodies_is_reduced_to_its_limit(tmp_path) -> None:
     """Up to the width of the interval of their depth."""
     scene = scene_of(tmp_path, bracket=bracket(), box=unit_box(1.5, 2, 1))
-    found = resolve(with_rules(scene, {"max_depth": 0.25}), pins=["bracket"])
-    assert found.verdict == "resolved"
-    assert 0.25 * (1 - 1e-9) <= found.total_motion <= 0.25 * 1.02
+    resolution = resolve(with_rules(scene, {"max_depth": 0.25}), pins=["bracket"])
+    assert resolution.verdict == "resolved"
+    assert 0.25 * (1 - 1e-9) <= resolution.total_motion <= 0.25 * 1.02
 
 
 def test_pushing_others_keeps_an_overlap_within_its_limit(tmp_path) -> None:
@@ -62,12 +62,14 @@ def test_pushing_others_keeps_an_overlap_within_its_limit(tmp_path) -> None:
     least at 5/6."""
     boxes = {name: ((x, 0, 0), (x + 10, 10, 10)) for name, x in (("a", 0), ("b", 9), ("c", 17))}
     scene = boxes_scene(tmp_path, boxes)
-    found = resolve(with_rules(scene, {"a": Selector("a"), "b": Selector("b"), "max_depth": 1.5}))
-    assert found.verdict == "resolved"
+    resolution = resolve(
+        with_rules(scene, {"a": Selector("a"), "b": Selector("b"), "max_depth": 1.5})
+    )
+    assert resolution.verdict == "resolved"
     ways = {"a": -1 / 3, "b": -5 / 6, "c": 7 / 6}
     for body, way in ways.items():
         # Written with 9 digits, of which 2 are before the point.
-        assert moves(found)[body] == pytest.approx((way, 0, 0), abs=1e-7)
+        assert moves(resolution)[body] == pytest.approx((way, 0, 0), abs=1e-7)
 
 
 def test_an_overlap_beyond_its_limit_of_volume_ends(tmp_path) -> None:
@@ -80,6 +82,6 @@ def test_a_hit_on_the_way_is_none_of_its_business(tmp_path) -> None:
     boxes = {"door": unit_at(0), "post": unit_at(0, 3)}
     scene = boxes_scene(tmp_path, boxes)
     motion = Motion(("door",), Translation((0.0, 5.0, 0.0)))
-    found = resolve(replace(scene, motions=(motion,)))
-    assert (found.found, found.moves) == (0, ())
-    assert [(one.relation, one.reason) for one in found.left] == [("penetrating", ONLY_MOVING)]
+    resolution = resolve(replace(scene, motions=(motion,)))
+    assert (resolution.conflicts, resolution.moves) == (0, ())
+    assert [(one.relation, one.reason) for one in resolution.left] == [("penetrating", ONLY_MOVING)]
