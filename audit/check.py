@@ -14,8 +14,8 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache, PlacedBodies, place
 from satcheck.audit.doubtful_sizes import doubtful_sizes
 from satcheck.audit.finding import Examined, apart_by_boxes, examine, indeterminate
-from satcheck.audit.ladder.broad_phase import close_pairs
-from satcheck.audit.ladder.climb import leaves_work, start_climbs
+from satcheck.audit.ladder.close_pairs import close_pairs
+from satcheck.audit.ladder.core_climb import leaves_work, start_climbs
 from satcheck.audit.pair_queue import PairQueue, Steps
 from satcheck.audit.request.effects import effects_of
 from satcheck.audit.request.planner import Planner, Request
@@ -75,29 +75,29 @@ def check(
         raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
     bodies = place(scene, settings, cache)
     if len(bodies.placed) < len(scene.bodies) and settings.planar is None:
-        report = _in_other_unit(scene, settings, progress, len(bodies.placed))
+        report = _check_scaled(scene, settings, progress, len(bodies.placed))
         if report is not None:
             return report
     return _check(scene, settings, progress, bodies, keep=cache is not None)
 
 
-def _in_other_unit(
+def _check_scaled(
     scene: Scene, settings: Settings, progress: Progress | None, placed: int
 ) -> Report | None:
     """Of a scene with bodies beyond the number range of the core; None where no other unit has
     room for more bodies than the `placed` ones."""
-    from satcheck.audit.other_unit import OtherUnit
-    from satcheck.scene.other_unit import exponent_for, in_other_unit
+    from satcheck.audit.scaled_check import Scaling
+    from satcheck.scene.scaled_scene import exponent_for, scaled_scene
 
     exponent = exponent_for(scene)
     if exponent == 0:
         return None
-    unit = OtherUnit(exponent)
-    scaled, in_unit = in_other_unit(scene, exponent), unit.settings(settings)
-    bodies = place(scaled, in_unit)
+    scaling = Scaling(exponent)
+    scaled, scaled_settings = scaled_scene(scene, exponent), scaling.settings(settings)
+    bodies = place(scaled, scaled_settings)
     if len(bodies.placed) <= placed:
         return None
-    return unit.report(_check(scaled, in_unit, progress, bodies), scene, settings)
+    return scaling.report(_check(scaled, scaled_settings, progress, bodies), scene, settings)
 
 
 def _check(
@@ -153,9 +153,9 @@ def _loaded(scene: Scene | Sequence[str | Path], settings: Settings) -> Scene:
     if settings.planar is None:
         scene.require_in_space("add --planar xy")
         return scene
-    from satcheck.scene.planar.laid_flat import laid_flat
+    from satcheck.scene.planar.flat_scene import flat_scene
 
-    return laid_flat(scene, settings.planar, allow_open=settings.allow_open)
+    return flat_scene(scene, settings.planar, allow_open=settings.allow_open)
 
 
 def _movers(scene: Scene) -> Movers | None:
@@ -223,7 +223,7 @@ def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
     try:
         examined = examine(pair, trace, climb)
         if pair.paths is not None:
-            from satcheck.audit.motion.verdict import with_sweep
+            from satcheck.audit.motion.swept_finding import with_sweep
 
             examined = with_sweep(examined, pair, pair.paths, trace)
         finding = examined.finding

@@ -19,7 +19,7 @@ from satcheck.audit.figures.depth import Depth, measure_depth
 from satcheck.audit.figures.gap import Gap, measure_gap
 from satcheck.audit.figures.touch_band import Band, band_of, touch_band
 from satcheck.audit.figures.volume import NOTHING, common_volume
-from satcheck.audit.ladder.around import open_pieces_around
+from satcheck.audit.ladder.enclosing_pieces import open_pieces_around
 from satcheck.audit.ladder.ladder import boxes_verdict, settle
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.severity import Judgement, disputed, judged

@@ -1,4 +1,6 @@
-"""Rotations and how placements follow one another: each formula once.
+"""Builds and composes the matrices of placements.
+
+`core/native/mesh/transform.cpp` applies them to the vertices of meshes.
 
 A rotation is nine entries, a placement sixteen, by rows, for column vectors, right-handed.
 """

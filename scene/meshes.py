@@ -16,7 +16,7 @@ from satcheck.scene.loading import mesh_file
 from satcheck.scene.loading.raw_mesh import Precision, RawMesh
 from satcheck.scene.loading.source import Source
 from satcheck.scene.mesh_units import placing_mesh
-from satcheck.scene.resolution import STEPS
+from satcheck.scene.precision import STEPS
 
 if TYPE_CHECKING:
     import numpy as np

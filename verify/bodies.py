@@ -18,7 +18,7 @@ from satcheck.report.settings import Plane
 from satcheck.scene import Body, MeshFile, MeshFileError, MeshHealth, Scene
 from satcheck.scene.mesh_files import MeshFiles
 from satcheck.scene.mesh_units import placing_mesh, shape_of_mesh
-from satcheck.scene.planar.laid_flat import laid_flat
+from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.shape_file import shape_file
 from satcheck.verify.curved import Curved
 from satcheck.verify.exact import Floats, Rejected
@@ -108,7 +108,7 @@ class Bodies:
         prisms: dict[str, MeshFile] = {}
         if plane is not None:
             bodies = tuple(body[0] for body in read if not isinstance(body, Placed))
-            flat = laid_flat(Scene("", None, bodies), plane, allow_open=self._allow_open)
+            flat = flat_scene(Scene("", None, bodies), plane, allow_open=self._allow_open)
             prisms = {body.id: body.file for body in flat.bodies}
         placed = []
         for entry, result in zip(entries, read, strict=True):

@@ -51,9 +51,9 @@ def split_together(pair: Pair) -> None:
     waiting = [body.shared for body in (pair.a, pair.b) if not body.convex]
     if len(waiting) < 2 or waiting[0] is waiting[1] or pair.settings.jobs == 1:
         return
-    from satcheck.audit.side_by_side import side_by_side
+    from satcheck.audit.parallel import in_parallel
 
-    side_by_side(lambda shared: shared.decomposition(), waiting, len(waiting))
+    in_parallel(lambda shared: shared.decomposition(), waiting, len(waiting))
 
 
 def inner_parts(body: PlacedBody, trace: Trace) -> list[Part]:

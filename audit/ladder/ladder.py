@@ -15,7 +15,7 @@ import math
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.ladder.climb import climb_pair
+from satcheck.audit.ladder.core_climb import climb_pair
 from satcheck.audit.request.trace import Trace
 from satcheck.core.tolerances import rounding_pad
 

@@ -15,12 +15,12 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.finding import examine
+from satcheck.audit.parallel import in_parallel
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.resolve.pair_state import PairState, is_objected, is_overlap_excused, state_of
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
-from satcheck.audit.side_by_side import side_by_side
 from satcheck.audit.vectors import added, dot, scaled
 from satcheck.report.report import Vector
 from satcheck.scene.bodies import IDENTITY
@@ -170,7 +170,7 @@ class Layout:
         threads = min(self.settings.jobs or os.cpu_count() or 1, len(pairs))
         if threads <= 1:
             return map(self._state, pairs)
-        return side_by_side(self._state, pairs, threads)
+        return in_parallel(self._state, pairs, threads)
 
     def _state(self, pair: BodyPair) -> PairState:
         """A pair that fails must not take the others with it; the check at the end says so."""

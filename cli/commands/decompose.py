@@ -36,7 +36,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import is_curved
 from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose
 from satcheck.scene import Body, Scene, parts_file
-from satcheck.scene.other_unit import require_in_range
+from satcheck.scene.scaled_scene import require_in_range
 from satcheck.scene.units import unit_of
 
 SCHEMA = "satcheck.decomposition/1"

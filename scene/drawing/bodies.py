@@ -16,12 +16,12 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.health import examine
 from satcheck.scene.issue import Issue, issue
 from satcheck.scene.loading import ReadLimits
-from satcheck.scene.loading.foreign import refused_by_worker
+from satcheck.scene.loading.child_formats import refused_by_worker
 from satcheck.scene.loading.nodes import Node, Nodes
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
 from satcheck.scene.plain_ids import UniqueNames
-from satcheck.scene.resolution import FLOAT64_ROUNDING
+from satcheck.scene.precision import FLOAT64_ROUNDING
 
 
 def load_drawing(

@@ -21,7 +21,7 @@ from satcheck.scene.loading.native import NATIVE_FORMATS, read_native
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal, alone, into_range
 from satcheck.scene.loading.reading_children import ReadingChildren
 from satcheck.scene.loading.source import Source, read_source
-from satcheck.scene.resolution import file_resolution, placement_step
+from satcheck.scene.precision import file_resolution, placement_step
 
 Made = TypeVar("Made")
 
@@ -93,9 +93,9 @@ def _read(source: Source, allowed: ReadLimits, children: ReadingChildren, flat: 
             from satcheck.scene.loading.flatten import flattened
 
             return alone(flattened(scene))
-    from satcheck.scene.loading.foreign import read_foreign
+    from satcheck.scene.loading.child_formats import read_in_child
 
-    return read_foreign(
+    return read_in_child(
         source,
         children,
         flat=flat,

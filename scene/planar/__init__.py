@@ -1,1 +1,1 @@
-"""Bodies in a plane: the outlines of meshes, as prisms (`laid_flat`)."""
+"""Bodies in a plane: the outlines of meshes, as prisms (`flat_scene`)."""

@@ -8,7 +8,7 @@ from satcheck.audit.check import Progress
 from satcheck.audit.request.settings import Settings
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
-from satcheck.scene.other_unit import require_in_range
+from satcheck.scene.scaled_scene import require_in_range
 from satcheck.studies.pair import pair_of
 from satcheck.studies.stability.answer import ask
 from satcheck.studies.stability.comparison import compare

@@ -7,13 +7,13 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.check import Progress
-from satcheck.audit.ladder.broad_phase import close_pairs
+from satcheck.audit.ladder.close_pairs import close_pairs
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Method, Settings
 from satcheck.audit.summary import tool
 from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene
-from satcheck.scene.other_unit import require_in_range
+from satcheck.scene.scaled_scene import require_in_range
 from satcheck.studies.pair import Bodies
 from satcheck.studies.tradeoff.gauge import Budget
 from satcheck.studies.tradeoff.measure import measure_pair

@@ -12,7 +12,7 @@
 #include "depth/depth_search.hpp"
 #include "mesh/convexity.hpp"
 #include "mesh/inspection.hpp"
-#include "mesh/topology.hpp"
+#include "mesh/transform.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 #include "readers.hpp"

@@ -7,7 +7,7 @@
 
 #include "base/key_sort.hpp"
 #include "base/numeric_range.hpp"
-#include "convex/polytope.hpp"
+#include "convex/convex_hull.hpp"
 #include "convex/quickhull.hpp"
 #include "exact/predicates.hpp"
 #include "convex/polytope_faces.hpp"

@@ -32,11 +32,4 @@ struct Polytope {
   std::size_t face_count() const { return face_normal.size(); }
 };
 
-// The convex hull of a set of points, with exact visibility tests: every input point lies inside
-// or on the result, exactly. Throws std::invalid_argument on an empty or non-finite input.
-//
-// Method: C. Bradford Barber, David P. Dobkin, Hannu Huhdanpaa, "The Quickhull Algorithm for
-// Convex Hulls" (1996), with exact orientation signs in the place of its thickness tolerance.
-Polytope convex_hull(const std::vector<Vec3>& points);
-
 }  // namespace satcheck

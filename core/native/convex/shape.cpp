@@ -1,3 +1,4 @@
+#include "convex/convex_hull.hpp"
 #include "convex/shape.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // A hull that is not moved is its own world hull. Any other is computed again, because rounding bends its faces.
+#include "convex/convex_hull.hpp"
 #include "convex/world_hull.hpp"
 
 namespace satcheck {

@@ -1,9 +1,9 @@
+#include "convex/convex_hull.hpp"
 #include "depth/forbidden_set.hpp"
 
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
 #include "base/work.hpp"
-#include "convex/polytope.hpp"
 
 namespace satcheck {
 namespace {

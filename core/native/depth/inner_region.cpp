@@ -7,6 +7,7 @@
 //
 // Proof: every triangle lies beyond one of the planes, every vertex of the result on this side of all of
 // them, with a distance between that exceeds the rounding of both tests.
+#include "convex/convex_hull.hpp"
 #include "depth/inner_region.hpp"
 
 #include <algorithm>
@@ -15,7 +16,6 @@
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
 #include "base/work.hpp"
-#include "convex/polytope.hpp"
 #include "exact/triangle_distance.hpp"
 
 namespace satcheck {

@@ -1,3 +1,4 @@
+#include "convex/convex_hull.hpp"
 #include "mesh/closing.hpp"
 
 #include <cstdint>
@@ -6,7 +7,6 @@
 #include "base/edge_table.hpp"
 #include "base/patches.hpp"
 #include "base/work.hpp"
-#include "convex/polytope.hpp"
 
 namespace satcheck {
 namespace {

@@ -10,6 +10,7 @@
 // the way from a corner v to c grows at least linearly, so the core begins within |c - v| d / D of v.
 // By convexity the greatest of these over the corners bounds the way from the hull to the core. Flat
 // bodies show why d alone does not do: every triangle of a thin plate is near the plane of its top.
+#include "convex/convex_hull.hpp"
 #include "mesh/convexity.hpp"
 
 #include <algorithm>
@@ -18,7 +19,6 @@
 #include <vector>
 
 #include "base/edge_table.hpp"
-#include "convex/polytope.hpp"
 #include "exact/predicates.hpp"
 #include "exact/triangle_pair.hpp"
 #include "mesh/topology.hpp"

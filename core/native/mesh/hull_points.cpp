@@ -1,14 +1,14 @@
 // An affine map takes the hull to the hull, and a vertex at depth d inside to a depth of at least d times the
 // map's smallest singular value. Rounding then moves it and the corners by a few units in the last place.
+#include "convex/convex_hull.hpp"
 #include "mesh/hull_points.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "base/tolerances.hpp"
-#include "convex/polytope.hpp"
 #include "convex/support_scan.hpp"
-#include "mesh/topology.hpp"
+#include "mesh/transform.hpp"
 
 namespace satcheck {
 namespace {

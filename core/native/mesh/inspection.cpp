@@ -4,6 +4,7 @@
 
 #include "base/edge_table.hpp"
 #include "mesh/cracks.hpp"
+#include "mesh/orient.hpp"
 #include "mesh/sorted_manifold.hpp"
 
 namespace satcheck {

@@ -11,6 +11,7 @@
 #include "exact/triangle_pair.hpp"
 #include "mesh/cracks.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/winding.hpp"
 

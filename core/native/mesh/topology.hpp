@@ -1,7 +1,6 @@
-// What a triangle soup is: closed, manifold, consistently wound, and the repairs that are safe.
+// What a triangle soup is: closed, manifold, consistently wound, and its vertices welded and sorted.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "base/edge_table.hpp"
@@ -53,18 +52,5 @@ Mesh weld_and_sort(MeshView mesh);
 // The parts connected through shared edges of the welded mesh, in order of their first triangle. Edges on
 // the two sides of a crack of this width (mesh/cracks.hpp) count as shared.
 std::vector<Mesh> split_components(const Mesh& mesh, double crack_width = 0);
-
-// The welded mesh with one winding per component, outermost closed shells outward. Repeated copies
-// of a triangle are dropped when the surface is closed without them and not with them. Components with
-// mixed winding are repaired when they are orientable edge-manifolds. A component whose winding is
-// consistent keeps it, so cavities stay cavities, unless the whole mesh is inside out or the
-// component is inside out and within no other one.
-Mesh orient(const Mesh& mesh);
-
-// world = matrix * (x, y, z, 1), row-major; each coordinate is summed in twice the precision and
-// rounded once. A reflection flips the winding. Throws std::invalid_argument when the matrix is not
-// finite, not affine or singular, or a coordinate overflows.
-Mesh transform(const Mesh& mesh, const std::array<double, 16>& matrix);
-Mesh translate(const Mesh& mesh, Vec3 offset);
 
 }  // namespace satcheck

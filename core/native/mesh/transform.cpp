@@ -3,7 +3,7 @@
 
 #include "base/numeric_range.hpp"
 #include "exact/predicates.hpp"
-#include "mesh/topology.hpp"
+#include "mesh/transform.hpp"
 
 namespace satcheck {
 Mesh transform(const Mesh& mesh, const std::array<double, 16>& m) {

@@ -1,5 +1,6 @@
 // Float64 distances leave the few pairs of triangles that are about as far apart as the length; exact signs decide
 // those.
+#include "convex/convex_hull.hpp"
 #include "mesh_pair/gap_comparison.hpp"
 
 #include <algorithm>

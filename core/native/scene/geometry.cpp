@@ -1,7 +1,8 @@
+#include "convex/convex_hull.hpp"
+#include "mesh/transform.hpp"
 #include "scene/geometry.hpp"
 
 #include "mesh/convexity.hpp"
-#include "mesh/topology.hpp"
 
 namespace satcheck {
 namespace {

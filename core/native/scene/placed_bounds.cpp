@@ -1,5 +1,6 @@
 // Coordinates are first taken in plain float64. Only those that could be the largest or the smallest, or
 // could leave the range of numbers, are summed and rounded as transform() does it.
+#include "mesh/transform.hpp"
 #include "scene/placed_bounds.hpp"
 
 #include <stdexcept>
@@ -7,7 +8,6 @@
 #include "base/numeric_range.hpp"
 #include "base/tolerances.hpp"
 #include "exact/predicates.hpp"
-#include "mesh/topology.hpp"
 
 namespace satcheck {
 namespace {

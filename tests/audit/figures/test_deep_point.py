@@ -9,14 +9,14 @@ from satcheck.audit import Settings
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.figures.deep_point import Outline, depth_around
-from satcheck.scene.planar.laid_flat import laid_flat
+from satcheck.scene.planar.flat_scene import flat_scene
 from tests.scene.planar.flat import Corners, scene, sheet
 
 SQUARE = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
 
 
 def placed(*outlines: Corners) -> list[PlacedBody]:
-    flat = laid_flat(scene(*map(sheet, outlines)), "xy")
+    flat = flat_scene(scene(*map(sheet, outlines)), "xy")
     return list(place(flat, Settings(planar="xy")).placed.values())
 
 

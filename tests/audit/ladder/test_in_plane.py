@@ -18,7 +18,7 @@ from satcheck.core.errors import SatcheckError
 from satcheck.core.shape_mesh import mesh_of
 from satcheck.core.shapes import Box, Sphere
 from satcheck.scene import Body, Scene, load_scene
-from satcheck.scene.planar.laid_flat import laid_flat
+from satcheck.scene.planar.flat_scene import flat_scene
 from satcheck.scene.rules import Rule, Selector
 from satcheck.scene.shape_file import shape_file
 from tests.oracles.free_directions import along, is_free
@@ -203,7 +203,7 @@ def test_deep_outlines_have_narrow_intervals(plane: str) -> None:
     assert upper - lower <= 0.01 * upper
     across = "xyz".index(({"x", "y", "z"} - set(plane)).pop())
     assert found.mtv[across] == 0.0
-    a, b = (body.file.mesh for body in laid_flat(scene, plane).bodies)
+    a, b = (body.file.mesh for body in flat_scene(scene, plane).bodies)
     other = Surface(b, True)
     assert is_free(a, other, found.mtv)
     for k in range(32):

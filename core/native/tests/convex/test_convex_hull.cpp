@@ -4,7 +4,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "convex/polytope.hpp"
+#include "convex/convex_hull.hpp"
 #include "convex/shape.hpp"
 #include "exact/predicates.hpp"
 #include "tests/check.hpp"

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/tolerances.hpp"
+#include "convex/convex_hull.hpp"
 #include "convex/exact_pair.hpp"
 #include "convex/gjk.hpp"
 #include "tests/check.hpp"

@@ -1,4 +1,5 @@
 // Distances that are exact squares, and all that is one ulp beside them.
+#include "convex/convex_hull.hpp"
 #include "convex/exact_reach.hpp"
 
 #include <cmath>

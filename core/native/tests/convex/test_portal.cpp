@@ -1,4 +1,5 @@
 // Portals against exact signs: what they find is right, and what they leave open is close to touching.
+#include "convex/convex_hull.hpp"
 #include "convex/portal.hpp"
 #include "convex/exact_pair.hpp"
 #include "convex/narrow_phase.hpp"

@@ -1,9 +1,9 @@
 // Regions lie inside their solids, as far as exact winding numbers can see, and are not needlessly small.
+#include "convex/convex_hull.hpp"
 #include "depth/inner_region.hpp"
 
 #include <random>
 
-#include "convex/polytope.hpp"
 #include "mesh/topology.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"

@@ -4,6 +4,8 @@
 #include <random>
 #include <utility>
 
+#include "mesh/orient.hpp"
+#include "mesh/transform.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
 

@@ -1,10 +1,12 @@
 // Topology numbers and repairs of boxes that are put together and broken in known ways.
+#include "mesh/orient.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
 
+#include "mesh/transform.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
 

@@ -1,4 +1,5 @@
 // Distances against brute force and closed forms; deviation and convexity of known shapes.
+#include "mesh/transform.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 
 #include <chrono>

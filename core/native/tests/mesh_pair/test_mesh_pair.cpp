@@ -1,5 +1,6 @@
 // Relations of boxes and spheres, degenerate contacts, evidence, and what is not solid. The lattice
 // fuzz against set operations is in tests/core/test_mesh_relation.py.
+#include "mesh/transform.hpp"
 #include "mesh_pair/mesh_pair.hpp"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 // Which rungs run for a pair and what they hand over; many at once answer as one by one, and a body that cannot be
 // made takes its own pairs with it, and no others.
+#include "mesh/transform.hpp"
 #include "scene/climb.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
 #include "mesh/inspection.hpp"
-#include "mesh/topology.hpp"
 #include "tests/check.hpp"
 #include "tests/shapes.hpp"
 

@@ -34,7 +34,7 @@ class Request(msgspec.Struct, frozen=True):
     data: Block
 
 
-def read_foreign(
+def read_in_child(
     source: Source,
     children: ReadingChildren,
     *,

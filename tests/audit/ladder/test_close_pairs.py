@@ -7,7 +7,7 @@ from itertools import combinations
 import pytest
 
 from satcheck.audit.bodies.placed_bodies import place
-from satcheck.audit.ladder.broad_phase import close_pairs
+from satcheck.audit.ladder.close_pairs import close_pairs
 from satcheck.audit.request.planner import Planner
 from satcheck.audit.request.settings import Settings
 from satcheck.core import box_gap

@@ -44,7 +44,7 @@ _ROUNDED = 2.0**-30
 _STEPS_OFF = 2.0**-50
 
 
-def laid_flat(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene:
+def flat_scene(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene:
     """The bodies as they are placed, as prisms across the plane; answers lie in the plane.
 
     A body without an outline (all its triangles are seen edge on) is unreadable from then on, and

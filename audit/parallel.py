@@ -9,9 +9,9 @@ T = TypeVar("T")
 R = TypeVar("R")
 
 
-def side_by_side(work: Callable[[T], R], things: Sequence[T], threads: int) -> list[R]:
-    """work(thing) of each, on so many threads; where the system grants no more of them, one after
-    the other. After an error, such as Ctrl-C, running work is not waited for."""
+def in_parallel(work: Callable[[T], R], things: Sequence[T], threads: int) -> list[R]:
+    """work(thing) of each thing, on this many threads. If the system grants no thread, the calls
+    run one after another. After an error, such as Ctrl-C, running work is not awaited."""
     from concurrent.futures import ThreadPoolExecutor
 
     pool = ThreadPoolExecutor(threads)

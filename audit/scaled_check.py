@@ -1,7 +1,5 @@
-"""Checks in another unit of length: settings are scaled on the way in, reports on the way out.
-
-The scale is a power of two (`scene/other_unit.py`).
-"""
+"""The check of a scaled scene (`scene/scaled_scene.py`): its settings are scaled too, and its
+report is scaled back. The factor is a power of two."""
 
 from __future__ import annotations
 
@@ -34,14 +32,14 @@ DIMENSIONS = {
 }
 
 
-class OtherUnit:
-    """Lengths of the scene times 2**exponent are in the other unit."""
+class Scaling:
+    """Lengths of the scaled scene are 2**exponent times those of the scene."""
 
     def __init__(self, exponent: int) -> None:
         self._exponent = exponent
 
     def settings(self, given: Settings) -> Settings:
-        """In the other unit."""
+        """Settings for the scaled scene."""
         lengths = {name: getattr(given, name) for name in ("clearance", "tolerance")}
         known = {name: length for name, length in lengths.items() if length is not None}
         return replace(

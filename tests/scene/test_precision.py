@@ -10,7 +10,7 @@ import pytest
 from satcheck.core import largest_placed, largest_stretch
 from satcheck.scene import Body, load_scene
 from satcheck.scene.loading.raw_mesh import RawMesh
-from satcheck.scene.resolution import (
+from satcheck.scene.precision import (
     FLOAT32_STEP,
     FLOAT64_ROUNDING,
     file_resolution,

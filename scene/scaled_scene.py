@@ -38,7 +38,7 @@ def require_in_range(scene: Scene) -> None:
         raise SatcheckError("out-of-range", message)
 
 
-def in_other_unit(scene: Scene, exponent: int) -> Scene:
+def scaled_scene(scene: Scene, exponent: int) -> Scene:
     """The scene with its lengths times 2**exponent. A body that loses digits by that is unreadable
     in it."""
     scaled = [_scaled(body, exponent) for body in scene.bodies]
