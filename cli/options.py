@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -13,18 +13,19 @@ from click.shell_completion import CompletionItem
 from satcheck.audit import Settings
 from satcheck.audit.request.settings import METHODS
 from satcheck.cli.output import Document
+from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
 from satcheck.scene.units import MICROMETRES, Length, parse_length
 
 FORMATS = ("table", "json")
+REPORT_FORMATS = (*FORMATS, *CI_FORMATS)
 SPLITS = ("nodes", "components", "none")
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 DEFAULTS = Settings()
+_ENDINGS = {ending: form for form, endings in CI_FORMATS.items() for ending in endings}
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = frozenset(
-    {".html", ".htm", ".svg", ".png", ".pdf", ".xml", ".sarif", ".csv", ".toml", ".yaml"}
-)
+_NO_REPORTS = frozenset({".html", ".htm", ".svg", ".png", ".pdf", ".toml", ".yaml"})
 _STANDARD_OUTPUT = Path("-")
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -57,17 +58,21 @@ def _show_help(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
         ctx.exit()
 
 
-def form_of(form: str | None, output: Path | None) -> str:
-    """The format: as given, else as the name of the output file says.
+def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMATS) -> str:
+    """The format, one of `forms`: as given, else as the name of the output file says.
 
-    Raises click.UsageError for a name that promises what no report is.
+    Raises click.UsageError for a name that promises another kind of document.
     """
-    suffix = output.suffix.lower() if output else ""
-    if form is None and suffix in _NO_REPORTS:
+    if form is not None or output is None:
+        return form or "table"
+    ending = output.suffix.lower()
+    named = "json" if ending == ".json" else _ENDINGS.get(ending, "table")
+    if ending in _NO_REPORTS or named not in forms:
         raise click.UsageError(
-            f"{output}: a report is JSON or a table: name it .json, or give --format table"
+            f"{output}: this command writes {', '.join(forms)}: give one of them with --format, "
+            "or name the file .json"
         )
-    return form or ("json" if suffix == ".json" else "table")
+    return named
 
 
 def length(text: str) -> Length:
@@ -132,6 +137,13 @@ form_option = click.option(
     "form",
     type=click.Choice(FORMATS),
     help="The format of the report. [default: table; json if the file of -o ends in .json]",
+)
+report_form_option = click.option(
+    "--format",
+    "form",
+    type=click.Choice(REPORT_FORMATS),
+    help="The format of the report. [default: as the file of -o ends: .json, .sarif, .xml (JUnit), "
+    ".md, .csv, .jsonl; otherwise table]",
 )
 output_option = click.option(
     "-o",
@@ -203,6 +215,22 @@ cache_option = click.option(
     flag_value=False,
     default=DEFAULTS.cache,
     help="Neither read nor write the cache of convex parts.",
+)
+
+
+def _set_colour(ctx: click.Context, _: click.Parameter, choice: str) -> None:
+    ctx.color = {"always": True, "never": False}.get(choice)
+
+
+# cli/output.py reads it from the context of click.
+color_option = click.option(
+    "--color",
+    type=click.Choice(("auto", "always", "never")),
+    default="auto",
+    expose_value=False,
+    callback=_set_colour,
+    help="Use colour in tables. auto: on a terminal, unless NO_COLOR is set; FORCE_COLOR means "
+    "always.  [default: auto]",
 )
 debug_option = click.option(
     "--debug",

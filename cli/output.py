@@ -166,12 +166,24 @@ def _columns() -> int:
     return get_terminal_size().columns
 
 
+def _wants_colour(terminal: bool) -> bool:
+    """--color decides, then NO_COLOR and FORCE_COLOR (https://no-color.org and
+    https://force-color.org: any value that is not empty), then whether it is a terminal."""
+    context = click.get_current_context(silent=True)
+    if context is not None and context.color is not None:
+        return context.color
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR"):
+        return True
+    return terminal and os.environ.get("TERM") != "dumb"
+
+
 def _page(stream: TextIO) -> Page:
     terminal = stream.isatty()
     encoding = (stream.encoding or "").lower().replace("-", "").replace("_", "")
     return Page(
         width=_columns() if terminal else UNBOUNDED_WIDTH,
-        # https://no-color.org: any non-empty value
-        colour=terminal and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb",
+        colour=_wants_colour(terminal),
         unicode=encoding.startswith("utf"),
     )

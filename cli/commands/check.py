@@ -20,11 +20,12 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     DEFAULTS,
     HELP_NAMES,
+    REPORT_FORMATS,
     Command,
     cache_option,
+    color_option,
     debug_option,
     form_of,
-    form_option,
     jobs_option,
     length,
     method_option,
@@ -35,6 +36,7 @@ from satcheck.cli.options import (
     paths_argument,
     planar_option,
     pose_options,
+    report_form_option,
     settings_of,
     split_option,
     tolerance_option,
@@ -42,6 +44,8 @@ from satcheck.cli.options import (
 )
 from satcheck.cli.output import Document, Page, talk
 from satcheck.cli.progress import Bar
+from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.cli.report.ci import render as render_for_ci
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.json import render as render_json
 from satcheck.cli.report.summary import samples_line, summary_line
@@ -104,7 +108,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 
 @click.command("check", cls=_DefaultCommand, context_settings=HELP_NAMES, hidden=True)
 @paths_argument("A B [C ...]")
-@form_option
+@report_form_option
 @output_option
 @click.option(
     "--explain",
@@ -190,11 +194,13 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     default=DEFAULTS.timings,
     help="Leave out times: same input, same bytes.",
 )
+@click.option("-q", "--quiet", is_flag=True, help="Print errors only; -o still writes the report.")
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 even when pairs fail.")
 @units_option
 @outside_option
 @package_option
 @pose_options
+@color_option
 @debug_option
 @click.option(
     "--version",
@@ -208,6 +214,7 @@ def command(
     form: str | None,
     output: Path | None,
     explain: bool,
+    quiet: bool,
     exit_zero: bool,
     **options: Any,
 ) -> int:
@@ -223,7 +230,7 @@ def command(
     carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
     inputs = Inputs.taken_from(options)
-    form = form_of(form, output)
+    form = form_of(form, output, REPORT_FORMATS)
     if options["certificate"] and form != "json":
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
@@ -240,14 +247,15 @@ def command(
     if poses is None:
         result = _check(scene, settings_of(options, scene))
     else:
-        _refuse_of_poses(explain=explain, **options)
+        _refuse_of_poses(form, explain=explain, **options)
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
-    document.deliver(
-        lambda page: _render(result, form, page, explain=explain, timings=options["timings"]),
-        output,
-        utf8=form == "json",
-    )
-    _tell(result, scene, output)
+    if output is not None or not quiet:
+        document.deliver(
+            lambda page: _render(result, form, page, explain=explain, timings=options["timings"]),
+            output,
+            utf8=form != "table",
+        )
+    _tell(result, scene, None if quiet else output)
     verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
     return exit_codes.of_verdict(verdict, result.issues, exit_zero=exit_zero)
 
@@ -281,8 +289,10 @@ def _check(scene: Scene, settings: Settings) -> Report:
         raise RuntimeError(f"a library called exit({stop.code!r})") from stop
 
 
-def _refuse_of_poses(**options: Any) -> None:
+def _refuse_of_poses(form: str, **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
+    if form in CI_FORMATS:
+        raise click.UsageError(f"--format {form} takes one pose, and several are given")
     for name in ("certificate", "explain", "cross_check"):
         if options[name]:
             option = name.replace("_", "-")
@@ -307,6 +317,8 @@ def _render(
         return render_samples(result, page)
     if form == "json":
         return render_json(result, timings=timings)
+    if form in CI_FORMATS:
+        return render_for_ci(result, form)
     from satcheck.cli.report.table import render as render_table
 
     return render_table(result, page, explain=explain, timings=timings)

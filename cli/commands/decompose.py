@@ -20,6 +20,7 @@ from satcheck.cli.options import (
     HELP_NAMES,
     Command,
     cache_option,
+    color_option,
     debug_option,
     outside_option,
     paths_argument,
@@ -101,6 +102,7 @@ class _Parts(Struct, frozen=True):
 @split_option
 @units_option
 @outside_option
+@color_option
 @debug_option
 def command(
     output: Path | None,

@@ -16,6 +16,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
     Command,
+    color_option,
     debug_option,
     form_of,
     form_option,
@@ -94,6 +95,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 )
 @units_option
 @outside_option
+@color_option
 @debug_option
 def command(
     form: str | None,

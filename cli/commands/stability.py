@@ -13,6 +13,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
     Command,
+    color_option,
     debug_option,
     form_of,
     form_option,
@@ -57,6 +58,7 @@ _EXIT_CODES = {
 @click.option("--explain", is_flag=True, help="Show every variant, not only the failures.")
 @units_option
 @outside_option
+@color_option
 @debug_option
 def command(
     form: str | None,

@@ -14,6 +14,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
     Command,
+    color_option,
     debug_option,
     output_option,
     outside_option,
@@ -63,6 +64,7 @@ def _form_of(output: Path | None) -> str:
 @outside_option
 @package_option
 @pose_options
+@color_option
 @debug_option
 def command(form: str | None, output: Path | None, never: bool, **options: Any) -> int:
     """Suggest which pairs a scene may allow to overlap.

@@ -14,6 +14,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
     Command,
+    color_option,
     debug_option,
     form_of,
     form_option,
@@ -71,6 +72,7 @@ PLOTS = (".svg", ".png", ".pdf")
 @split_option
 @units_option
 @outside_option
+@color_option
 @debug_option
 def command(
     form: str | None,

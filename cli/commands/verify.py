@@ -14,6 +14,7 @@ from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
     Command,
+    color_option,
     debug_option,
     form_of,
     form_option,
@@ -54,6 +55,7 @@ _CALLED: dict[Outcome, str] = {
 @form_option
 @output_option
 @outside_option
+@color_option
 @debug_option
 def command(
     report: Path,

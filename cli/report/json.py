@@ -13,6 +13,7 @@ from msgspec import msgpack, to_builtins
 from satcheck.report.report import Report, without_timings
 
 INDENT = 2
+_INDENTATION = re.compile("\n *")
 # How MessagePack marks a float64, and the bits of a NaN or an infinity. Other bytes may look so.
 _NOT_FINITE = re.compile(rb"\xcb[\x7f\xff][\xf0-\xff]")
 
@@ -35,6 +36,11 @@ def document(values: Any) -> str:
     Raises ValueError, as `render` does, for a number that is not finite.
     """
     return _text(values) + "\n"
+
+
+def line(values: Any) -> str:
+    """JSON values on one line, for JSON Lines. Raises ValueError as `document` does."""
+    return _INDENTATION.sub("", document(values)) + "\n"
 
 
 def _member(value: Any, timings: bool) -> Iterable[str]:

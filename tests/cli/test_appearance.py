@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
@@ -21,10 +22,32 @@ from tests.cli.process import (
 
 
 def test_a_pipe_gets_wide_plain_text() -> None:
-    for variables in ({}, {"FORCE_COLOR": "1"}, {"NO_COLOR": "1"}, {"COLUMNS": "40"}):
+    for variables in ({}, {"NO_COLOR": "1"}, {"COLUMNS": "40"}):
         ran = satcheck(*PUSHED, env=variables)
         assert "\x1b" not in ran.out + ran.err
         assert any("box_pushed" in line and "(-1, 0, 0)" in line for line in ran.out.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("variables", "choice", "coloured"),
+    [
+        ({"FORCE_COLOR": "1"}, "auto", True),
+        ({"FORCE_COLOR": "1", "NO_COLOR": "1"}, "auto", False),
+        ({"NO_COLOR": "1"}, "always", True),
+        ({"FORCE_COLOR": "1"}, "never", False),
+    ],
+)
+def test_colour_in_a_pipe(variables: dict[str, str], choice: str, coloured: bool) -> None:
+    ran = satcheck(*PUSHED, "--color", choice, env=variables)
+    assert ("\x1b" in ran.out) == coloured
+
+
+def test_quiet_prints_nothing_and_writes_the_report(tmp_path: Path) -> None:
+    output = tmp_path / "report.json"
+    for more in ((), ("-o", str(output))):
+        ran = satcheck(*PUSHED, "--quiet", *more)
+        assert (ran.code, ran.out, ran.err) == (1, "", "")
+    assert json.loads(output.read_text())["summary"]["verdict"] == "fail"
 
 
 def test_ascii_where_the_encoding_has_no_more() -> None:

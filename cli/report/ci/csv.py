@@ -1,0 +1,49 @@
+"""CSV (RFC 4180): a row for each finding that the report lists."""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Finding, Report
+
+# Columns that are fields of a finding with one value.
+_FIELDS = (
+    "id",
+    "a",
+    "b",
+    "relation",
+    "exact_relation",
+    "severity",
+    "rule",
+    "undecided",
+    "quality",
+    "depth",
+    "distance",
+    "volume",
+    "mtv_verified",
+    "reason",
+)
+_COLUMNS = (*_FIELDS, "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
+
+
+def render(report: Report) -> str:
+    files = {body.id: body.file for body in report.bodies}
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\r\n")
+    writer.writerow(_COLUMNS)
+    for finding in report.findings:
+        writer.writerow([*_values(finding), files[finding.a], files[finding.b]])
+    return text.getvalue()
+
+
+def _values(finding: Finding) -> list[Any]:
+    """An empty cell is a value that is not known or does not apply."""
+    lower = None if finding.depth_bounds is None else finding.depth_bounds[0]
+    return [
+        *(getattr(finding, field) for field in _FIELDS),
+        lower,
+        *(finding.mtv or (None, None, None)),
+    ]

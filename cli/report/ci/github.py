@@ -1,0 +1,33 @@
+"""Workflow commands of GitHub Actions: each problem becomes an annotation of its file. GitHub shows
+the first ten errors and the first ten warnings of a step, so the worst come first."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.cli.report.ci.problems import problems, uri
+from satcheck.cli.report.summary import summary_line
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Report
+
+_COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
+
+
+def render(report: Report) -> str:
+    lines = []
+    for problem in problems(report):
+        title = f"satcheck: {problem.kind}"
+        values = {"file": uri(problem.files[0]), "line": "1", "title": title}
+        properties = ",".join(f"{name}={_property(value)}" for name, value in values.items())
+        lines.append(f"::{_COMMANDS[problem.level]} {properties}::{_data(problem.message)}\n")
+    # A line that begins with :: would be a command.
+    return "".join([*lines, f"satcheck: {_data(summary_line(report))}\n"])
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

@@ -1,0 +1,68 @@
+"""JUnit XML, as CI servers read it: one test suite for the report, one test case for each finding.
+
+A finding that fails is a failure, an undecided question an error; a finding that passes passes. The
+pairs that the report does not list are one test case together.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+
+from satcheck.cli.report.ci.problems import kind_of, sentence
+from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.words import counted, issue_line
+from satcheck.report.report import SEVERITIES
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Finding, Report
+
+# Characters that XML 1.0 cannot hold.
+_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def render(report: Report) -> str:
+    suite = ElementTree.Element("testsuite", name="satcheck")
+    files = {body.id: body.file for body in report.bodies}
+    for finding in report.findings:
+        case = _case(suite, files[finding.a], f"{finding.a} and {finding.b}")
+        _judge(case, finding, report)
+    if report.truncated is not None:
+        pairs = counted(report.truncated.pairs, "more pair")
+        _case(suite, "satcheck", f"{pairs}: {report.truncated.reason}")
+    errors = [issue for issue in report.issues if issue.severity == "error"]
+    for issue in errors:
+        case = _case(suite, issue.file or "satcheck", issue.body or issue.file or issue.code)
+        _say(case, "error", issue.code, issue_line(issue))
+    ElementTree.SubElement(suite, "system-out").text = _clean(summary_line(report))
+    for name in ("failure", "error"):
+        suite.set(f"{name}s", str(len(suite.findall(f"testcase/{name}"))))
+    suite.set("tests", str(len(suite.findall("testcase"))))
+    root = ElementTree.Element("testsuites")
+    root.append(suite)
+    ElementTree.indent(root)
+    text = ElementTree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+
+
+def _case(suite: ElementTree.Element, file: str, name: str) -> ElementTree.Element:
+    attributes = {"classname": _clean(file), "name": _clean(name)}
+    return ElementTree.SubElement(suite, "testcase", attributes)
+
+
+def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
+    text = sentence(finding, unit_of(report.units))
+    if finding.undecided is not None:
+        _say(case, "error", "undecided", text)
+    elif SEVERITIES.index(finding.severity) <= SEVERITIES.index(report.settings.fail_on):
+        _say(case, "failure", kind_of(finding), text)
+
+
+def _say(case: ElementTree.Element, name: str, kind: str, text: str) -> None:
+    ElementTree.SubElement(case, name, type=kind, message=_clean(text))
+
+
+def _clean(text: str) -> str:
+    return _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text)

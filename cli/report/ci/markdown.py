@@ -1,0 +1,37 @@
+"""Markdown for people: a step summary of GitHub Actions, a comment on a merge request."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from satcheck.cli.report.ci.problems import problems
+from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.words import counted
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Report
+
+# GitHub cuts a step summary at 1 MiB; nobody reads more rows than these.
+MOST_ROWS = 200
+_MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-!|~&@:])")
+
+
+def render(report: Report) -> str:
+    listed = problems(report)
+    verdict = report.summary.verdict
+    lines = [f"## satcheck: {verdict}", "", _text(summary_line(report))]
+    if listed:
+        lines += ["", "| severity | kind | what |", "|---|---|---|"]
+        lines += [
+            f"| {problem.level} | {_text(problem.kind)} | {_text(problem.message)} |"
+            for problem in listed[:MOST_ROWS]
+        ]
+    if len(listed) > MOST_ROWS:
+        lines += ["", f"{counted(len(listed) - MOST_ROWS, 'more row')}: see the JSON report."]
+    return "\n".join(lines) + "\n"
+
+
+def _text(text: str) -> str:
+    """Names from files are text, never markup."""
+    return _MARKUP.sub(r"\\\1", " ".join(text.split()))

@@ -1,0 +1,123 @@
+"""What a CI system shows of a report: findings that are errors, warnings or notes, and the issues
+of the inputs, the worst first."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
+from urllib.parse import quote
+
+from satcheck.cli.report.numbers import number, vector
+from satcheck.cli.report.words import depth, in_motion, is_hit, with_unit
+from satcheck.report.report import OVERLAPS
+from satcheck.scene.units import unit_of
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Finding, Issue, Report
+
+Level = Literal["error", "warning", "note"]
+LEVELS: tuple[Level, ...] = get_args(Level)
+# Kinds of findings, and what each means. The kind of an issue is its code.
+KINDS = {
+    "overlap": "Two bodies share a part of their interior.",
+    "motion": "Two bodies hit while they move.",
+    "clearance": "Two bodies are closer than their clearance.",
+    "touch": "Two bodies touch.",
+    "undecided": "A question about two bodies could not be decided.",
+}
+
+
+class Problem(NamedTuple):
+    """kind: a key of KINDS, or the code of an issue. files: as given, of the bodies in their order,
+    at least one. id: that of the finding; of an issue its code and its body."""
+
+    level: Level
+    kind: str
+    message: str
+    files: tuple[str, ...]
+    bodies: tuple[str, ...]
+    id: str
+    depth: float = 0.0
+
+
+def problems(report: Report) -> list[Problem]:
+    """The worst first: by level, then the deeper overlap."""
+    files = {body.id: body.file for body in report.bodies}
+    listed = [
+        _of_finding(finding, level, files, unit_of(report.units))
+        for finding in report.findings
+        if (level := _level(finding)) is not None
+    ]
+    listed += [_of_issue(issue, files) for issue in report.issues]
+    return sorted(listed, key=lambda problem: (LEVELS.index(problem.level), -problem.depth))
+
+
+def sentence(finding: Finding, unit: str | None) -> str:
+    """`box and lid: penetrating, depth 1 mm; moving box by (-1, 0, 0) ends the overlap.`"""
+    parts = [f"{finding.a} and {finding.b}: {finding.relation}"]
+    if finding.depth is not None:
+        parts.append(f"depth {with_unit(depth(finding), unit)}")
+    if finding.distance is not None:
+        parts.append(f"gap {with_unit(number(finding.distance), unit)}")
+    parts += [moving for moving in [in_motion(finding, unit)] if moving]
+    text = ", ".join(parts)
+    if finding.mtv is not None and finding.mtv_verified:
+        text += f"; moving {finding.a} by {vector(finding.mtv)} ends the overlap"
+    if finding.reason is not None:
+        text += f" ({finding.reason})"
+    return f"{text}."
+
+
+def kind_of(finding: Finding) -> str:
+    if finding.undecided is not None:
+        return "undecided"
+    if is_hit(finding) and finding.at_rest not in OVERLAPS:
+        return "motion"
+    if finding.relation in OVERLAPS:
+        return "overlap"
+    return "touch" if finding.relation == "touching" and finding.rule is None else "clearance"
+
+
+def uri(file: str) -> str:
+    """Relative to the current folder if the file lies in it, otherwise a file URI. Links are not
+    followed: the name is stable."""
+    path = Path(os.path.normpath(Path.cwd() / file))
+    try:
+        return quote(os.fsencode(path.relative_to(Path.cwd()).as_posix()))
+    except ValueError:
+        return path.as_uri()
+
+
+def _level(finding: Finding) -> Level | None:
+    severity = finding.severity
+    return severity if severity in ("error", "warning", "note") else None
+
+
+def _of_finding(finding: Finding, level: Level, files: dict[str, str], unit: str | None) -> Problem:
+    bodies = (finding.a, finding.b)
+    return Problem(
+        level,
+        kind_of(finding),
+        sentence(finding, unit),
+        tuple(files[body] for body in bodies),
+        bodies,
+        finding.id,
+        finding.depth or 0.0,
+    )
+
+
+def _of_issue(issue: Issue, files: dict[str, str]) -> Problem:
+    """An issue of the whole check gets the first file."""
+    body = (issue.body,) if issue.body else ()
+    where = issue.body or issue.file
+    file = issue.file or files.get(issue.body or "") or next(iter(files.values()), ".")
+    named = f"{where}: " if where and not issue.message.startswith(where) else ""
+    return Problem(
+        issue.severity,
+        issue.code,
+        f"{named}{issue.message}",
+        (file,),
+        body,
+        f"{issue.code}/{where or ''}",
+    )

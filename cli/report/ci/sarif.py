@@ -1,0 +1,81 @@
+"""SARIF 2.1.0 (OASIS, Static Analysis Results Interchange Format), as code scanning services read
+it. A result is a finding or an issue of an input; a report without any has a run without results.
+
+Meshes have no lines, so each location is line 1 of the file.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from satcheck.cli.report.ci.problems import KINDS, Problem, problems, uri
+from satcheck.cli.report.json import document
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Report
+
+SCHEMA = (
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+)
+# GitHub refuses a run with more results.
+MOST_RESULTS = 25_000
+
+
+def render(report: Report) -> str:
+    listed = problems(report)
+    kept = listed[:MOST_RESULTS]
+    kinds = list(dict.fromkeys(problem.kind for problem in kept))
+    run = {
+        "tool": {
+            "driver": {
+                "name": report.tool.name,
+                "semanticVersion": report.tool.version,
+                "rules": [_rule(kind) for kind in kinds],
+            }
+        },
+        "columnKind": "unicodeCodePoints",
+        "invocations": [_invocation(report, left_out=len(listed) - len(kept))],
+        "results": [_result(problem, kinds.index(problem.kind)) for problem in kept],
+    }
+    return document({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})
+
+
+def _rule(kind: str) -> dict[str, Any]:
+    text = KINDS.get(kind, f"The inspection of an input reports {kind}.")
+    return {"id": kind, "shortDescription": {"text": text}}
+
+
+def _invocation(report: Report, left_out: int) -> dict[str, Any]:
+    """left_out: results beyond the limit."""
+    notes = []
+    if left_out:
+        text = f"{left_out} more results, none graver than those here, are left out."
+        notes.append({"level": "warning", "message": {"text": text}})
+    return {
+        "executionSuccessful": report.summary.verdict != "incomplete",
+        "toolExecutionNotifications": notes,
+    }
+
+
+def _result(problem: Problem, rule: int) -> dict[str, Any]:
+    locations = [_location(problem, number) for number in range(len(problem.files))]
+    return {
+        "ruleId": problem.kind,
+        "ruleIndex": rule,
+        "level": problem.level,
+        "message": {"text": problem.message},
+        "locations": locations[:1],
+        "relatedLocations": locations[1:],
+        "partialFingerprints": {"satcheckId/v1": problem.id},
+    }
+
+
+def _location(problem: Problem, number: int) -> dict[str, Any]:
+    bodies = problem.bodies[number : number + 1]
+    return {
+        "physicalLocation": {
+            "artifactLocation": {"uri": uri(problem.files[number])},
+            "region": {"startLine": 1},
+        },
+        "logicalLocations": [{"fullyQualifiedName": body, "kind": "object"} for body in bodies],
+    }

@@ -1,0 +1,165 @@
+"""The formats of CI systems, each read back by a reader that is not ours where there is one."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+from urllib.parse import quote
+
+import pytest
+from junitparser import Failure, JUnitXml
+from msgspec.structs import replace
+from sarif_pydantic import Sarif
+
+from satcheck.cli.report.ci import FORMATS, render
+from satcheck.cli.report.ci.problems import problems, uri
+from satcheck.report.report import Finding, Report
+from tests.cli.process import SAMPLES, satcheck
+from tests.cli.reports import (
+    BLOCK,
+    HIT,
+    MISSING,
+    OPEN,
+    PENETRATING,
+    SEPARATED,
+    TOUCHING,
+    UNDECIDED,
+    report,
+)
+
+TOUCH = replace(TOUCHING, severity="note")
+DEEPER = replace(PENETRATING, id="block|deeper", b="deeper", depth=2.0, depth_bounds=(2.0, 2.0))
+NAMES = ("block", "block_pushed", "deeper", "far", "flush", "soup")
+
+
+def scene_report(*findings: Finding) -> Report:
+    bodies = tuple(replace(BLOCK, id=name, name=name, file=f"{name}.obj") for name in NAMES)
+    return report(*findings, bodies=bodies, issues=(OPEN, MISSING))
+
+
+MIXED = scene_report(SEPARATED, TOUCH, UNDECIDED, PENETRATING, DEEPER)
+
+
+def test_the_worst_problem_comes_first() -> None:
+    listed = problems(MIXED)
+    assert [problem.level for problem in listed] == ["error"] * 3 + ["warning"] * 2 + ["note"]
+    assert [problem.kind for problem in listed] == [
+        "overlap", "overlap", "unreadable", "undecided", "not-closed", "touch"
+    ]  # fmt: skip
+    assert listed[0].bodies == ("block", "deeper")
+
+
+def test_a_hit_on_the_way_is_a_problem_of_its_own_kind() -> None:
+    hit = replace(HIT, b="far")
+    assert next(problem.kind for problem in problems(scene_report(hit))) == "motion"
+
+
+def test_sarif() -> None:
+    run = Sarif.model_validate_json(render(MIXED, "sarif")).runs[0]
+    assert run.results is not None
+    assert [result.level for result in run.results] == ["error"] * 3 + ["warning"] * 2 + ["note"]
+    rules = run.tool.driver.rules
+    assert rules is not None
+    for result in run.results:
+        assert rules[result.rule_index or 0].id == result.rule_id
+        assert result.locations
+        assert result.locations[0].physical_location
+    first = json.loads(render(MIXED, "sarif"))["runs"][0]["results"][0]
+    assert first["partialFingerprints"] == {"satcheckId/v1": DEEPER.id}
+    physical = first["locations"][0]["physicalLocation"]
+    assert physical == {"artifactLocation": {"uri": "block.obj"}, "region": {"startLine": 1}}
+    other = first["relatedLocations"][0]["logicalLocations"]
+    assert other == [{"fullyQualifiedName": "deeper", "kind": "object"}]
+
+
+def test_sarif_without_problems_has_a_run_without_results() -> None:
+    document = json.loads(render(report(SEPARATED), "sarif"))
+    assert document["runs"][0]["results"] == []
+
+
+def test_sarif_keeps_the_worst_results_within_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("satcheck.cli.report.ci.sarif.MOST_RESULTS", 4)
+    run = json.loads(render(MIXED, "sarif"))["runs"][0]
+    assert [result["level"] for result in run["results"]] == ["error"] * 3 + ["warning"]
+    notes = run["invocations"][0]["toolExecutionNotifications"]
+    assert notes[0]["message"]["text"].startswith("2 more results")
+
+
+def test_junit() -> None:
+    document = JUnitXml.fromstring(render(MIXED, "junit").encode())
+    assert (document.tests, document.failures, document.errors) == (6, 2, 2)
+    failed = [case.name for case in next(iter(document)) if Failure in map(type, case.result)]
+    assert failed == ["block and block_pushed", "block and deeper"]
+
+
+def test_junit_drops_what_xml_cannot_hold() -> None:
+    body = replace(BLOCK, id="a\x00<b>", file="a&b.obj")
+    finding = replace(SEPARATED, a=body.id, b=body.id)
+    document = JUnitXml.fromstring(render(report(finding, bodies=(body,)), "junit").encode())
+    case = next(iter(next(iter(document))))
+    assert (case.classname, case.name) == ("a&b.obj", "a\ufffd<b> and a\ufffd<b>")
+
+
+def test_github_annotations() -> None:
+    lines = render(MIXED, "github").splitlines()
+    assert lines[0].startswith("::error file=block.obj,line=1,title=satcheck%3A overlap::block and")
+    assert [line.split(" ")[0] for line in lines[3:6]] == ["::warning", "::warning", "::notice"]
+    assert lines[-1].startswith("satcheck: ")
+
+
+def test_a_name_cannot_forge_an_annotation() -> None:
+    body = replace(BLOCK, id="a\n::error::x", file="a,b:c.obj")
+    text = render(report(replace(PENETRATING, a=body.id, b=body.id), bodies=(body,)), "github")
+    assert len(text.splitlines()) == 2
+    assert "file=a%2Cb%3Ac.obj" in text.replace("%252C", "%2C").replace("%253A", "%3A")
+
+
+def test_markdown_shows_names_as_text() -> None:
+    body = replace(BLOCK, id="<b>|`x`\n# y")
+    text = render(report(replace(PENETRATING, a=body.id, b=body.id), bodies=(body,)), "markdown")
+    assert text.startswith("## satcheck: fail\n")
+    assert "\\<b\\>\\|\\`x\\` \\# y" in text
+
+
+def test_csv() -> None:
+    rows = list(csv.DictReader(io.StringIO(render(MIXED, "csv"), newline="")))
+    assert [row["b"] for row in rows] == [finding.b for finding in MIXED.findings]
+    assert (rows[3]["depth"], rows[3]["mtv_x"], rows[3]["file_b"]) == (
+        "1.0", "-1.0", "block_pushed.obj"
+    )  # fmt: skip
+    assert rows[0]["depth"] == ""
+
+
+def test_json_lines() -> None:
+    head, *findings = [json.loads(line) for line in render(MIXED, "jsonl").splitlines()]
+    assert (head["record"], head["schema"]) == ("report", "satcheck.report/1")
+    assert [finding["id"] for finding in findings] == [finding.id for finding in MIXED.findings]
+
+
+def test_a_file_outside_of_the_folder_has_a_file_uri(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert uri("parts/50% a.obj") == "parts/50%25%20a.obj"
+    assert uri(str(tmp_path / "b.obj")) == "b.obj"
+    assert uri("../b.obj") == f"file://{quote(str(tmp_path.parent / 'b.obj'))}"
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_the_name_of_the_file_chooses_the_format(form: str, tmp_path: Path) -> None:
+    printed = satcheck("box.obj", "box_pushed.stl", "--format", form, cwd=SAMPLES)
+    assert (printed.code, printed.err) == (1, "")
+    for ending in FORMATS[form]:
+        output = tmp_path / f"report{ending}"
+        satcheck("box.obj", "box_pushed.stl", "-o", str(output), cwd=SAMPLES)
+        assert output.read_bytes().decode() == printed.out
+
+
+def test_only_a_report_has_these_formats() -> None:
+    ran = satcheck(
+        "stability", *map(str, (SAMPLES / "box.obj", SAMPLES / "ring.glb")), "-o", "x.sarif"
+    )
+    assert ran.code == 2
+    assert "table, json" in ran.err
