@@ -329,11 +329,11 @@ void undo_quaternion_filter(std::string& elements) {
   constexpr double largest = 32767;
   for (std::size_t at = 0; at + 8 <= elements.size(); at += 8) {
     const auto word = [&](std::size_t i) { return static_cast<int>(load<std::int16_t>(elements.data() + at + 2 * i)); };
-    const int last = word(3), one = last | 3;
+    const int last = word(3), unit = last | 3;
     std::array<double, 4> parts{};
     double rest = 1;
     for (std::size_t i = 0; i < 3; ++i) {
-      parts[i + 1] = word(i) / (one * std::sqrt(2.0));
+      parts[i + 1] = word(i) / (unit * std::sqrt(2.0));
       rest -= parts[i + 1] * parts[i + 1];
     }
     parts[0] = std::sqrt(std::max(0.0, rest));

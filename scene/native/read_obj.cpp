@@ -145,8 +145,8 @@ class ObjReader {
   void report() {
     polygons_.finish("line", mesh_);
     if (without_area_ > 0) {
-      const bool one = without_area_ == 1;
-      mesh_.warnings.push_back({code::ignored_geometry, std::to_string(without_area_) + (one ? " statement" : " statements") +
+      const std::string statements = without_area_ == 1 ? " statement" : " statements";
+      mesh_.warnings.push_back({code::ignored_geometry, std::to_string(without_area_) + statements +
                                                             " of lines, points or curves without area ignored (first: " +
                                                             first_without_area_ + ")"});
     }

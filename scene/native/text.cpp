@@ -93,10 +93,10 @@ bool Lines::next(std::string_view& line) {
   if (at_end()) return false;
   const char* begin = text_.data() + offset_;
   const std::size_t left = text_.size() - offset_;
-  const void* found = std::memchr(begin, terminator_, left);
-  const std::size_t length = found ? static_cast<std::size_t>(static_cast<const char*>(found) - begin) : left;
+  const void* end = std::memchr(begin, terminator_, left);
+  const std::size_t length = end ? static_cast<std::size_t>(static_cast<const char*>(end) - begin) : left;
   line = text_.substr(offset_, length);
-  offset_ += length + (found ? 1 : 0);
+  offset_ += length + (end ? 1 : 0);
   if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   number_ = following_number_++;
   return true;

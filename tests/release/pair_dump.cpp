@@ -81,7 +81,7 @@ void dump_depth(const Surface& a, const Surface& b) {
   print("lower", depth.lower);
   print("upper", depth.upper);
   print("bound", depth.bound);
-  if (depth.found) print("way_out", depth.way_out);
+  if (depth.has_way_out) print("way_out", depth.way_out);
   print("work", depth.work);
   print("sets", std::uint64_t{depth.sets});
 }

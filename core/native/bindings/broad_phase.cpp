@@ -36,9 +36,9 @@ std::vector<Pair> find_close_pairs(const std::vector<Box>& boxes, std::vector<do
   CloseQuery query{{}, std::move(reach), std::move(kinds), std::move(exempt_kinds), std::move(exempt)};
   query.boxes.reserve(boxes.size());
   for (const Box& box : boxes) query.boxes.push_back(to_aabb(box));
-  std::vector<Pair> found;  // tuples in Python, where arrays would be lists
-  for (const auto [i, j] : close_pairs(std::move(query))) found.emplace_back(i, j);
-  return found;
+  std::vector<Pair> pairs;  // tuples in Python, where arrays would be lists
+  for (const auto [i, j] : close_pairs(std::move(query))) pairs.emplace_back(i, j);
+  return pairs;
 }
 
 }  // namespace

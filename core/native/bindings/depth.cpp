@@ -44,7 +44,7 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
       .def_prop_ro("way_out",
                    [](const DepthInterval& d) {
                      const Vec3 t = d.way_out;
-                     return d.found ? std::optional(Tuple3{t.x, t.y, t.z}) : std::nullopt;
+                     return d.has_way_out ? std::optional(Tuple3{t.x, t.y, t.z}) : std::nullopt;
                    })
       .def_prop_ro("stop", [](const DepthInterval& d) { return d.stop == DepthStop::narrow ? "narrow" : "work spent"; })
       .def_ro("work", &DepthInterval::work)

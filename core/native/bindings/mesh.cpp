@@ -231,12 +231,12 @@ repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), fi
       .def_ro("mesh", &Inspection::mesh)
       .def_ro("turned", &Inspection::turned)
       .def_ro("cracks", &Inspection::cracks)
-      .def_prop_ro("hole_count", [](const Inspection& found) { return found.holes.size(); })
+      .def_prop_ro("hole_count", [](const Inspection& inspection) { return inspection.holes.size(); })
       .def_prop_ro("largest_hole",
-                   [](const Inspection& found) {
+                   [](const Inspection& inspection) {
                      using Largest = std::optional<std::tuple<Tuple3, double>>;
-                     if (found.holes.empty()) return Largest();
-                     const Hole& hole = found.holes[0];
+                     if (inspection.holes.empty()) return Largest();
+                     const Hole& hole = inspection.holes[0];
                      return Largest({to_tuple(hole.centre()), hole.diameter()});
                    })
       .def_ro("topology", &Inspection::topology)

@@ -37,9 +37,9 @@ Answer find_least_motion(const std::vector<bool>& movable, const std::vector<Pai
     const auto& n = normals[k];
     walls.push_back({a, b, {n[0], n[1], n[2]}, least[k]});
   }
-  LeastMotion found = least_motion(movable, walls, std::move(multipliers));
-  Answer answer{{}, std::move(found.multipliers)};
-  for (const Vec3& t : found.translations) answer.first.emplace_back(t.x, t.y, t.z);
+  LeastMotion motion = least_motion(movable, walls, std::move(multipliers));
+  Answer answer{{}, std::move(motion.multipliers)};
+  for (const Vec3& t : motion.translations) answer.first.emplace_back(t.x, t.y, t.z);
   return answer;
 }
 

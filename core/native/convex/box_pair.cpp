@@ -33,12 +33,12 @@ SATCHECK_INLINE double proof_noise(double scale, const OrderedBoxes& o) {
 }
 
 // What the axis is, by LeastOverlap::kind; 3: there is none. In the order of A and B as they were given.
-struct FoundFeature {
+struct PairFeature {
   Feature feature;
   std::uint32_t index_a, index_b;
 };
 
-SATCHECK_INLINE FoundFeature found_feature(int kind, int i, int k, bool swapped) {
+SATCHECK_INLINE PairFeature feature_of(int kind, int i, int k, bool swapped) {
   constexpr Feature seen[2][4] = {{Feature::face_a, Feature::face_b, Feature::edge_edge, Feature::none},
                                   {Feature::face_b, Feature::face_a, Feature::edge_edge, Feature::none}};
   constexpr std::uint32_t none = Shape::kNoIndex, hides[4][2] = {{0, none}, {none, 0}, {0, 0}, {none, none}};
@@ -96,8 +96,8 @@ SATCHECK_WIDE BoxContact contact_of_boxes(const MinkowskiDifference& m) {
   const PlacedBoxes boxes = placed_boxes(m);
   const LeastOverlap least = least_overlap(boxes);
   const ContactPoints contact = contact_points(boxes, least);
-  const FoundFeature found = found_feature(least.kind, least.i, least.k, false);
-  return {{least.penetration, least.lower, vec3(least.axis), found.feature, found.index_a, found.index_b, 15},
+  const PairFeature feature = feature_of(least.kind, least.i, least.k, false);
+  return {{least.penetration, least.lower, vec3(least.axis), feature.feature, feature.index_a, feature.index_b, 15},
           {vec3(contact.on_a), vec3(contact.on_b)},
           contact.sole};
 }
@@ -123,13 +123,13 @@ SATCHECK_WIDE PairResult overlap_of_boxes(const Shape& a, const Pose& pose_a, co
   const int first = std::countr_zero(static_cast<unsigned>(apart) | 1u << 20);
   constexpr int kinds[6] = {0, 1, 2, 2, 2, 3};
   const int triple = first >> 2, k = first & 3, kind = kinds[triple];
-  const FoundFeature found = found_feature(kind, kind == 2 ? triple - 2 : k, k, ordered.swapped);
+  const PairFeature feature = feature_of(kind, kind == 2 ? triple - 2 : k, k, ordered.swapped);
   PairResult result;
   result.outcome = apart != 0 ? Outcome::separated : bits_of_three(open) != 0 ? Outcome::undecided : Outcome::penetrating;
   result.method = Method::sat;
-  result.feature = found.feature;
-  result.index_a = found.index_a;
-  result.index_b = found.index_b;
+  result.feature = feature.feature;
+  result.index_a = feature.index_a;
+  result.index_b = feature.index_b;
   result.axes_tested = by_face ? 6 : 15;
   return result;
 }
@@ -141,16 +141,16 @@ SATCHECK_WIDE PairResult depth_of_boxes(const Shape& a, const Pose& pose_a, cons
   const ContactPoints contact = contact_points(boxes, least);
   const double noise = proof_noise(boxes.scale, ordered);
   if (!(least.lower > noise) || !(noise <= kWidestInterval * boxes.scale) || !contact.sole) return {};
-  const FoundFeature found = found_feature(least.kind, least.i, least.k, ordered.swapped);
+  const PairFeature feature = feature_of(least.kind, least.i, least.k, ordered.swapped);
   const LaneMat3 to_world = transposed(lane_mat3(ordered.pose_a->rotation));
   const Lanes normal = combine(to_world.row, least.axis);
   const Lanes origin = three(ordered.pose_a->translation);
   const Vec3 witness[2] = {vec3(combine(to_world.row, contact.on_a) + origin), vec3(combine(to_world.row, contact.on_b) + origin)};
   return {.outcome = Outcome::penetrating,
           .method = Method::sat,
-          .feature = found.feature,
-          .index_a = found.index_a,
-          .index_b = found.index_b,
+          .feature = feature.feature,
+          .index_a = feature.index_a,
+          .index_b = feature.index_b,
           .has_distance = true,
           .distance = -least.penetration,
           .lower = -least.penetration - noise,

@@ -57,15 +57,15 @@ std::uint32_t ExactDifference::farthest(const std::vector<Vec3>& points, const D
   // three terms up to the extent: below 36. Two heights compare to twice that.
   const double slack = 72 * kUnitRoundoff * extent;
   std::uint32_t best = 0;
-  bool found = false;
+  bool has_best = false;
   Dyadic best_height;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (height[i] < highest - slack) continue;
     const Dyadic exact = dot(direction, DyadicVec(points[i]));
-    if (found && (exact - best_height).sign() <= 0) continue;
+    if (has_best && (exact - best_height).sign() <= 0) continue;
     best = i;
     best_height = exact;
-    found = true;
+    has_best = true;
   }
   return best;
 }

@@ -65,9 +65,9 @@ std::optional<Squared> between(Vec3 p, const Corners& t) {
 }
 
 // Empty where the nearest points of the lines are not inside both edges, or the edges are parallel.
-std::optional<Squared> between(const Segment& one, const Segment& other) {
-  const ExactVec d1 = difference(one.head, one.tail), d2 = difference(other.head, other.tail);
-  const ExactVec r = difference(one.tail, other.tail), normal = cross(d1, d2);
+std::optional<Squared> between(const Segment& p, const Segment& q) {
+  const ExactVec d1 = difference(p.head, p.tail), d2 = difference(q.head, q.tail);
+  const ExactVec r = difference(p.tail, q.tail), normal = cross(d1, d2);
   const Dyadic area = dot(normal, normal);
   if (area.sign() == 0) return std::nullopt;
   const Dyadic a = dot(d1, d1), b = dot(d1, d2), c = dot(d1, r), e = dot(d2, d2), f = dot(d2, r);
@@ -116,32 +116,32 @@ class NearestFeatures {
   }
 
  private:
-  bool near(const Aabb& one, const Aabb& other) const { return box_distance_squared(one, other) <= within_; }
+  bool near(const Aabb& p, const Aabb& q) const { return box_distance_squared(p, q) <= within_; }
 
   Features features_near(const Polytope& p, const Aabb& box) const {
-    Features found;
+    Features features;
     const auto keep = [&](auto& list, const auto& feature) {
       if (near(bounds_of(feature), box)) list.push_back(feature);
     };
-    for (Vec3 v : p.vertices) keep(found.vertices, v);
-    if (p.dimension == 1) keep(found.edges, Segment{p.vertices[0], p.vertices[1]});
-    for (const PolytopeEdge& e : p.edges) keep(found.edges, Segment{p.vertices[e.tail], p.vertices[e.head]});
+    for (Vec3 v : p.vertices) keep(features.vertices, v);
+    if (p.dimension == 1) keep(features.edges, Segment{p.vertices[0], p.vertices[1]});
+    for (const PolytopeEdge& e : p.edges) keep(features.edges, Segment{p.vertices[e.tail], p.vertices[e.head]});
     for (const Triangle& t : p.triangles) {
-      keep(found.triangles, Corners{p.vertices[t[0]], p.vertices[t[1]], p.vertices[t[2]]});
+      keep(features.triangles, Corners{p.vertices[t[0]], p.vertices[t[1]], p.vertices[t[2]]});
     }
-    return found;
+    return features;
   }
 
-  void compare(std::optional<Squared> found) {
-    if (found) least_ = std::min(least_, (found->numerator - length_squared_ * found->denominator).sign());
+  void compare(std::optional<Squared> distance) {
+    if (distance) least_ = std::min(least_, (distance->numerator - length_squared_ * distance->denominator).sign());
   }
 
-  template <class One, class Other>
-  void compare(const std::vector<One>& ones, const std::vector<Other>& others) {
-    for (const One& one : ones) {
-      for (const Other& other : others) {
+  template <class FeatureA, class FeatureB>
+  void compare(const std::vector<FeatureA>& features_a, const std::vector<FeatureB>& features_b) {
+    for (const FeatureA& a : features_a) {
+      for (const FeatureB& b : features_b) {
         if (least_ < 0) return;
-        if (near(bounds_of(one), bounds_of(other))) compare(std::optional(between(one, other)));
+        if (near(bounds_of(a), bounds_of(b))) compare(std::optional(between(a, b)));
       }
     }
   }

@@ -47,13 +47,13 @@ std::optional<PairResult> hulls_apart(const std::vector<Vec3>& a, const std::vec
     const PairResult overlap = check_pair(hull_a, {}, hull_b, {}, Query::overlap);
     if (overlap.outcome == Outcome::undecided) return std::nullopt;
     if (overlap.outcome != Outcome::separated) return overlap;
-    PairResult found = check_pair(hull_a, {}, hull_b, {}, Query::distance);
-    if (found.outcome != Outcome::separated || !found.has_distance) return std::nullopt;
-    const Vec3 end_a = farthest(a, found.normal), end_b = farthest(b, -found.normal);
-    const double gap = dot(end_b, found.normal) - dot(end_a, found.normal) - kSupportError * largest;
-    if (gap > 0 && gap >= kGoodShare * found.upper) {
-      found.lower = std::min(found.lower, gap);
-      return found;
+    PairResult distance = check_pair(hull_a, {}, hull_b, {}, Query::distance);
+    if (distance.outcome != Outcome::separated || !distance.has_distance) return std::nullopt;
+    const Vec3 end_a = farthest(a, distance.normal), end_b = farthest(b, -distance.normal);
+    const double gap = dot(end_b, distance.normal) - dot(end_a, distance.normal) - kSupportError * largest;
+    if (gap > 0 && gap >= kGoodShare * distance.upper) {
+      distance.lower = std::min(distance.lower, gap);
+      return distance;
     }
     some_a.push_back(end_a);
     some_b.push_back(end_b);

@@ -47,8 +47,8 @@ bool takes_sat(const MinkowskiDifference& m, MethodChoice method) {
 
 CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& result) {
   const SatGoal goal = query == Query::depth ? SatGoal::least_overlap : SatGoal::any_separating_axis;
-  const BoxContact found = are_boxes(m.a, m.b) ? contact_of_boxes(m) : BoxContact{sat_polytopes(m, goal), {}, false};
-  const SatResult& sat = found.sat;
+  const BoxContact contact = are_boxes(m.a, m.b) ? contact_of_boxes(m) : BoxContact{sat_polytopes(m, goal), {}, false};
+  const SatResult& sat = contact.sat;
   result.axes_tested += sat.axes_tested;
   CoreAnswer answer;
   answer.lower = sat.lower;
@@ -60,7 +60,7 @@ CoreAnswer from_sat(const MinkowskiDifference& m, Query query, PairResult& resul
   answer.index_a = sat.index_a;
   answer.index_b = sat.index_b;
   if (query != Query::overlap && sat.penetration >= -m.support_error()) {
-    answer.witness = found.sole ? found.witness : contact_region_centre(m, sat.axis, sat.penetration);
+    answer.witness = contact.sole ? contact.witness : contact_region_centre(m, sat.axis, sat.penetration);
   }
   return answer;
 }
@@ -279,10 +279,10 @@ PairResult check_in_order(const Shape& a, const Pose& pose_a, const Shape& b, co
   }
   if (query == Query::overlap && margin == 0 && !by_sat) {
     // Of curved shapes only what is clear of touching: their touch is told by the bounds of a depth.
-    const PortalResult found = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
-    result.portal_rounds = found.rounds;
-    if (found.finding != PortalFinding::open) {
-      result.outcome = found.finding == PortalFinding::apart ? Outcome::separated : Outcome::penetrating;
+    const PortalResult portal = seek_portal(m, m.curved ? noise + 4 * kCurvedFacetGap * m.scale : noise);
+    result.portal_rounds = portal.rounds;
+    if (portal.finding != PortalFinding::open) {
+      result.outcome = portal.finding == PortalFinding::apart ? Outcome::separated : Outcome::penetrating;
       result.method = Method::portal;
       return result;
     }

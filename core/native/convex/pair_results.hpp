@@ -52,8 +52,8 @@ class FieldArrays {
   template <auto Member>
   static constexpr std::size_t bytes_before() {
     std::size_t bytes = 0;
-    bool found = false;
-    ((found = found || std::is_same_v<Name<Member>, Name<Members>>, bytes += found ? 0 : sizeof(Field<Members>)), ...);
+    bool past = false;
+    ((past = past || std::is_same_v<Name<Member>, Name<Members>>, bytes += past ? 0 : sizeof(Field<Members>)), ...);
     return bytes;
   }
 

@@ -27,7 +27,7 @@ Vec3 CornerPlane::nearest_to(Vec3 t) const {
 }
 
 std::vector<CornerPlane> corner_planes(const Corners& p, const Corners& q) {
-  std::vector<CornerPlane> found;
+  std::vector<CornerPlane> planes;
   for (const bool of_p : {true, false}) {
     const Corners& face = of_p ? p : q;
     const Vec3 normal = rounded_normal(face[0], face[1], face[2]);
@@ -35,10 +35,10 @@ std::vector<CornerPlane> corner_planes(const Corners& p, const Corners& q) {
     const Vec3 unit = normal * (1 / norm(normal));
     for (int k = 0; k < 3; ++k) {
       const Vec3 t = of_p ? q[k] - face[0] : face[0] - p[k];
-      found.push_back({dot(unit, t), axis_along(unit), unit});
+      planes.push_back({dot(unit, t), axis_along(unit), unit});
     }
   }
-  return found;
+  return planes;
 }
 
 }  // namespace satcheck

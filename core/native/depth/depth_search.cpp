@@ -52,16 +52,16 @@ constexpr double kNormError = 4 * kUnitRoundoff;
 
 // Unit vectors all round: towards the points of a lattice on the surface of a cube.
 std::vector<Vec3> ways() {
-  std::vector<Vec3> found;
+  std::vector<Vec3> directions;
   for (int x = -2; x <= 2; ++x) {
     for (int y = -2; y <= 2; ++y) {
       for (int z = -2; z <= 2; ++z) {
         const Vec3 v{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
-        if (max_abs(v) == 2) found.push_back(v * (1 / norm(v)));
+        if (max_abs(v) == 2) directions.push_back(v * (1 / norm(v)));
       }
     }
   }
-  return found;
+  return directions;
 }
 
 // Whether x + y, rounded to `sum`, was a float64.
@@ -110,7 +110,7 @@ class Search {
       split(box);
     }
     snap();
-    result_.bound = result_.upper + (result_.found ? rounding(result_.way_out) : 0);
+    result_.bound = result_.upper + (result_.has_way_out ? rounding(result_.way_out) : 0);
     result_.lower = std::fmax(goal_.lower, std::fmin(covered_to_, open_from) * (1 - kNormError));
     result_.lower = std::fmin(result_.lower, result_.upper);
     result_.work = work();
@@ -180,7 +180,7 @@ class Search {
     if (norm(way_out) >= result_.upper) return;
     result_.upper = norm(way_out);
     result_.way_out = way_out;
-    result_.found = true;
+    result_.has_way_out = true;
   }
 
   // Settles t, a way out or one more set that holds it; then, as long as that leads to a shorter way out than
@@ -221,7 +221,7 @@ class Search {
         if (!sets_.holds(t) && is_free(relation_at(t))) take(t);
       }
     }
-    if (result_.found) ask_meshes(result_.way_out * (1 - kScanStep));
+    if (result_.has_way_out) ask_meshes(result_.way_out * (1 - kScanStep));
   }
 
   // Where forbidden sets only touch, A fits between the parts of B without play: t is shifted by less than
@@ -251,7 +251,7 @@ class Search {
 
   // A way out along the normal of a face ends exactly where a corner leaves the plane of that face.
   void snap() {
-    if (!result_.found) return;
+    if (!result_.has_way_out) return;
     const double length = norm(result_.way_out);
     for (const CornerPlane& plane : met_planes(relation_at(result_.way_out * (1 - kSnap)))) {
       const Vec3 t = in_plane(plane.normal * plane.height);

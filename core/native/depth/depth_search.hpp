@@ -27,7 +27,7 @@ struct DepthInterval {
   double lower = 0, upper = INFINITY;
   // Of A: the meshes, A's coordinates rounded once, have no common interior after it. Only where `found`:
   // when it is shorter than the way out that was known.
-  bool found = false;
+  bool has_way_out = false;
   Vec3 way_out;
   // A proven upper bound of the depth: `upper` and the rounding of the moved coordinates and of that length.
   double bound = INFINITY;

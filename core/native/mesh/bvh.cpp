@@ -161,12 +161,12 @@ std::vector<Sides> sides_beyond(const Aabb& region, const std::vector<Vec3>& poi
   std::vector<Sides> sides;
   sides.reserve(points.size());
   for (const Vec3& p : points) {
-    unsigned found = 0;
+    unsigned bits = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      found |= static_cast<unsigned>(p[axis] < region.min[axis]) << 2 * axis;
-      found |= static_cast<unsigned>(p[axis] > region.max[axis]) << (2 * axis + 1);
+      bits |= static_cast<unsigned>(p[axis] < region.min[axis]) << 2 * axis;
+      bits |= static_cast<unsigned>(p[axis] > region.max[axis]) << (2 * axis + 1);
     }
-    sides.push_back(static_cast<Sides>(found));
+    sides.push_back(static_cast<Sides>(bits));
   }
   return sides;
 }

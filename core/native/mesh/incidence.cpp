@@ -93,10 +93,10 @@ class EdgeMeeting {
 
   void add(MeshFeature own, int place, Rank rank, Vec3 corner = {}) {
     const MeshFeature other = t_.feature(place);
-    const Incidence found = edge_is_of_a_ ? Incidence{own, other} : Incidence{other, own};
-    if (count > 0 && node[0] == found) return;
+    const Incidence incidence = edge_is_of_a_ ? Incidence{own, other} : Incidence{other, own};
+    if (count > 0 && node[0] == incidence) return;
     if (count == 2) return;  // convex: a third one is one of the two
-    node[count] = found;
+    node[count] = incidence;
     rank_[count] = rank;
     corner_[count] = corner;
     if (++count == 2 && in_order(1, 0)) std::swap(node[0], node[1]);

@@ -23,34 +23,34 @@ std::vector<Hole> holes_but_flat_parts(const Mesh& welded) {
   return find_holes(mesh);
 }
 
-void orient_mesh(Inspection& found) {
-  Mesh oriented = orient(found.mesh);
-  if (oriented.triangles == found.mesh.triangles && oriented.vertices == found.mesh.vertices) return;
-  found.mesh = std::move(oriented);
-  found.turned = true;
-  found.repaired = measure_topology(found.mesh);
+void orient_mesh(Inspection& result) {
+  Mesh oriented = orient(result.mesh);
+  if (oriented.triangles == result.mesh.triangles && oriented.vertices == result.mesh.vertices) return;
+  result.mesh = std::move(oriented);
+  result.turned = true;
+  result.repaired = measure_topology(result.mesh);
 }
 
 }  // namespace
 
 Inspection inspect(MeshView mesh, bool orient_it) {
-  Inspection found;
-  found.mesh = weld_and_sort(mesh);
-  found.topology = found.repaired = measure_sorted(found.mesh);
-  if (found.topology.is_plain_solid()) return found;
-  if (orient_it) orient_mesh(found);
-  if (has_boundary(found.repaired)) found.holes = holes_but_flat_parts(found.mesh);
-  return found;
+  Inspection result;
+  result.mesh = weld_and_sort(mesh);
+  result.topology = result.repaired = measure_sorted(result.mesh);
+  if (result.topology.is_plain_solid()) return result;
+  if (orient_it) orient_mesh(result);
+  if (has_boundary(result.repaired)) result.holes = holes_but_flat_parts(result.mesh);
+  return result;
 }
 
-Inspection with_cracks_closed(Inspection found, bool orient_it, double width) {
-  if (!has_boundary(found.repaired)) return found;
-  found.cracks = seal_cracks(found.mesh, width);
-  if (found.cracks == 0) return found;
-  found.repaired = measure_topology(found.mesh);
-  if (orient_it) orient_mesh(found);
-  found.holes = has_boundary(found.repaired) ? holes_but_flat_parts(found.mesh) : std::vector<Hole>{};
-  return found;
+Inspection with_cracks_closed(Inspection result, bool orient_it, double width) {
+  if (!has_boundary(result.repaired)) return result;
+  result.cracks = seal_cracks(result.mesh, width);
+  if (result.cracks == 0) return result;
+  result.repaired = measure_topology(result.mesh);
+  if (orient_it) orient_mesh(result);
+  result.holes = has_boundary(result.repaired) ? holes_but_flat_parts(result.mesh) : std::vector<Hole>{};
+  return result;
 }
 
 }  // namespace satcheck

@@ -22,6 +22,6 @@ struct Inspection {
 Inspection inspect(MeshView mesh, bool orient_it);
 
 // The same with the cracks of the mesh closed. width: points within it may be the same point.
-Inspection with_cracks_closed(Inspection found, bool orient_it, double width);
+Inspection with_cracks_closed(Inspection inspection, bool orient_it, double width);
 
 }  // namespace satcheck

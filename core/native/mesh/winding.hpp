@@ -78,15 +78,15 @@ std::optional<int> sum_crossings(const Mesh& mesh, const Bvh& bvh, const Point& 
 template <class Point>
 std::vector<std::uint32_t> triangles_at(const Mesh& mesh, const Bvh& bvh, const Point& p,
                                         std::optional<std::uint32_t> known = {}) {
-  std::vector<std::uint32_t> found;
-  if (known) found.push_back(*known);
+  std::vector<std::uint32_t> triangles;
+  if (known) triangles.push_back(*known);
   visit_box(bvh, mesh, point_box(p), [&](std::uint32_t t) {
     if (t == known) return true;
     const Triangle& v = mesh.triangles[t];
-    if (point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) found.push_back(t);
+    if (point_in_triangle(p, mesh.vertices[v[0]], mesh.vertices[v[1]], mesh.vertices[v[2]])) triangles.push_back(t);
     return true;
   });
-  return found;
+  return triangles;
 }
 
 // Winding number of p with respect to the triangles that `counts(t)` accepts; nothing when p lies on

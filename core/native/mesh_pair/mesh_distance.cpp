@@ -126,10 +126,10 @@ MeshDistance mesh_distance(const Surface& a, const Surface& b, double limit, con
   if (comes_before(a, b)) return DistanceSearch(a, b, limit, counts).run();
   TrianglePairTest mirrored;
   if (counts) mirrored = [&](std::uint32_t t, std::uint32_t u) { return counts(u, t); };
-  MeshDistance found = DistanceSearch(b, a, limit, mirrored).run();
-  std::swap(found.witness_a, found.witness_b);
-  std::swap(found.triangle_a, found.triangle_b);
-  return found;
+  MeshDistance distance = DistanceSearch(b, a, limit, mirrored).run();
+  std::swap(distance.witness_a, distance.witness_b);
+  std::swap(distance.triangle_a, distance.triangle_b);
+  return distance;
 }
 
 }  // namespace satcheck

@@ -75,26 +75,26 @@ MeshRelation judged_relation(const Surface& a, const Surface& b, const std::vect
   return result;
 }
 
-std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& b, const SurfaceContacts& found) {
-  if (found.crossing) {
-    if (!facts_at_crossing(a, b, *found.crossing).settled()) return std::nullopt;
-    return crossing_relation(a, b, *found.crossing);
+std::optional<MeshRelation> simple_relation_of(const Surface& a, const Surface& b, const SurfaceContacts& contacts) {
+  if (contacts.crossing) {
+    if (!facts_at_crossing(a, b, *contacts.crossing).settled()) return std::nullopt;
+    return crossing_relation(a, b, *contacts.crossing);
   }
-  if (!found.contacts.empty()) return std::nullopt;
+  if (!contacts.contacts.empty()) return std::nullopt;
   return judged_relation(a, b, {}, Wanted::relation);
 }
 
-bool overlaps(const MeshRelation& found) {
-  return found.relation != Relation::separated && found.relation != Relation::touching;
+bool overlaps(const MeshRelation& r) {
+  return r.relation != Relation::separated && r.relation != Relation::touching;
 }
 
-MeshRelation relation_of_closed(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
-  if (const auto simple = simple_relation_of(a, b, found)) return *simple;
-  if (!found.crossing) return judged_relation(a, b, found.contacts, wanted);
+MeshRelation relation_of_closed(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted) {
+  if (const auto simple = simple_relation_of(a, b, contacts)) return *simple;
+  if (!contacts.crossing) return judged_relation(a, b, contacts.contacts, wanted);
   const MeshRelation judged = judged_relation(a, b, find_contacts(a, b, AtCrossing::go_on).contacts, wanted);
   // Each triangle bounds material, is within it, or is a sheet: where two cross, the bodies overlap, whatever samples
   // fail to show.
-  return overlaps(judged) ? judged : crossing_relation(a, b, *found.crossing);
+  return overlaps(judged) ? judged : crossing_relation(a, b, *contacts.crossing);
 }
 
 // Of two closed surfaces, whatever their triangles.
@@ -109,11 +109,11 @@ bool crosses_boundaries(const ClosedPair& pair, ContactPair crossing) {
 
 // Where surfaces cross bodies overlap, however they are closed. Else the closed surfaces tell, as far as that does
 // not depend on what fills a hole; and as sheets open surfaces tell of an overlap that no fill undoes.
-MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& found, Wanted wanted) {
-  if (found.crossing && wanted == Wanted::overlap) return crossing_relation(a, b, *found.crossing);
+MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceContacts& contacts, Wanted wanted) {
+  if (contacts.crossing && wanted == Wanted::overlap) return crossing_relation(a, b, *contacts.crossing);
   const ClosedPair filled(a, b, OpenParts::filled);
-  if (found.crossing && crosses_boundaries(filled, *found.crossing)) {
-    return crossing_relation(a, b, *found.crossing);
+  if (contacts.crossing && crosses_boundaries(filled, *contacts.crossing)) {
+    return crossing_relation(a, b, *contacts.crossing);
   }
   const Holes holes = holes_between(filled);
   MeshRelation result;
@@ -123,7 +123,7 @@ MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceC
     if (!overlaps(result)) result.hole = holes.in_the_way;
   } else {
     result = relation_of_points(filled.a(), filled.b(), wanted);
-    const bool by_the_surfaces = result.relation == Relation::touching && !found.contacts.empty();
+    const bool by_the_surfaces = result.relation == Relation::touching && !contacts.contacts.empty();
     if (!overlaps(result) && !by_the_surfaces) result.hole = holes.touched;
   }
   result.proven = result.proven && !result.hole;
@@ -132,9 +132,9 @@ MeshRelation relation_of_open(const Surface& a, const Surface& b, const SurfaceC
   return result;
 }
 
-MeshRelation with_counts(MeshRelation result, const SurfaceContacts& found) {
-  result.box_tests = found.box_tests;
-  result.triangle_tests = found.triangle_tests;
+MeshRelation with_counts(MeshRelation result, const SurfaceContacts& contacts) {
+  result.box_tests = contacts.box_tests;
+  result.triangle_tests = contacts.triangle_tests;
   return result;
 }
 
@@ -143,25 +143,26 @@ MeshRelation relation_in_order(const Surface& a, const Surface& b, Wanted wanted
     const Vec3 point = a.mesh.vertices[a.mesh.triangles[0][0]];
     return make_relation(Relation::coincident, Evidence{0, kNoTriangle, point});
   }
-  const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
+  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop);
   const bool closed = a.solid && b.solid;
-  return with_counts(closed ? relation_of_closed(a, b, found, wanted) : relation_of_open(a, b, found, wanted), found);
+  const auto relation_of = closed ? relation_of_closed : relation_of_open;
+  return with_counts(relation_of(a, b, contacts, wanted), contacts);
 }
 
 std::optional<MeshRelation> simple_relation_in_order(const Surface& a, const Surface& b) {
-  const SurfaceContacts found = find_contacts(a, b, AtCrossing::stop);
-  const auto result = simple_relation_of(a, b, found);
-  return result ? std::optional(with_counts(*result, found)) : std::nullopt;
+  const SurfaceContacts contacts = find_contacts(a, b, AtCrossing::stop);
+  const auto result = simple_relation_of(a, b, contacts);
+  return result ? std::optional(with_counts(*result, contacts)) : std::nullopt;
 }
 
 // The answer to the question with A and B exchanged.
-MeshRelation mirrored(MeshRelation found) {
-  std::swap(found.triangle_a, found.triangle_b);
-  if (found.hole) found.hole->of_a = !found.hole->of_a;
-  if (found.relation == Relation::contains || found.relation == Relation::inside) {
-    found.relation = found.relation == Relation::contains ? Relation::inside : Relation::contains;
+MeshRelation mirrored(MeshRelation r) {
+  std::swap(r.triangle_a, r.triangle_b);
+  if (r.hole) r.hole->of_a = !r.hole->of_a;
+  if (r.relation == Relation::contains || r.relation == Relation::inside) {
+    r.relation = r.relation == Relation::contains ? Relation::inside : Relation::contains;
   }
-  return found;
+  return r;
 }
 
 MeshRelation relation_of(const Surface& a, const Surface& b, Wanted wanted) {
@@ -178,8 +179,8 @@ MeshRelation closed_relation(const Surface& a, const Surface& b) { return relati
 
 std::optional<MeshRelation> simple_relation(const Surface& a, const Surface& b) {
   if (comes_before(a, b)) return simple_relation_in_order(a, b);
-  const auto found = simple_relation_in_order(b, a);
-  return found ? std::optional(mirrored(*found)) : std::nullopt;
+  const auto relation = simple_relation_in_order(b, a);
+  return relation ? std::optional(mirrored(*relation)) : std::nullopt;
 }
 
 }  // namespace satcheck

@@ -52,10 +52,10 @@ class HoledSide {
     for (const Surface& theirs : closing_of_other_->hulls) {
       if (clearness == Clearness::in_the_way) break;
       if (theirs.bvh.nodes.empty() || !meet(box_of(theirs), box_of(hull))) continue;
-      const MeshRelation found = closed_relation(hull, theirs);
+      const MeshRelation relation = closed_relation(hull, theirs);
       // Within the hull of another hole nothing is known.
-      const bool within = found.relation == Relation::inside;
-      clearness = std::max(clearness, within ? Clearness::in_the_way : clearness_of(found));
+      const bool within = relation.relation == Relation::inside;
+      clearness = std::max(clearness, within ? Clearness::in_the_way : clearness_of(relation));
     }
     return clearness;
   }

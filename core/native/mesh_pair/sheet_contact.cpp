@@ -101,8 +101,8 @@ class Hinges {
 
   const std::vector<Hinge>& of(std::uint32_t triangle) const {
     static const std::vector<Hinge> none;
-    const auto found = by_triangle_.find(triangle);
-    return found == by_triangle_.end() ? none : found->second;
+    const auto hinges = by_triangle_.find(triangle);
+    return hinges == by_triangle_.end() ? none : hinges->second;
   }
 
  private:

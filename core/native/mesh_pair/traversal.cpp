@@ -28,7 +28,7 @@ class Traversal {
       const auto [i, j] = stack.back();
       stack.pop_back();
       const BvhNode &m = a_.bvh.nodes[i], &n = b_.bvh.nodes[j];
-      ++found_.box_tests;
+      ++contacts_.box_tests;
       if (!meet(m.box, n.box)) continue;
       if (m.is_leaf() && n.is_leaf()) {
         test_leaves(m, n);
@@ -40,13 +40,13 @@ class Traversal {
         stack.emplace_back(i, n.first);
       }
     }
-    work_done += kBoxWork * found_.box_tests + kTriangleWork * found_.triangle_tests;
-    work_done += kContactWork * found_.contacts.size();
-    return std::move(found_);
+    work_done += kBoxWork * contacts_.box_tests + kTriangleWork * contacts_.triangle_tests;
+    work_done += kContactWork * contacts_.contacts.size();
+    return std::move(contacts_);
   }
 
  private:
-  bool ended() const { return found_.crossing && at_crossing_ == AtCrossing::stop; }
+  bool ended() const { return contacts_.crossing && at_crossing_ == AtCrossing::stop; }
 
   // As with box_at(), which would be a copy.
   static bool meets(const Surface& s, std::uint32_t place, const Aabb& box) {
@@ -63,12 +63,12 @@ class Traversal {
       for (std::uint32_t l = n.first; l < n.first + n.count; ++l) {
         if (!meets(b_, l, box)) continue;
         const std::uint32_t tb = b_.bvh.order[l];
-        ++found_.triangle_tests;
+        ++contacts_.triangle_tests;
         const TriangleContact contact = classify(plane, corners(b_.mesh, tb));
         if (contact == TriangleContact::disjoint) continue;
-        if (contact == TriangleContact::crossing && !found_.crossing) found_.crossing = ContactPair{ta, tb};
+        if (contact == TriangleContact::crossing && !contacts_.crossing) contacts_.crossing = ContactPair{ta, tb};
         if (ended()) return;
-        found_.contacts.push_back({ta, tb});
+        contacts_.contacts.push_back({ta, tb});
       }
     }
   }
@@ -76,7 +76,7 @@ class Traversal {
   const Surface& a_;
   const Surface& b_;
   AtCrossing at_crossing_;
-  SurfaceContacts found_;
+  SurfaceContacts contacts_;
 };
 
 }  // namespace

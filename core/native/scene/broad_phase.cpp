@@ -72,8 +72,8 @@ class SelfTraversal {
         stack.insert(stack.end(), {{i, n.first}, {i, n.first + 1}});
       }
     }
-    std::sort(found_.begin(), found_.end());
-    return std::move(found_);
+    std::sort(pairs_.begin(), pairs_.end());
+    return std::move(pairs_);
   }
 
  private:
@@ -118,7 +118,7 @@ class SelfTraversal {
     const std::uint32_t i = bvh_.order[k], j = bvh_.order[l];
     if (!(box_gap(boxes_[i], boxes_[j]) <= reach_[i] + reach_[j])) return;
     if (exempt_kinds_.holds(kind_[i], kind_[j]) || exempt_.holds(i, j)) return;
-    found_.push_back({std::min(i, j), std::max(i, j)});
+    pairs_.push_back({std::min(i, j), std::max(i, j)});
   }
 
   const std::vector<Aabb> boxes_;
@@ -127,7 +127,7 @@ class SelfTraversal {
   const PairSet exempt_kinds_, exempt_;
   Bvh bvh_;
   std::vector<std::uint32_t> node_kind_;
-  std::vector<IndexPair> found_;
+  std::vector<IndexPair> pairs_;
 };
 
 }  // namespace

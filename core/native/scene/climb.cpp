@@ -33,9 +33,9 @@ bool holds(const Aabb& outer, const Aabb& inner) {
   return true;
 }
 
-std::optional<ContactPair> crossing_of(const MeshRelation& found) {
-  if (found.triangle_a == kNoTriangle || found.triangle_b == kNoTriangle) return {};
-  return ContactPair{found.triangle_a, found.triangle_b};
+std::optional<ContactPair> crossing_of(const MeshRelation& r) {
+  if (r.triangle_a == kNoTriangle || r.triangle_b == kNoTriangle) return {};
+  return ContactPair{r.triangle_a, r.triangle_b};
 }
 
 // Of the volume of a box the part within another; 1 where it has none.
@@ -51,19 +51,19 @@ double share_within(const Aabb& box, const Aabb& other) {
 
 class Climber {
  public:
-  Climber(const ClimbRequest& asked, Rung first, Rung last) : q_(asked), first_(first), last_(last) {}
+  Climber(const ClimbRequest& request, Rung first, Rung last) : request_(request), first_(first), last_(last) {}
 
   Climb take() {
     climb_rungs();
-    found_.verdict = verdict_of(q_, found_);
-    return found_;
+    climb_.verdict = verdict_of(request_, climb_);
+    return climb_;
   }
 
  private:
   void climb_rungs() {
     const bool apart = timed(kBoxes, [&] {
-      found_.box_gap = box_gap(q_.a->bounds(), q_.b->bounds());
-      return found_.box_gap > q_.asked_gap;
+      climb_.box_gap = box_gap(request_.a->bounds(), request_.b->bounds());
+      return climb_.box_gap > request_.asked_gap;
     });
     if (takes(Rung::aabb) && apart) return;
     if (takes(Rung::obb) && timed(kOriented, [&] { return oriented_boxes_settle(); })) return;
@@ -80,24 +80,24 @@ class Climber {
   bool timed(Clock clock, Step step) {
     const auto start = std::chrono::steady_clock::now();
     const bool result = step();
-    found_.nanoseconds[clock] =
+    climb_.nanoseconds[clock] =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
 
   bool oriented_boxes_settle() {
-    double pad_a = q_.a->resolution(), pad_b = q_.b->resolution();
-    if (pad_a + pad_b < q_.asked_gap) pad_a = pad_b = 0.5 * q_.asked_gap;
-    const OrientedBox a = q_.a->oriented_box(pad_a), b = q_.b->oriented_box(pad_b);
+    double pad_a = request_.a->resolution(), pad_b = request_.b->resolution();
+    if (pad_a + pad_b < request_.asked_gap) pad_a = pad_b = 0.5 * request_.asked_gap;
+    const OrientedBox a = request_.a->oriented_box(pad_a), b = request_.b->oriented_box(pad_b);
     if (!a.turned && !b.turned) {
-      found_.boxes = BoxOutcome::unturned;
+      climb_.boxes = BoxOutcome::unturned;
     } else if (!a.is_box || !b.is_box) {
-      found_.boxes = BoxOutcome::sheared;
+      climb_.boxes = BoxOutcome::sheared;
     } else {
-      found_.box_feature = separating_feature(a, b);
-      found_.boxes = found_.box_feature == Feature::none ? BoxOutcome::meet : BoxOutcome::apart;
+      climb_.box_feature = separating_feature(a, b);
+      climb_.boxes = climb_.box_feature == Feature::none ? BoxOutcome::meet : BoxOutcome::apart;
     }
-    return found_.boxes == BoxOutcome::apart;
+    return climb_.boxes == BoxOutcome::apart;
   }
 
   static bool is_large(PlacedGeometry& body) { return body.shared().mesh()->vertices.size() >= kManyVertices; }
@@ -105,24 +105,24 @@ class Climber {
   // Calls make(body) of both, of large ones at the same time.
   template <class Make>
   void make_both(Make make) {
-    const unsigned threads = is_large(*q_.a) && is_large(*q_.b) ? 0 : 1;
-    parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? *q_.a : *q_.b); });
+    const unsigned threads = is_large(*request_.a) && is_large(*request_.b) ? 0 : 1;
+    parallel_for(2, threads, [&](std::size_t i) { make(i == 0 ? *request_.a : *request_.b); });
   }
 
   PairResult ask_hulls(Query query) {
-    return check_pair(*q_.a->hull_shape(), {}, *q_.b->hull_shape(), {}, query, q_.method);
+    return check_pair(*request_.a->hull_shape(), {}, *request_.b->hull_shape(), {}, query, request_.method);
   }
 
   bool hulls_settle() {
     const bool settled = timed(kHulls, [&] {
-      found_.both_convex = q_.a->shared().convex() && q_.b->shared().convex();
-      if (!found_.both_convex && serves_one_large_pair()) return points_are_apart();
+      climb_.both_convex = request_.a->shared().convex() && request_.b->shared().convex();
+      if (!climb_.both_convex && serves_one_large_pair()) return points_are_apart();
       make_both([](PlacedGeometry& body) { body.hull_shape(); });
-      return found_.both_convex ? convex_bodies_settle() : hulls_are_apart();
+      return climb_.both_convex ? convex_bodies_settle() : hulls_are_apart();
     });
-    if (found_.both_convex && found_.hulls->outcome == Outcome::penetrating && boxes_nest()) {
+    if (climb_.both_convex && climb_.hulls->outcome == Outcome::penetrating && boxes_nest()) {
       timed(kNesting, [&] {
-        found_.nesting = mesh_relation(*q_.a->surface(), *q_.b->surface()).relation;
+        climb_.nesting = mesh_relation(*request_.a->surface(), *request_.b->surface()).relation;
         return true;
       });
     }
@@ -130,48 +130,50 @@ class Climber {
   }
 
   bool convex_bodies_settle() {
-    found_.hulls = ask_hulls(Query::depth);
-    return found_.hulls->outcome != Outcome::undecided;
+    climb_.hulls = ask_hulls(Query::depth);
+    return climb_.hulls->outcome != Outcome::undecided;
   }
 
   double largest_coordinate() const {
     double largest = 0;
-    for (const Aabb& box : {q_.a->bounds(), q_.b->bounds()}) largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
+    for (const Aabb& box : {request_.a->bounds(), request_.b->bounds()}) {
+      largest = std::max({largest, max_abs(box.min), max_abs(box.max)});
+    }
     return largest;
   }
 
   // Then hulls cost more than asking the vertices.
-  bool serves_one_large_pair() { return q_.alone && (is_large(*q_.a) || is_large(*q_.b)); }
+  bool serves_one_large_pair() { return request_.alone && (is_large(*request_.a) || is_large(*request_.b)); }
 
   bool points_are_apart() {
-    found_.hulls = hulls_apart(q_.a->mesh()->vertices, q_.b->mesh()->vertices, largest_coordinate());
-    if (found_.hulls) return found_.hulls->outcome == Outcome::separated;
+    climb_.hulls = hulls_apart(request_.a->mesh()->vertices, request_.b->mesh()->vertices, largest_coordinate());
+    if (climb_.hulls) return climb_.hulls->outcome == Outcome::separated;
     make_both([](PlacedGeometry& body) { body.hull_shape(); });
     return hulls_are_apart();
   }
 
   bool hulls_are_apart() {
-    found_.hulls = ask_hulls(Query::overlap);
-    if (found_.hulls->outcome != Outcome::separated) return false;
-    found_.hulls = ask_hulls(Query::distance);
+    climb_.hulls = ask_hulls(Query::overlap);
+    if (climb_.hulls->outcome != Outcome::separated) return false;
+    climb_.hulls = ask_hulls(Query::distance);
     // The overlap was disproved, whatever is made of the distance.
-    found_.hulls->outcome = Outcome::separated;
+    climb_.hulls->outcome = Outcome::separated;
     return true;
   }
 
   // Hulls can be closer than a gap that is asked about.
   bool hulls_leave_gap_open() const {
-    if (found_.both_convex || last_ != Rung::triangles) return false;
-    return !(gap_of_hulls(found_) > q_.asked_gap);
+    if (climb_.both_convex || last_ != Rung::triangles) return false;
+    return !(gap_of_hulls(climb_) > request_.asked_gap);
   }
 
   bool boxes_nest() const {
-    return holds(q_.a->bounds(), q_.b->bounds()) || holds(q_.b->bounds(), q_.a->bounds());
+    return holds(request_.a->bounds(), request_.b->bounds()) || holds(request_.b->bounds(), request_.a->bounds());
   }
 
   template <class Make>
   void make_surfaces(Make make) {
-    make_both([&](PlacedGeometry& body) { (&body == q_.a ? a_ : b_) = make(body); });
+    make_both([&](PlacedGeometry& body) { (&body == request_.a ? a_ : b_) = make(body); });
   }
   void make_whole_surfaces() {
     make_surfaces([](PlacedGeometry& body) { return body.surface(); });
@@ -179,39 +181,41 @@ class Climber {
 
   // Where a surface has to be to matter for the relation to this body, and for a gap that is asked about.
   Aabb reach_of(const PlacedGeometry& body) const {
-    const double reach = 2 * q_.asked_gap;
+    const double reach = 2 * request_.asked_gap;
     return {body.bounds().min - Vec3{reach, reach, reach}, body.bounds().max + Vec3{reach, reach, reach}};
   }
 
   // Whether only a small part of each body can matter for the other, and no other stage needs the rest.
   bool little_matters() {
     const auto can_be_cut = [](PlacedGeometry& body) { return body.shared().plain() && body.placed_as_in_file(); };
-    if (!serves_one_large_pair() || q_.wants_distance || !can_be_cut(*q_.a) || !can_be_cut(*q_.b)) return false;
-    return share_within(q_.a->bounds(), reach_of(*q_.b)) < kLittle && share_within(q_.b->bounds(), reach_of(*q_.a)) < kLittle;
+    PlacedGeometry &a = *request_.a, &b = *request_.b;
+    if (!serves_one_large_pair() || request_.wants_distance || !can_be_cut(a) || !can_be_cut(b)) return false;
+    return share_within(a.bounds(), reach_of(b)) < kLittle && share_within(b.bounds(), reach_of(a)) < kLittle;
   }
 
   void triangles() {
     timed(kTriangles, [&] {
       if (little_matters()) {
         make_surfaces([&](PlacedGeometry& body) {
-          return body.shared().surface_near(reach_of(&body == q_.a ? *q_.b : *q_.a));
+          return body.shared().surface_near(reach_of(&body == request_.a ? *request_.b : *request_.a));
         });
-        found_.triangles = simple_relation(*a_, *b_);
+        climb_.triangles = simple_relation(*a_, *b_);
       }
-      if (!found_.triangles) {
+      if (!climb_.triangles) {
         make_whole_surfaces();
-        found_.triangles = mesh_relation(*a_, *b_);
+        climb_.triangles = mesh_relation(*a_, *b_);
       }
       return true;
     });
-    const Relation relation = found_.triangles->relation;
+    const Relation relation = climb_.triangles->relation;
     if (relation == Relation::separated) {
       timed(kBand, [&] { return measure_gap(); });
-    } else if (relation != Relation::touching && q_.tolerance > 0) {
+    } else if (relation != Relation::touching && request_.tolerance > 0) {
       timed(kBand, [&] {
-        found_.least_depth = least_depth(*a_, *b_, largest_coordinate(), *found_.triangles);
-        if (*found_.least_depth > q_.tolerance) return true;
-        found_.way_within = find_way_within(*q_.a, *q_.b, q_.tolerance, crossing_of(*found_.triangles));
+        climb_.least_depth = least_depth(*a_, *b_, largest_coordinate(), *climb_.triangles);
+        if (*climb_.least_depth > request_.tolerance) return true;
+        const auto crossing = crossing_of(*climb_.triangles);
+        climb_.way_within = find_way_within(*request_.a, *request_.b, request_.tolerance, crossing);
         return true;
       });
     }
@@ -219,18 +223,18 @@ class Climber {
 
   // A gap that exceeds the touch band by more than rounding needs no figure.
   bool measure_gap() {
-    if (q_.asked_gap == 0) return false;
+    if (request_.asked_gap == 0) return false;
     if (!a_) make_whole_surfaces();
     const double rounding = chain_rounding(largest_coordinate());
-    found_.gap = mesh_distance(*a_, *b_, q_.wants_distance ? INFINITY : q_.tolerance + rounding);
-    if (!(a_->solid && b_->solid)) found_.gap_of_holes = distance_of_holes(*a_, *b_, found_.gap->distance);
+    climb_.gap = mesh_distance(*a_, *b_, request_.wants_distance ? INFINITY : request_.tolerance + rounding);
+    if (!(a_->solid && b_->solid)) climb_.gap_of_holes = distance_of_holes(*a_, *b_, climb_.gap->distance);
     return true;
   }
 
-  const ClimbRequest& q_;
+  const ClimbRequest& request_;
   Rung first_, last_;
   std::shared_ptr<Surface> a_, b_;  // of the world, or refined only where the other body can be
-  Climb found_;
+  Climb climb_;
 };
 
 }  // namespace
@@ -238,17 +242,17 @@ class Climber {
 Climb climb(const ClimbRequest& request, Rung first, Rung last) { return Climber(request, first, last).take(); }
 
 std::vector<std::optional<Climb>> climb_all(const std::vector<ClimbRequest>& requests, Rung last, unsigned threads) {
-  std::vector<std::optional<Climb>> found(requests.size());
+  std::vector<std::optional<Climb>> climbs(requests.size());
   const std::size_t workers = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
   const std::size_t together = std::clamp<std::size_t>(requests.size() / (kTurns * workers), 1, kTogether);
   parallel_for(requests.size(), threads, [&](std::size_t i) {
     try {
-      found[i] = climb(requests[i], Rung::aabb, last);
+      climbs[i] = climb(requests[i], Rung::aabb, last);
     } catch (const std::exception&) {  // said when the pair is asked alone
-      found[i].reset();
+      climbs[i].reset();
     }
   }, together);
-  return found;
+  return climbs;
 }
 
 }  // namespace satcheck

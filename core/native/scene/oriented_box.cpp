@@ -98,8 +98,8 @@ OrientedBox carried_box(const Aabb& box, const std::array<double, 16>* matrix, d
 
 Feature separating_feature(const OrientedBox& a, const OrientedBox& b) {
   if (!comes_after(a, b)) return separating_axis(a, b);
-  const Feature found = separating_axis(b, a);
-  return found == Feature::face_a ? Feature::face_b : found == Feature::face_b ? Feature::face_a : found;
+  const Feature axis = separating_axis(b, a);
+  return axis == Feature::face_a ? Feature::face_b : axis == Feature::face_b ? Feature::face_a : axis;
 }
 
 }  // namespace satcheck

@@ -29,27 +29,28 @@ RungWords of_oriented_boxes(const Climb& climb, std::int64_t cost) {
   }
 }
 
-RungWords of_convex_bodies(const PairResult& found, std::int64_t cost) {
-  return {"hull", name_of(found.outcome), std::string("both convex: ") + name_of(found.method) + " " + name_of(found.feature),
-          cost};
+RungWords of_convex_bodies(const PairResult& result, std::int64_t cost) {
+  std::string detail = std::string("both convex: ") + name_of(result.method) + " " + name_of(result.feature);
+  return {"hull", name_of(result.outcome), std::move(detail), cost};
 }
 
 RungWords of_hulls(const Climb& climb, std::int64_t cost) {
-  const PairResult& found = *climb.hulls;
-  if (found.outcome == Outcome::separated) {
+  const PairResult& result = *climb.hulls;
+  if (result.outcome == Outcome::separated) {
     return {"hull", "separated", at_least("hulls", gap_of_hulls(climb)), cost};
   }
-  const char* result = found.outcome == Outcome::undecided ? "undecided" : "meet";
-  return {"hull", result, "not both convex: hulls prove only separation", cost};
+  const char* outcome = result.outcome == Outcome::undecided ? "undecided" : "meet";
+  return {"hull", outcome, "not both convex: hulls prove only separation", cost};
 }
 
-RungWords of_triangles(const MeshRelation& found, std::int64_t cost) {
-  std::string detail = std::to_string(found.box_tests) + " box tests, " + std::to_string(found.triangle_tests) + " triangle tests";
-  if (found.triangle_a != kNoTriangle && found.triangle_b != kNoTriangle) {
-    detail += ", triangles " + std::to_string(found.triangle_a) + " and " + std::to_string(found.triangle_b) + " meet";
+RungWords of_triangles(const MeshRelation& r, std::int64_t cost) {
+  std::string detail = std::to_string(r.box_tests) + " box tests, ";
+  detail += std::to_string(r.triangle_tests) + " triangle tests";
+  if (r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle) {
+    detail += ", triangles " + std::to_string(r.triangle_a) + " and " + std::to_string(r.triangle_b) + " meet";
   }
-  if (!found.proven) detail += ", sampled in a degenerate contact";
-  return {"triangles", name_of(found.relation), std::move(detail), cost};
+  if (!r.proven) detail += ", sampled in a degenerate contact";
+  return {"triangles", name_of(r.relation), std::move(detail), cost};
 }
 
 }  // namespace

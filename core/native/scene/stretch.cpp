@@ -30,12 +30,12 @@ double largest_stretch(const std::array<double, 16>& m) {
 }
 
 double largest_placed(const std::array<double, 16>& m, double largest) {
-  double found = 0;
+  double result = 0;
   for (const std::size_t row : {0, 4, 8}) {
     const double sum = std::fabs(m[row]) + std::fabs(m[row + 1]) + std::fabs(m[row + 2]);
-    found = std::max(found, sum * largest + std::fabs(m[row + 3]));
+    result = std::max(result, sum * largest + std::fabs(m[row + 3]));
   }
-  return found;
+  return result;
 }
 
 }  // namespace satcheck

@@ -12,9 +12,9 @@ namespace satcheck {
 namespace {
 
 double depth_of_triangles(const Corners& a, const Corners& b) {
-  const PairResult found = check_pair(make_triangle(a), {}, make_triangle(b), {}, Query::depth);
-  if (found.outcome != Outcome::penetrating || !found.has_distance) return 0;
-  return std::max(-found.upper * (1 - 2 * kUnitRoundoff), 0.0);
+  const PairResult depth = check_pair(make_triangle(a), {}, make_triangle(b), {}, Query::depth);
+  if (depth.outcome != Outcome::penetrating || !depth.has_distance) return 0;
+  return std::max(-depth.upper * (1 - 2 * kUnitRoundoff), 0.0);
 }
 
 double depth_inside(const Surface& a, const Surface& b, double largest) {
@@ -29,9 +29,9 @@ double crossing_depth(const Surface& a, const Surface& b, std::uint32_t triangle
 
 bool crosses_deeper(const Surface& a, const Surface& b, std::uint32_t triangle_a, std::uint32_t triangle_b, double length) {
   const Shape of_a = make_triangle(corners(a.mesh, triangle_a)), of_b = make_triangle(corners(b.mesh, triangle_b));
-  const PairResult found = check_pair(of_a, {}, of_b, {}, Query::depth);
-  if (found.outcome != Outcome::penetrating || !found.has_distance || -found.lower <= length) return false;
-  return -found.upper > length || compare_signed_distance(of_a, {}, of_b, {}, -length).value_or(0) < 0;
+  const PairResult depth = check_pair(of_a, {}, of_b, {}, Query::depth);
+  if (depth.outcome != Outcome::penetrating || !depth.has_distance || -depth.lower <= length) return false;
+  return -depth.upper > length || compare_signed_distance(of_a, {}, of_b, {}, -length).value_or(0) < 0;
 }
 
 double nested_depth(PlacedGeometry& a, PlacedGeometry& b) {
@@ -40,10 +40,10 @@ double nested_depth(PlacedGeometry& a, PlacedGeometry& b) {
   return depth_inside(*a.surface(), *b.surface(), largest);
 }
 
-double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& found) {
-  const bool crosses = found.triangle_a != kNoTriangle && found.triangle_b != kNoTriangle;
-  const bool nested = found.relation == Relation::contains || found.relation == Relation::inside;
-  const double crossing = crosses ? crossing_depth(a, b, found.triangle_a, found.triangle_b) : 0;
+double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& r) {
+  const bool crosses = r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle;
+  const bool nested = r.relation == Relation::contains || r.relation == Relation::inside;
+  const double crossing = crosses ? crossing_depth(a, b, r.triangle_a, r.triangle_b) : 0;
   return nested ? std::max(crossing, depth_inside(a, b, largest)) : crossing;
 }
 

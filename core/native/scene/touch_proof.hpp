@@ -18,6 +18,6 @@ bool crosses_deeper(const Surface& a, const Surface& b, std::uint32_t triangle_a
 double nested_depth(PlacedGeometry& a, PlacedGeometry& b);
 
 // The better one of the two, for a pair of this relation. largest: no |coordinate| of the two is greater.
-double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& found);
+double least_depth(const Surface& a, const Surface& b, double largest, const MeshRelation& relation);
 
 }  // namespace satcheck
