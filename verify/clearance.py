@@ -15,17 +15,17 @@ from satcheck.verify.figures import EXACT_WIDTH
 from satcheck.verify.holes import check_holes
 from satcheck.verify.in_plane import CurveError
 from satcheck.verify.relations import Pair
-from satcheck.verify.rules import Asked
+from satcheck.verify.rules import Request
 
 NO_ERROR = CurveError(Fraction(0), Fraction(0))
 
 
-def least_gap(finding: Finding, asked: Asked) -> Fraction:
+def least_gap(finding: Finding, request: Request) -> Fraction:
     """The least gap of a finding that says that it keeps its clearance. A figure that equals the
     clearance up to rounding keeps it."""
     if finding.relation != "separated" or finding.undecided == "limit":
         return Fraction(0)
-    return Fraction(asked.clearance or 0.0) * (1 - EXACT_WIDTH)
+    return Fraction(request.clearance or 0.0) * (1 - EXACT_WIDTH)
 
 
 def keeps_clearance(

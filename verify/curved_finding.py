@@ -13,8 +13,8 @@ from satcheck.verify.distances import spanned
 from satcheck.verify.evidence import axis, given
 from satcheck.verify.exact import Rejected
 from satcheck.verify.figures import EXACT_WIDTH, rounding_of
-from satcheck.verify.rules import Asked
-from satcheck.verify.severity import Known, Proven, check_severity, proven_depth
+from satcheck.verify.rules import Request
+from satcheck.verify.severity import ProvenFields, ProvenFigures, check_severity, proven_depth
 from satcheck.verify.way_out import check_mtv
 
 
@@ -23,19 +23,19 @@ def check_curved(
     certificate: Certificate,
     a: Placed,
     b: Placed,
-    asked: Asked,
+    request: Request,
     tolerance: Fraction,
-) -> Proven:
+) -> ProvenFields:
     """Of two solids, so that neither can hide in the other; their depth is not certified."""
     pair = curved_pair_of(a, b)
     relation, exact = finding.relation, finding.exact_relation
-    clearance = Fraction(asked.clearance or 0.0)
+    clearance = Fraction(request.clearance or 0.0)
     separated = relation == "separated"
-    beyond, least = (tolerance if separated else Fraction(0)), least_gap(finding, asked)
+    beyond, least = (tolerance if separated else Fraction(0)), least_gap(finding, request)
     pair.prove(exact, certificate.relation, beyond, least)
     mtv = check_mtv(finding, certificate, a, b)
     distance = spanned(finding, rounding_of(a, b), lambda n, length: pair.gap(n, length) >= 0)
-    proven = Proven(False, mtv, distance or exact == "touching", distance or mtv)
+    proven = ProvenFields(False, mtv, distance or exact == "touching", distance or mtv)
     if relation != exact:
         band = tolerance * (1 + EXACT_WIDTH)
         if exact == "separated" and relation in ("touching", "near"):
@@ -56,7 +56,7 @@ def check_curved(
         )
 
     most = proven_depth(finding, proven)
-    check_severity(finding, asked, Known(most, keeps, EXACT_WIDTH))
+    check_severity(finding, request, ProvenFigures(most, keeps, EXACT_WIDTH))
     return proven
 
 

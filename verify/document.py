@@ -19,19 +19,19 @@ from satcheck.verify.figures import check_id, check_no_figures
 from satcheck.verify.findings import check_finding
 from satcheck.verify.in_plane import ACROSS
 from satcheck.verify.published import IllFormed, report_of
-from satcheck.verify.rules import ASKED, Asked, Rules
-from satcheck.verify.severity import Proven
+from satcheck.verify.rules import TERMS, Request, Rules
+from satcheck.verify.severity import ProvenFields
 from satcheck.verify.summary import check_summary
 
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """faults: what is wrong with the report as a whole. beyond: what no certificate speaks of.
-    exempt: pairs whose boxes meet that the report does not claim to have checked, because the scene
-    exempts them. pruned: pairs that are not listed, whose boxes are apart. asked: whether the
-    report says that certificates were asked for. missing: files that are not there; with some, the
-    pairs that are not listed and the summary are not checked, and nothing is accepted as a whole.
-    uncovered: fields with a value of which only the type was checked.
+    """faults: what is wrong with the report as a whole. beyond: what no certificate covers. pruned:
+    pairs that are not listed because their boxes are apart. exempt: pairs whose boxes meet and that
+    are not listed because the scene exempts them. requested: the report says that certificates were
+    requested. missing: files that do not exist. If there are any, the report is not accepted, and
+    unlisted pairs and the summary are not checked. uncovered: fields of which only the type was
+    checked.
     """
 
     findings: tuple[Checked, ...]
@@ -39,7 +39,7 @@ class Verification:
     beyond: tuple[str, ...]
     pruned: int
     exempt: int
-    asked: bool
+    requested: bool
     missing: tuple[str, ...] = ()
     uncovered: tuple[Uncovered, ...] = ()
 
@@ -58,7 +58,7 @@ class Verification:
         """Whether the report was made with certificates, has some, or needs none."""
         outcomes = {f.outcome for f in self.findings}
         return (
-            self.asked
+            self.requested
             or "not certified" not in outcomes
             or bool(outcomes & {"accepted", "rejected"})
         )
@@ -97,7 +97,7 @@ def verify(
         tuple(report.beyond),
         pruned,
         exempt,
-        asked=_asks_for_certificates(report.report),
+        requested=_asks_for_certificates(report.report),
         missing=report.missing,
         uncovered=uncovered(document, (field for finding in checked for field in finding.left)),
     )
@@ -119,8 +119,8 @@ class _Report:
     def __init__(self, document: Any, root: Path, *, allow_outside: bool) -> None:
         self.report, self.findings = report_of(document)
         report = self.report
-        self.asked = _asked(report.settings)
-        reader = Bodies(root, allow_open=self.asked.allow_open, allow_outside=allow_outside)
+        self.request = _request_of_settings(report.settings)
+        reader = Bodies(root, allow_open=self.request.allow_open, allow_outside=allow_outside)
         placed = reader.place_all(report.bodies, report.settings.planar)
         self.bodies = {body.id: body for body in placed}
         if len(self.bodies) < len(placed):
@@ -171,7 +171,7 @@ class _Report:
         self.listed.add(frozenset(names))
         return a, b
 
-    def _check(self, finding: Finding) -> Proven | None:
+    def _check(self, finding: Finding) -> ProvenFields | None:
         a, b = self._list(finding.a, finding.b)
         if self.rules.is_exempt(a, b):
             raise Rejected("the scene does not ask about this pair")
@@ -179,9 +179,9 @@ class _Report:
             raise Rejected("the relation as placed comes with a motion")
         if finding.motion is not None:
             raise _NotCertified("what happens while bodies move is not certified")
-        asked = self.asked_of(a, b)
+        request = self.request_of(a, b)
         unknown = any(body.claims and body.bounds is None for body in (a, b))
-        self.listed_apart += unknown or boxes_apart(a, b, asked)
+        self.listed_apart += unknown or boxes_apart(a, b, request)
         if finding.relation == "indeterminate":
             claims = finding.severity, finding.undecided, finding.certificate
             if claims != ("warning", "relation", None):
@@ -194,18 +194,18 @@ class _Report:
         for body in (a, b):
             if body.missing is not None:
                 raise _NoFile(f"{body.missing} is not there")
-        return check_finding(finding, a, b, asked)
+        return check_finding(finding, a, b, request)
 
-    def asked_of(self, a: Placed, b: Placed) -> Asked:
-        """What the settings ask, but for what the rules ask of this pair. A pair that may overlap
-        has no clearance to keep."""
+    def request_of(self, a: Placed, b: Placed) -> Request:
+        """The settings, replaced by what rules say about this pair. A pair that may overlap has no
+        clearance to keep."""
         terms = self.rules.terms(a, b)
-        asked = replace(
-            self.asked,
-            **{key: terms[key] for key in ASKED & terms.keys()},
+        request = replace(
+            self.request,
+            **{key: terms[key] for key in TERMS & terms.keys()},
             names=self.rules.names(a, b),
         )
-        return replace(asked, clearance=None) if asked.limited else asked
+        return replace(request, clearance=None) if request.limited else request
 
     def check_unlisted(self, faults: list[str]) -> tuple[int, int]:
         """How many pairs that are not listed are apart by their boxes, and how many are exempt."""
@@ -215,7 +215,7 @@ class _Report:
                 exempted += 1
             elif self.units[a.id] != self.units[b.id]:
                 faults.append(f"{a.id} and {b.id} are not in one unit, and not listed")
-            elif boxes_apart(a, b, self.asked_of(a, b)):
+            elif boxes_apart(a, b, self.request_of(a, b)):
                 pruned += 1
             else:
                 faults.append(f"{a.id} and {b.id} are not apart by their boxes, and not listed")
@@ -228,7 +228,7 @@ class _Report:
             check_summary(self.report, findings, self.rules, pruned, self.listed_apart)
 
 
-def _left(finding: Finding, proven: Proven) -> tuple[str, ...]:
+def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
     """The fields of an accepted finding that have a value and are not proven."""
     bounds, overlap = finding.depth_bounds, finding.exact_relation in OVERLAPS
     is_left = {
@@ -259,8 +259,8 @@ def _unlisted(bodies: list[Placed], listed: set[frozenset[str]]) -> Iterator[tup
             yield a, b
 
 
-def _asked(settings: StatedSettings) -> Asked:
-    return Asked(
+def _request_of_settings(settings: StatedSettings) -> Request:
+    return Request(
         None if isinstance(settings.tolerance, str) else settings.tolerance,
         settings.clearance,
         settings.allow_open,

@@ -21,7 +21,7 @@ from satcheck.verify.bodies import SAME, Placed
 from satcheck.verify.curved import Curved
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
-from satcheck.verify.rules import Asked
+from satcheck.verify.rules import Request
 from satcheck.verify.world import World
 
 # An interval this narrow, relatively, comes from rounding alone.
@@ -77,10 +77,10 @@ def default_tolerance(a: Placed, b: Placed, across: int | None) -> float:
     return max(written, a.deviation + b.deviation)
 
 
-def check_tolerance(finding: Finding, a: Placed, b: Placed, asked: Asked) -> Fraction:
-    expected = asked.tolerance
+def check_tolerance(finding: Finding, a: Placed, b: Placed, request: Request) -> Fraction:
+    expected = request.tolerance
     if expected is None:
-        expected = default_tolerance(a, b, asked.across)
+        expected = default_tolerance(a, b, request.across)
     tolerance = finding.tolerance
     if tolerance is None or not math.isclose(tolerance, expected, rel_tol=SAME):
         raise Rejected(f"the tolerance is {expected!r}")

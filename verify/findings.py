@@ -35,12 +35,12 @@ from satcheck.verify.in_plane import (
 )
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import Pair, pair_of, prove
-from satcheck.verify.rules import Asked
-from satcheck.verify.severity import Known, Proven, check_severity, proven_depth
+from satcheck.verify.rules import Request
+from satcheck.verify.severity import ProvenFields, ProvenFigures, check_severity, proven_depth
 from satcheck.verify.way_out import check_mtv, prove_way_out
 
 
-def check_finding(finding: Finding, a: Placed, b: Placed, asked: Asked) -> Proven:
+def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> ProvenFields:
     """Rejects a finding, of two bodies that could be read, that is not proven."""
     if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
@@ -48,17 +48,17 @@ def check_finding(finding: Finding, a: Placed, b: Placed, asked: Asked) -> Prove
     if certificate is None:
         raise Rejected("it has no certificate")
     check_id(finding)
-    tolerance = check_tolerance(finding, a, b, asked)
-    clearance = Fraction(asked.clearance or 0.0)
+    tolerance = check_tolerance(finding, a, b, request)
+    clearance = Fraction(request.clearance or 0.0)
     check_figures(finding, a, b)
     if a.curved is not None or b.curved is not None:
-        return check_curved(finding, certificate, a, b, asked, tolerance)
+        return check_curved(finding, certificate, a, b, request, tolerance)
     assert a.world is not None
     assert b.world is not None
     pair = pair_of(a, b, a.world, b.world)
     relation, exact = finding.relation, finding.exact_relation
     error = curve_error(a, b)
-    hulls_apart = _prove_relation(finding, certificate, pair, a, b, asked, tolerance)
+    hulls_apart = _prove_relation(finding, certificate, pair, a, b, request, tolerance)
     mtv = check_mtv(finding, certificate, a, b)
     depth = _check_depth(finding, certificate, pair, error)
     covered = _check_cover(finding, certificate, pair) and not error.farther
@@ -70,7 +70,7 @@ def check_finding(finding: Finding, a: Placed, b: Placed, asked: Asked) -> Prove
         distance = distance and not (a.holed or b.holed)
         directed = mtv or shows_direction(finding, a, b)
     distance = distance and not error.closer
-    proven = Proven(
+    proven = ProvenFields(
         depth or (covered and mtv), mtv, distance or exact == "touching", directed or mtv
     )
     if relation != exact:
@@ -95,7 +95,7 @@ def check_finding(finding: Finding, a: Placed, b: Placed, asked: Asked) -> Prove
         prove_apart(certificate, pair, (a, b), max(tolerance - slack, Fraction(0)))
     if relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
-    check_severity(finding, asked, Known(most, keeps, EXACT_WIDTH))
+    check_severity(finding, request, ProvenFigures(most, keeps, EXACT_WIDTH))
     return proven
 
 
@@ -105,20 +105,20 @@ def _prove_relation(
     pair: Pair,
     a: Placed,
     b: Placed,
-    asked: Asked,
+    request: Request,
     tolerance: Fraction,
 ) -> bool:
     """Whether the relation holds for the hulls, so that neither body can lie inside the other."""
     relation, proof, ends = finding.exact_relation, certificate.relation, pair
     error = curve_error(a, b)
-    if asked.across is not None:
-        check_in_plane(finding, certificate, asked.across)
-        ends = pair_of(a, b, *reaching(relation, pair.a.world, pair.b.world, asked.across))
-        check_proof_in_plane(proof, ends, asked.across)
+    if request.across is not None:
+        check_in_plane(finding, certificate, request.across)
+        ends = pair_of(a, b, *reaching(relation, pair.a.world, pair.b.world, request.across))
+        check_proof_in_plane(proof, ends, request.across)
         if relation != "separated":
-            error.check_overlap(relation, proof, ends, asked.across)
+            error.check_overlap(relation, proof, ends, request.across)
     beyond = tolerance if finding.relation == "separated" else Fraction(0)
-    least = least_gap(finding, asked) + error.closer
+    least = least_gap(finding, request) + error.closer
     return prove(relation, proof, ends, max(beyond, error.closer), least)
 
 
@@ -168,7 +168,7 @@ def _check_band(
     bodies: tuple[Placed, Placed],
     tolerance: Fraction,
     clearance: Fraction,
-    proven: Proven,
+    proven: ProvenFields,
 ) -> None:
     """Why the relation is another than the exact one."""
     relation, exact = finding.relation, finding.exact_relation
@@ -191,7 +191,7 @@ def _is_in_band(
     pair: Pair,
     bodies: tuple[Placed, Placed],
     band: Fraction,
-    proven: Proven,
+    proven: ProvenFields,
 ) -> bool:
     """Whether a way out of an overlap is no longer than that."""
     if isinstance(proof, UnsetType):

@@ -26,10 +26,10 @@ KEYS = ("allowed", *NUMBERS, "severity")
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
-    """What the report says is asked of a pair. tolerance: None: the input precision. severity: of
-    its errors; None: error. names: key -> the name of the rule that sets it. across: the axis
-    across the plane in which the bodies are outlines; None: they are as they are."""
+class Request:
+    """What a check requires of a pair, by settings and rules of its report. tolerance: None: the
+    input precision. severity: of its errors; None: error. names: key -> the name of the rule that
+    sets it. across: with --planar, the axis normal to the plane; else None."""
 
     tolerance: float | None
     clearance: float | None
@@ -50,8 +50,8 @@ class Asked:
         return self.max_depth is not None or self.max_volume is not None
 
 
-# What a rule may say of a pair in the place of the settings.
-ASKED = frozenset(("tolerance", "clearance", "max_depth", "max_volume", "severity"))
+# The keys of a rule that replace settings.
+TERMS = frozenset(("tolerance", "clearance", "max_depth", "max_volume", "severity"))
 
 Terms = dict[str, Any]  # key of a rule -> its value
 # What the rules see of a body: on which sides of which rules it is, the ignored groups it is in,

@@ -14,14 +14,14 @@ from math import isqrt
 from satcheck.report.report import CROSS_CHECK, OVERLAPS, Finding
 from satcheck.verify.evidence import vector
 from satcheck.verify.exact import Rejected, dot
-from satcheck.verify.rules import SEVERITIES, Asked
+from satcheck.verify.rules import SEVERITIES, Request
 
 CLEARANCE = "clearance"
 
 
 @dataclass(frozen=True, slots=True)
-class Proven:
-    """What was proven of an accepted finding besides its relation."""
+class ProvenFields:
+    """Which fields of an accepted finding are proven."""
 
     depth: bool = False
     mtv: bool = False
@@ -40,11 +40,11 @@ class Judgement:
 
 
 @dataclass(frozen=True, slots=True)
-class Known:
-    """What is proven of a finding besides its relation.
+class ProvenFigures:
+    """What a judgement needs besides the relation.
 
-    depth_at_most: as far as that is proven. keeps: whether the gap is at least as wide as this
-    length; None: not decided. rounding: the relative width that a limit is granted.
+    depth_at_most: a proven upper bound of the depth. keeps: whether the gap has at least this
+    length; None: undecided. rounding: the relative width that a limit is granted.
     """
 
     depth_at_most: Fraction | None
@@ -52,16 +52,16 @@ class Known:
     rounding: Fraction
 
 
-def check_severity(finding: Finding, asked: Asked, known: Known) -> None:
+def check_severity(finding: Finding, request: Request, proven: ProvenFigures) -> None:
     """Rejects a severity, a rule or an `undecided` that does not follow."""
     relation = finding.relation
     if relation in OVERLAPS:
-        judgement = _limited(finding, asked, known) if asked.limited else Judgement("error")
+        judgement = _limited(finding, request, proven) if request.limited else Judgement("error")
     else:
-        judgement = _apart(finding, asked, known)
-    if judgement.severity == "error" and asked.severity is not None:
-        severity = "silenced" if asked.severity == "none" else asked.severity
-        judgement = replace(judgement, severity=severity, rule=asked.name("severity"))
+        judgement = _apart(finding, request, proven)
+    if judgement.severity == "error" and request.severity is not None:
+        severity = "silenced" if request.severity == "none" else request.severity
+        judgement = replace(judgement, severity=severity, rule=request.name("severity"))
     if _is_disputed(finding):
         judgement = replace(
             judgement,
@@ -81,13 +81,13 @@ def _is_disputed(finding: Finding) -> bool:
     return any(stage.stage == CROSS_CHECK and stage.result == "disagrees" for stage in finding.plan)
 
 
-def _apart(finding: Finding, asked: Asked, known: Known) -> Judgement:
+def _apart(finding: Finding, request: Request, proven: ProvenFigures) -> Judgement:
     relation = finding.relation
-    rule = asked.name("clearance") or CLEARANCE
+    rule = request.name("clearance") or CLEARANCE
     if relation == "near":
         return Judgement("error", None, rule)
-    if asked.clearance:
-        kept = known.keeps(Fraction(asked.clearance))
+    if request.clearance:
+        kept = proven.keeps(Fraction(request.clearance))
         if kept is False:
             return Judgement("error", None, rule)
         if kept is None:
@@ -110,39 +110,39 @@ class _Limit:
         return self.greatest is not None and self.greatest <= self.most * (1 + rounding)
 
 
-def _limited(finding: Finding, asked: Asked, known: Known) -> Judgement:
-    limits = list(_limits(finding, asked, known))
-    broken = [limit for limit in limits if not limit.is_kept(known.rounding)]
+def _limited(finding: Finding, request: Request, proven: ProvenFigures) -> Judgement:
+    limits = list(_limits(finding, request, proven))
+    broken = [limit for limit in limits if not limit.is_kept(proven.rounding)]
     for limit in broken:
         if limit.least is not None and limit.least > limit.most:
-            return Judgement("error", None, asked.name(limit.key))
+            return Judgement("error", None, request.name(limit.key))
     for limit in broken:
-        return Judgement("warning", "limit", asked.name(limit.key))
+        return Judgement("warning", "limit", request.name(limit.key))
     if not all(limit.proven for limit in limits):
         raise Rejected("that it is within its limits is not certified")
-    names = (asked.name(limit.key) or "" for limit in limits)
+    names = (request.name(limit.key) or "" for limit in limits)
     return Judgement("note", None, ", ".join(dict.fromkeys(names)))
 
 
-def _limits(finding: Finding, asked: Asked, known: Known) -> Iterator[_Limit]:
-    if asked.max_depth is not None:
+def _limits(finding: Finding, request: Request, proven: ProvenFigures) -> Iterator[_Limit]:
+    if request.max_depth is not None:
         low, high = finding.depth_bounds or (None, None)
-        most, proven = Fraction(asked.max_depth), known.depth_at_most
-        within = proven is not None and proven <= most * (1 + known.rounding)
+        most, depth = Fraction(request.max_depth), proven.depth_at_most
+        within = depth is not None and depth <= most * (1 + proven.rounding)
         yield _Limit("max_depth", most, _fraction(low), _fraction(high), within)
-    if asked.max_volume is not None:
+    if request.max_volume is not None:
         volume, error = _fraction(finding.volume), _fraction(finding.volume_error)
         least = greatest = None
         if volume is not None and error is not None:
             least, greatest = volume - error, volume + error
-        yield _Limit("max_volume", Fraction(asked.max_volume), least, greatest, False)
+        yield _Limit("max_volume", Fraction(request.max_volume), least, greatest, False)
 
 
 def _fraction(value: float | None) -> Fraction | None:
     return None if value is None else Fraction(value)
 
 
-def proven_depth(finding: Finding, proven: Proven) -> Fraction | None:
+def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
     """An upper bound, world units, of the depth that is certified; None: none is."""
     bounds = []
     if proven.depth and finding.depth is not None:

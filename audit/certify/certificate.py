@@ -49,7 +49,7 @@ from satcheck.verify.figures import rounding_of
 from satcheck.verify.findings import check_finding, depth_at_most
 from satcheck.verify.in_plane import curve_error, reaching
 from satcheck.verify.relations import pair_of
-from satcheck.verify.rules import Asked
+from satcheck.verify.rules import Request
 
 SURFACES = SurfacesProof()
 
@@ -60,7 +60,7 @@ def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
     if finding.exact_relation is None:
         return NoCertificate("the relation is not proven")
     a, b = pair.a.checked(), pair.b.checked()
-    request = Asked(
+    request = Request(
         pair.request.tolerance,
         pair.request.clearance,
         pair.settings.allow_open,
