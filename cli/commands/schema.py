@@ -16,6 +16,7 @@ DOCUMENTS = (
     "scene",
     "stability",
     "suggestions",
+    "surface-tolerances",
     "tradeoff",
     "verification",
 )
@@ -27,6 +28,6 @@ def command(document: str) -> None:
     """Print the JSON Schema of the report of a command, or of a scene file.
 
     report describes a check, samples a robot in many poses, resolution the result of resolve,
-    suggestions that of suggest, verification that of verify.
+    suggestions and surface-tolerances those of suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)

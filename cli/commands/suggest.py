@@ -57,6 +57,13 @@ def _form_of(output: Path | None) -> str:
     help="toml: rules for a scene; json: data; srdf: disable_collisions for a robot. "
     "[default: as the name after -o ends; else toml]",
 )
+@click.option(
+    "--surface-tolerance",
+    "tolerances",
+    is_flag=True,
+    help="Suggest a surface tolerance instead: how far facets are off the curves that they stand "
+    "for, measured on the meshes, with the evidence.",
+)
 @output_option
 @planar_option
 @split_option
@@ -66,7 +73,9 @@ def _form_of(output: Path | None) -> str:
 @pose_options
 @color_option
 @debug_option
-def command(form: str | None, output: Path | None, never: bool, **options: Any) -> int:
+def command(
+    form: str | None, output: Path | None, never: bool, tolerances: bool, **options: Any
+) -> int:
     """Suggest which pairs a scene may allow to overlap.
 
     These are the pairs in contact as they are placed, and links of a robot with a joint between
@@ -78,6 +87,10 @@ def command(form: str | None, output: Path | None, never: bool, **options: Any) 
     error; 3, something could not be decided.
     """
     inputs = Inputs.taken_from(options)
+    if tolerances:
+        if never or inputs.has_poses or options["planar"] or form not in (None, "json"):
+            raise click.UsageError("--surface-tolerance is about meshes alone, as text or JSON")
+        return _surface_tolerances(inputs, form, output)
     form = form or _form_of(output)
     refuse_early(inputs, output)
     document = Document()
@@ -103,6 +116,22 @@ def command(form: str | None, output: Path | None, never: bool, **options: Any) 
     if errors:
         return exit_codes.ERROR
     return exit_codes.INCOMPLETE if result.undecided else exit_codes.CLEAN
+
+
+def _surface_tolerances(inputs: Inputs, form: str | None, output: Path | None) -> int:
+    from satcheck.audit.surface_tolerances import surface_tolerances
+    from satcheck.cli.report import surface_tolerances as words
+
+    refuse_early(inputs, output)
+    document = Document()
+    scene = load(inputs, hashed=False, least=1)
+    scene.require_in_space("it has no facets")
+    result = surface_tolerances(scene)
+    as_json = "json" in (form, _form_of(output))
+    text = json_document(result) if as_json else words.render(result)
+    document.deliver(lambda _: text, output, utf8=True)
+    talk(words.remark(result))
+    return exit_codes.ERROR if scene.unreadable else exit_codes.CLEAN
 
 
 def _suggest(scene: Scene, inputs: Inputs, options: dict[str, Any]) -> Suggestions:

@@ -12,6 +12,7 @@ from satcheck.report.resolution import ResolutionReport
 from satcheck.report.schema import schema_of
 from satcheck.report.stability import StabilityReport
 from satcheck.report.suggestions import SuggestionsReport
+from satcheck.report.surface_tolerances import SurfaceTolerancesReport
 from satcheck.report.verification import VerificationReport
 
 HERE = Path(__file__).parent
@@ -20,6 +21,7 @@ STRUCTS: dict[str, type[Struct]] = {
     "resolution": ResolutionReport,
     "stability": StabilityReport,
     "suggestions": SuggestionsReport,
+    "surface-tolerances": SurfaceTolerancesReport,
     "verification": VerificationReport,
 }
 SCENE = HERE.parents[1] / "scene" / "format"
@@ -27,7 +29,7 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `resolution`, `samples`,
-    `stability`, `suggestions`, `tradeoff`, `verification`; `scene`."""
+    `stability`, `suggestions`, `surface-tolerances`, `tradeoff`, `verification`; `scene`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     if name in STRUCTS:

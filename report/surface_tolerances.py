@@ -1,0 +1,54 @@
+"""What `satcheck suggest --surface-tolerance` proposes: how far facets are off the curved surfaces
+that they stand for, with the evidence."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from satcheck.report.values import Count, Length, Size, Tool, Value, Vector
+
+
+class FacetedCurves(Value, frozen=True):
+    """Chains of facets with the same radius and sagitta, to a few per cent.
+
+    chains: how many. facets: of all of them. degrees: the largest angle between two neighbouring
+    facets. radius: of curvature. sagitta: the largest distance of a facet from the curve. place: of
+    a facet that has it, world.
+    """
+
+    chains: Count
+    facets: Count
+    degrees: Size
+    radius: Size
+    sagitta: Size
+    place: Vector
+
+
+class BodyTolerance(Value, frozen=True):
+    """surface_tolerance: the largest sagitta, rounded up; None: no curved surface is seen. stated:
+    the body is a shape stated by its sizes, which has no facets. left_out: chains that turn by more
+    than `most_degrees` from facet to facet, and may be prisms. Largest sagitta first.
+    """
+
+    body: str
+    surface_tolerance: Length | None
+    stated: bool
+    curves: tuple[FacetedCurves, ...]
+    left_out: tuple[FacetedCurves, ...]
+
+
+class SurfaceTolerancesReport(Value, frozen=True, kw_only=True):
+    """Surface tolerances, measured on the meshes alone. Lengths in the units of the scene.
+
+    surface_tolerance: that covers all bodies; None: no curved surface is seen, or the bodies have
+    different units of length. most_degrees: the largest angle between two facets that is read as
+    that of a curve. least_facets: in a chain.
+    """
+
+    schema: Literal["satcheck.surface-tolerances/1"] = "satcheck.surface-tolerances/1"
+    tool: Tool
+    units: str | None
+    surface_tolerance: Length | None
+    most_degrees: Size
+    least_facets: Count
+    bodies: tuple[BodyTolerance, ...]
