@@ -56,6 +56,7 @@ def check(
     settings: Settings = DEFAULT_SETTINGS,
     progress: Progress | None = None,
     cache: BodyCache | None = None,
+    least: int = 2,
 ) -> Report:
     """Check every pair of bodies that the scene does not exempt.
 
@@ -64,15 +65,16 @@ def check(
     do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
     pairs (Settings.list_pruned); Report.truncated says how many are left out. cache: what
     earlier checks of the same bodies elsewhere, with the same settings, computed; this one adds to
-    it.
+    it. least: how many bodies there must be; one usable body alone passes.
 
     Raises SatcheckError (`too-few-bodies`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
     """
     require_settings(settings)
     scene = _loaded(scene, settings)
-    if len(scene.bodies) + len(scene.unreadable) < 2:
-        raise SatcheckError("too-few-bodies", "a check needs two bodies at least")
+    if len(scene.bodies) + len(scene.unreadable) < least:
+        few = "one body" if least == 1 else "two bodies"
+        raise SatcheckError("too-few-bodies", f"a check needs {few} at least")
     bodies = place(scene, settings, cache)
     if len(bodies.placed) < len(scene.bodies) and settings.planar is None:
         report = _check_scaled(scene, settings, progress, len(bodies.placed))
@@ -123,7 +125,9 @@ def _check(
         tool=tool(),
         units=scene.units,
         settings=settings.stated(depth=planner.depth),
-        summary=summarise(counts, findings, settings.fail_on),
+        summary=summarise(
+            counts, findings, settings.fail_on, alone=len(bodies.placed) == len(bodies.ids) == 1
+        ),
         bodies=body_reports(bodies),
         exempt=exempt_of(scene),
         rules=rule_reports(scene.rules),

@@ -67,12 +67,15 @@ def count(bodies: PlacedBodies, close: int, findings: Sequence[Finding]) -> Pair
     return counts
 
 
-def summarise(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Summary:
+def summarise(
+    counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn, *, alone: bool = False
+) -> Summary:
+    """alone: the scene is one usable body, which has nothing to collide with."""
     by_relation: Counter[Relation] = Counter(finding.relation for finding in findings)
     by_relation["separated"] += counts.total - counts.allowed - len(findings)
     undecided = Counter(finding.undecided for finding in findings)
     return Summary(
-        verdict=_verdict(counts, findings, fail_on),
+        verdict="pass" if alone else _verdict(counts, findings, fail_on),
         pairs=counts,
         by_relation={relation: by_relation[relation] for relation in RELATIONS},
         surfaces_only=undecided["inside"],
@@ -200,7 +203,7 @@ def issues_of(
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
     ]
-    empty = [] if counts.asked else [_nothing_to_check(scene, counts)]
+    empty = [] if counts.asked or len(bodies.ids) < 2 else [_nothing_to_check(scene, counts)]
     return tuple(dict.fromkeys((*issues, *bodies.issues, *empty, *of_pairs)))
 
 

@@ -132,6 +132,18 @@ def paths_argument(metavar: str) -> Callable[[_Command], _Command]:
     return click.argument("paths", nargs=-1, metavar=metavar, shell_complete=_complete_paths)
 
 
+def options_of(other: click.Command, *, but: Sequence[str]) -> Callable[[_Command], _Command]:
+    """Gives a command the options of another one, but for these."""
+
+    def add(command: _Command) -> _Command:
+        options = [p for p in other.params if isinstance(p, click.Option) and p.name not in but]
+        known = list(getattr(command, "__click_params__", ()))
+        command.__click_params__ = [*known, *reversed(options)]  # type: ignore[attr-defined]
+        return command
+
+    return add
+
+
 form_option = click.option(
     "--format",
     "form",

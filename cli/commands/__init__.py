@@ -7,6 +7,7 @@ from __future__ import annotations
 COMMANDS = {
     "cache": "The cache of convex parts: info, clear.",
     "decompose": "Split meshes into convex parts, for physics engines.",
+    "each": "Check each asset of a folder as a scene of its own.",
     "resolve": "Move the bodies of a scene apart, by short translations.",
     "schema": "Print the JSON Schema of the report of a command, or of a scene file.",
     "stability": "Check whether equivalent inputs get the same answer.",

@@ -318,7 +318,7 @@ def _render(
     if form == "json":
         return render_json(result, timings=timings)
     if form in CI_FORMATS:
-        return render_for_ci(result, form)
+        return render_for_ci({"satcheck": result}, form)
     from satcheck.cli.report.table import render as render_table
 
     return render_table(result, page, explain=explain, timings=timings)

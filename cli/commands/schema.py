@@ -10,6 +10,7 @@ from satcheck.cli.report.schema import text
 
 DOCUMENTS = (
     "report",
+    "assets",
     "decomposition",
     "resolution",
     "samples",
@@ -27,7 +28,8 @@ DOCUMENTS = (
 def command(document: str) -> None:
     """Print the JSON Schema of the report of a command, or of a scene file.
 
-    report describes a check, samples a robot in many poses, resolution the result of resolve,
-    suggestions and surface-tolerances those of suggest, verification that of verify.
+    report describes a check, assets many of them, samples a robot in many poses, resolution the
+    result of resolve, suggestions and surface-tolerances those of suggest, verification that of
+    verify.
     """
     Document().write(text(document), utf8=True)

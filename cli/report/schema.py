@@ -7,6 +7,7 @@ from pathlib import Path
 
 from msgspec import Struct
 
+from satcheck.report.assets import AssetsReport
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
 from satcheck.report.schema import schema_of
@@ -17,6 +18,7 @@ from satcheck.report.verification import VerificationReport
 
 HERE = Path(__file__).parent
 STRUCTS: dict[str, type[Struct]] = {
+    "assets": AssetsReport,
     "report": Report,
     "resolution": ResolutionReport,
     "stability": StabilityReport,
@@ -28,7 +30,7 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 
 def text(name: str = "report") -> str:
-    """The schema of one kind of document: `report` of a check, `resolution`, `samples`,
+    """The schema of one kind of document: `report` of a check, `assets`, `resolution`, `samples`,
     `stability`, `suggestions`, `surface-tolerances`, `tradeoff`, `verification`; `scene`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")

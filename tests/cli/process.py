@@ -61,9 +61,11 @@ def satcheck(
     env: Mapping[str, str] | None = None,
     cwd: Path = SAMPLES,
     python: tuple[str, ...] = (),
+    stdin: str | None = None,
 ) -> Ran:
     done = subprocess.run(
         command(*arguments, python=python),
+        input=None if stdin is None else stdin.encode(),
         cwd=cwd,
         env=environment(env),
         capture_output=True,

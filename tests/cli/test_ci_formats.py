@@ -15,7 +15,7 @@ from sarif_pydantic import Sarif
 
 from satcheck.cli.report.ci import FORMATS, render
 from satcheck.cli.report.ci.problems import problems, uri
-from satcheck.report.report import Finding, Report
+from satcheck.report.report import BodyReport, Finding, Report
 from tests.cli.process import SAMPLES, satcheck
 from tests.cli.reports import (
     BLOCK,
@@ -42,8 +42,14 @@ def scene_report(*findings: Finding) -> Report:
 MIXED = scene_report(SEPARATED, TOUCH, UNDECIDED, PENETRATING, DEEPER)
 
 
+def of_block(body: BodyReport, form: str) -> str:
+    """A report about a body against itself."""
+    finding = replace(PENETRATING, a=body.id, b=body.id)
+    return render({"all": report(finding, bodies=(body,))}, form)
+
+
 def test_the_worst_problem_comes_first() -> None:
-    listed = problems(MIXED)
+    listed = problems({"all": MIXED})
     assert [problem.level for problem in listed] == ["error"] * 3 + ["warning"] * 2 + ["note"]
     assert [problem.kind for problem in listed] == [
         "overlap", "overlap", "unreadable", "undecided", "not-closed", "touch"
@@ -53,11 +59,11 @@ def test_the_worst_problem_comes_first() -> None:
 
 def test_a_hit_on_the_way_is_a_problem_of_its_own_kind() -> None:
     hit = replace(HIT, b="far")
-    assert next(problem.kind for problem in problems(scene_report(hit))) == "motion"
+    assert next(problem.kind for problem in problems({"all": scene_report(hit)})) == "motion"
 
 
 def test_sarif() -> None:
-    run = Sarif.model_validate_json(render(MIXED, "sarif")).runs[0]
+    run = Sarif.model_validate_json(render({"all": MIXED}, "sarif")).runs[0]
     assert run.results is not None
     assert [result.level for result in run.results] == ["error"] * 3 + ["warning"] * 2 + ["note"]
     rules = run.tool.driver.rules
@@ -66,7 +72,7 @@ def test_sarif() -> None:
         assert rules[result.rule_index or 0].id == result.rule_id
         assert result.locations
         assert result.locations[0].physical_location
-    first = json.loads(render(MIXED, "sarif"))["runs"][0]["results"][0]
+    first = json.loads(render({"all": MIXED}, "sarif"))["runs"][0]["results"][0]
     assert first["partialFingerprints"] == {"satcheckId/v1": DEEPER.id}
     physical = first["locations"][0]["physicalLocation"]
     assert physical == {"artifactLocation": {"uri": "block.obj"}, "region": {"startLine": 1}}
@@ -75,20 +81,20 @@ def test_sarif() -> None:
 
 
 def test_sarif_without_problems_has_a_run_without_results() -> None:
-    document = json.loads(render(report(SEPARATED), "sarif"))
+    document = json.loads(render({"all": report(SEPARATED)}, "sarif"))
     assert document["runs"][0]["results"] == []
 
 
 def test_sarif_keeps_the_worst_results_within_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("satcheck.cli.report.ci.sarif.MOST_RESULTS", 4)
-    run = json.loads(render(MIXED, "sarif"))["runs"][0]
+    run = json.loads(render({"all": MIXED}, "sarif"))["runs"][0]
     assert [result["level"] for result in run["results"]] == ["error"] * 3 + ["warning"]
     notes = run["invocations"][0]["toolExecutionNotifications"]
     assert notes[0]["message"]["text"].startswith("2 more results")
 
 
 def test_junit() -> None:
-    document = JUnitXml.fromstring(render(MIXED, "junit").encode())
+    document = JUnitXml.fromstring(render({"all": MIXED}, "junit").encode())
     assert (document.tests, document.failures, document.errors) == (6, 2, 2)
     failed = [case.name for case in next(iter(document)) if Failure in map(type, case.result)]
     assert failed == ["block and block_pushed", "block and deeper"]
@@ -97,34 +103,40 @@ def test_junit() -> None:
 def test_junit_drops_what_xml_cannot_hold() -> None:
     body = replace(BLOCK, id="a\x00<b>", file="a&b.obj")
     finding = replace(SEPARATED, a=body.id, b=body.id)
-    document = JUnitXml.fromstring(render(report(finding, bodies=(body,)), "junit").encode())
+    document = JUnitXml.fromstring(
+        render({"all": report(finding, bodies=(body,))}, "junit").encode()
+    )
     case = next(iter(next(iter(document))))
     assert (case.classname, case.name) == ("a&b.obj", "a\ufffd<b> and a\ufffd<b>")
 
 
 def test_github_annotations() -> None:
-    lines = render(MIXED, "github").splitlines()
+    lines = render({"all": MIXED}, "github").splitlines()
     assert lines[0].startswith("::error file=block.obj,line=1,title=satcheck%3A overlap::block and")
     assert [line.split(" ")[0] for line in lines[3:6]] == ["::warning", "::warning", "::notice"]
-    assert lines[-1].startswith("satcheck: ")
+    assert lines[-1].startswith("all: ")
 
 
 def test_a_name_cannot_forge_an_annotation() -> None:
     body = replace(BLOCK, id="a\n::error::x", file="a,b:c.obj")
-    text = render(report(replace(PENETRATING, a=body.id, b=body.id), bodies=(body,)), "github")
+    text = render(
+        {"all": report(replace(PENETRATING, a=body.id, b=body.id), bodies=(body,))}, "github"
+    )
     assert len(text.splitlines()) == 2
     assert "file=a%2Cb%3Ac.obj" in text.replace("%252C", "%2C").replace("%253A", "%3A")
 
 
 def test_markdown_shows_names_as_text() -> None:
     body = replace(BLOCK, id="<b>|`x`\n# y")
-    text = render(report(replace(PENETRATING, a=body.id, b=body.id), bodies=(body,)), "markdown")
-    assert text.startswith("## satcheck: fail\n")
+    text = render(
+        {"all": report(replace(PENETRATING, a=body.id, b=body.id), bodies=(body,))}, "markdown"
+    )
+    assert "- **fail** all: " in text
     assert "\\<b\\>\\|\\`x\\` \\# y" in text
 
 
 def test_csv() -> None:
-    rows = list(csv.DictReader(io.StringIO(render(MIXED, "csv"), newline="")))
+    rows = list(csv.DictReader(io.StringIO(render({"all": MIXED}, "csv"), newline="")))
     assert [row["b"] for row in rows] == [finding.b for finding in MIXED.findings]
     assert (rows[3]["depth"], rows[3]["mtv_x"], rows[3]["file_b"]) == (
         "1.0", "-1.0", "block_pushed.obj"
@@ -133,7 +145,7 @@ def test_csv() -> None:
 
 
 def test_json_lines() -> None:
-    head, *findings = [json.loads(line) for line in render(MIXED, "jsonl").splitlines()]
+    head, *findings = [json.loads(line) for line in render({"all": MIXED}, "jsonl").splitlines()]
     assert (head["record"], head["schema"]) == ("report", "satcheck.report/1")
     assert [finding["id"] for finding in findings] == [finding.id for finding in MIXED.findings]
 

@@ -1,7 +1,8 @@
 """Reports in the formats of CI systems and of spreadsheets.
 
-Each module has one function `render(report)` that returns the whole document as text. `FORMATS`
-is the registry: a format is imported when a report is written in it.
+Each module has one function `render(reports)` that returns the whole document as text; reports are
+named, by the asset that each is about. `FORMATS` is the registry: a format is imported when a
+report is written in it.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, cast
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from satcheck.report.report import Report
 
@@ -25,6 +26,7 @@ FORMATS: dict[str, tuple[str, ...]] = {
 }
 
 
-def render(report: Report, form: str) -> str:
+def render(reports: Mapping[str, Report], form: str) -> str:
+    """Of one report at least."""
     module = import_module(f"{__name__}.{form}")
-    return cast("Callable[[Report], str]", module.render)(report)
+    return cast("Callable[[Mapping[str, Report]], str]", module.render)(reports)

@@ -1,4 +1,4 @@
-"""CSV (RFC 4180): a row for each finding that the report lists."""
+"""CSV (RFC 4180): a row for each finding that the reports list."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ import io
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from satcheck.report.report import Finding, Report
 
 # Columns that are fields of a finding with one value.
@@ -26,16 +28,17 @@ _FIELDS = (
     "mtv_verified",
     "reason",
 )
-_COLUMNS = (*_FIELDS, "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
+_COLUMNS = ("asset", *_FIELDS, "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
 
 
-def render(report: Report) -> str:
-    files = {body.id: body.file for body in report.bodies}
+def render(reports: Mapping[str, Report]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\r\n")
     writer.writerow(_COLUMNS)
-    for finding in report.findings:
-        writer.writerow([*_values(finding), files[finding.a], files[finding.b]])
+    for name, report in reports.items():
+        files = {body.id: body.file for body in report.bodies}
+        for finding in report.findings:
+            writer.writerow([name, *_values(finding), files[finding.a], files[finding.b]])
     return text.getvalue()
 
 

@@ -9,20 +9,22 @@ from satcheck.cli.report.ci.problems import problems, uri
 from satcheck.cli.report.summary import summary_line
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from satcheck.report.report import Report
 
 _COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
 
 
-def render(report: Report) -> str:
+def render(reports: Mapping[str, Report]) -> str:
     lines = []
-    for problem in problems(report):
+    for problem in problems(reports):
         title = f"satcheck: {problem.kind}"
         values = {"file": uri(problem.files[0]), "line": "1", "title": title}
         properties = ",".join(f"{name}={_property(value)}" for name, value in values.items())
         lines.append(f"::{_COMMANDS[problem.level]} {properties}::{_data(problem.message)}\n")
-    # A line that begins with :: would be a command.
-    return "".join([*lines, f"satcheck: {_data(summary_line(report))}\n"])
+    lines += [f"{_data(name)}: {_data(summary_line(r))}\n" for name, r in reports.items()]
+    return "".join(lines)
 
 
 def _data(text: str) -> str:

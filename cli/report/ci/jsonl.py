@@ -1,4 +1,4 @@
-"""JSON Lines: first a line with everything of the report but its findings, then a line for each
+"""JSON Lines: for each report a line with everything but its findings, then a line for each
 finding. `record` says which it is. Times are left out: the same input gives the same bytes."""
 
 from __future__ import annotations
@@ -11,12 +11,19 @@ from satcheck.cli.report.json import line
 from satcheck.report.report import without_timings
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
     from satcheck.report.report import Report
 
 
-def render(report: Report) -> str:
-    values: dict[str, Any] = without_timings(to_builtins(report))
-    findings = values.pop("findings")
-    records = [{"record": "report", **values}]
-    records += [{"record": "finding", **finding} for finding in findings]
-    return "".join(map(line, records))
+def render(reports: Mapping[str, Report]) -> str:
+    return "".join(map(line, _records(reports)))
+
+
+def _records(reports: Mapping[str, Report]) -> Iterator[dict[str, Any]]:
+    for name, report in reports.items():
+        values: dict[str, Any] = without_timings(to_builtins(report))
+        findings = values.pop("findings")
+        yield {"record": "report", "asset": name, **values}
+        for finding in findings:
+            yield {"record": "finding", "asset": name, **finding}

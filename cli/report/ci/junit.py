@@ -1,7 +1,7 @@
-"""JUnit XML, as CI servers read it: one test suite for the report, one test case for each finding.
+"""JUnit XML, as CI servers read it: a test suite for each report, a test case for each finding.
 
 A finding that fails is a failure, an undecided question an error; a finding that passes passes. The
-pairs that the report does not list are one test case together.
+pairs that the report does not list are one test case together, and so is an asset without pairs.
 """
 
 from __future__ import annotations
@@ -17,34 +17,42 @@ from satcheck.report.report import SEVERITIES
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from satcheck.report.report import Finding, Report
 
 # Characters that XML 1.0 cannot hold.
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
-def render(report: Report) -> str:
-    suite = ElementTree.Element("testsuite", name="satcheck")
+def render(reports: Mapping[str, Report]) -> str:
+    root = ElementTree.Element("testsuites")
+    root.extend(_suite(name, report) for name, report in reports.items())
+    ElementTree.indent(root)
+    text = ElementTree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+
+
+def _suite(name: str, report: Report) -> ElementTree.Element:
+    suite = ElementTree.Element("testsuite", name=_clean(name))
     files = {body.id: body.file for body in report.bodies}
     for finding in report.findings:
         case = _case(suite, files[finding.a], f"{finding.a} and {finding.b}")
         _judge(case, finding, report)
     if report.truncated is not None:
         pairs = counted(report.truncated.pairs, "more pair")
-        _case(suite, "satcheck", f"{pairs}: {report.truncated.reason}")
-    errors = [issue for issue in report.issues if issue.severity == "error"]
-    for issue in errors:
-        case = _case(suite, issue.file or "satcheck", issue.body or issue.file or issue.code)
-        _say(case, "error", issue.code, issue_line(issue))
+        _case(suite, name, f"{pairs}: {report.truncated.reason}")
+    for issue in report.issues:
+        if issue.severity == "error":
+            case = _case(suite, issue.file or name, issue.body or issue.file or issue.code)
+            _say(case, "error", issue.code, issue_line(issue))
+    if not len(suite):
+        _case(suite, name, "no pair")
     ElementTree.SubElement(suite, "system-out").text = _clean(summary_line(report))
-    for name in ("failure", "error"):
-        suite.set(f"{name}s", str(len(suite.findall(f"testcase/{name}"))))
+    for kind in ("failure", "error"):
+        suite.set(f"{kind}s", str(len(suite.findall(f"testcase/{kind}"))))
     suite.set("tests", str(len(suite.findall("testcase"))))
-    root = ElementTree.Element("testsuites")
-    root.append(suite)
-    ElementTree.indent(root)
-    text = ElementTree.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+    return suite
 
 
 def _case(suite: ElementTree.Element, file: str, name: str) -> ElementTree.Element:

@@ -10,6 +10,8 @@ from satcheck.cli.report.summary import summary_line
 from satcheck.cli.report.words import counted
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from satcheck.report.report import Report
 
 # GitHub cuts a step summary at 1 MiB; nobody reads more rows than these.
@@ -17,10 +19,12 @@ MOST_ROWS = 200
 _MARKUP = re.compile(r"([\\`*_{}\[\]()<>#+\-!|~&@:])")
 
 
-def render(report: Report) -> str:
-    listed = problems(report)
-    verdict = report.summary.verdict
-    lines = [f"## satcheck: {verdict}", "", _text(summary_line(report))]
+def render(reports: Mapping[str, Report]) -> str:
+    listed = problems(reports)
+    lines = ["## satcheck", ""]
+    for name, report in reports.items():
+        verdict = report.summary.verdict
+        lines.append(f"- **{verdict}** {_text(name)}: {_text(summary_line(report))}")
     if listed:
         lines += ["", "| severity | kind | what |", "|---|---|---|"]
         lines += [

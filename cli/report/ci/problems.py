@@ -14,6 +14,8 @@ from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from satcheck.report.report import Finding, Issue, Report
 
 Level = Literal["error", "warning", "note"]
@@ -41,16 +43,20 @@ class Problem(NamedTuple):
     depth: float = 0.0
 
 
-def problems(report: Report) -> list[Problem]:
-    """The worst first: by level, then the deeper overlap."""
+def problems(reports: Mapping[str, Report]) -> list[Problem]:
+    """Of all reports, the worst first: by level, then the deeper overlap."""
+    listed = [problem for report in reports.values() for problem in _of_report(report)]
+    return sorted(listed, key=lambda problem: (LEVELS.index(problem.level), -problem.depth))
+
+
+def _of_report(report: Report) -> list[Problem]:
     files = {body.id: body.file for body in report.bodies}
-    listed = [
+    findings = [
         _of_finding(finding, level, files, unit_of(report.units))
         for finding in report.findings
         if (level := _level(finding)) is not None
     ]
-    listed += [_of_issue(issue, files) for issue in report.issues]
-    return sorted(listed, key=lambda problem: (LEVELS.index(problem.level), -problem.depth))
+    return findings + [_of_issue(issue, files) for issue in report.issues]
 
 
 def sentence(finding: Finding, unit: str | None) -> str:
@@ -60,7 +66,8 @@ def sentence(finding: Finding, unit: str | None) -> str:
         parts.append(f"depth {with_unit(depth(finding), unit)}")
     if finding.distance is not None:
         parts.append(f"gap {with_unit(number(finding.distance), unit)}")
-    parts += [moving for moving in [in_motion(finding, unit)] if moving]
+    if moving := in_motion(finding, unit):
+        parts.append(f"while moving: {moving}")
     text = ", ".join(parts)
     if finding.mtv is not None and finding.mtv_verified:
         text += f"; moving {finding.a} by {vector(finding.mtv)} ends the overlap"

@@ -1,5 +1,5 @@
 """SARIF 2.1.0 (OASIS, Static Analysis Results Interchange Format), as code scanning services read
-it. A result is a finding or an issue of an input; a report without any has a run without results.
+it. A result is a finding or an issue of an input; reports without any have a run without results.
 
 Meshes have no lines, so each location is line 1 of the file.
 """
@@ -12,6 +12,8 @@ from satcheck.cli.report.ci.problems import KINDS, Problem, problems, uri
 from satcheck.cli.report.json import document
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from satcheck.report.report import Report
 
 SCHEMA = (
@@ -21,20 +23,21 @@ SCHEMA = (
 MOST_RESULTS = 25_000
 
 
-def render(report: Report) -> str:
-    listed = problems(report)
+def render(reports: Mapping[str, Report]) -> str:
+    listed = problems(reports)
+    any_report = next(iter(reports.values()))
     kept = listed[:MOST_RESULTS]
     kinds = list(dict.fromkeys(problem.kind for problem in kept))
     run = {
         "tool": {
             "driver": {
-                "name": report.tool.name,
-                "semanticVersion": report.tool.version,
+                "name": any_report.tool.name,
+                "semanticVersion": any_report.tool.version,
                 "rules": [_rule(kind) for kind in kinds],
             }
         },
         "columnKind": "unicodeCodePoints",
-        "invocations": [_invocation(report, left_out=len(listed) - len(kept))],
+        "invocations": [_invocation(reports, left_out=len(listed) - len(kept))],
         "results": [_result(problem, kinds.index(problem.kind)) for problem in kept],
     }
     return document({"$schema": SCHEMA, "version": "2.1.0", "runs": [run]})
@@ -45,14 +48,16 @@ def _rule(kind: str) -> dict[str, Any]:
     return {"id": kind, "shortDescription": {"text": text}}
 
 
-def _invocation(report: Report, left_out: int) -> dict[str, Any]:
+def _invocation(reports: Mapping[str, Report], left_out: int) -> dict[str, Any]:
     """left_out: results beyond the limit."""
     notes = []
     if left_out:
         text = f"{left_out} more results, none graver than those here, are left out."
         notes.append({"level": "warning", "message": {"text": text}})
     return {
-        "executionSuccessful": report.summary.verdict != "incomplete",
+        "executionSuccessful": all(
+            report.summary.verdict != "incomplete" for report in reports.values()
+        ),
         "toolExecutionNotifications": notes,
     }
 

@@ -1,0 +1,137 @@
+"""`satcheck each DIR|FILE ...`: many assets, each checked as a scene of its own."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+from msgspec import to_builtins
+
+from satcheck.audit.assets import check_asset
+from satcheck.audit.summary import tool
+from satcheck.cli import exit_codes
+from satcheck.cli.commands.check import command as check_command
+from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.options import (
+    HELP_NAMES,
+    REPORT_FORMATS,
+    Command,
+    form_of,
+    options_of,
+    paths_argument,
+    settings_of,
+)
+from satcheck.cli.output import Document, Page, talk
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.cli.report.ci import render as render_for_ci
+from satcheck.cli.report.json import document as json_document
+from satcheck.core import keep_freed_memory
+from satcheck.report.assets import AssetsReport, AssetVerdict, assets_report
+from satcheck.report.report import without_timings
+from satcheck.scene import Scene, load_scene
+from satcheck.scene.asset_files import asset_files, changed_since
+from satcheck.scene.drawing import DRAWINGS
+
+STANDARD_INPUT = "-"
+# What is about one robot, or about one report.
+_NOT_HERE = ("pose", "state", "sample", "seed", "explain", "certificate", "version")
+_CODES: dict[AssetVerdict, int] = {
+    "error": exit_codes.ERROR,
+    "fail": exit_codes.FINDINGS,
+    "incomplete": exit_codes.INCOMPLETE,
+    "pass": exit_codes.CLEAN,
+}
+
+
+@click.command("each", cls=Command, context_settings=HELP_NAMES)
+@paths_argument("DIR|FILE|- ...")
+@click.option(
+    "--changed-since",
+    metavar="REV",
+    help="Only assets that changed since this git revision, or that name a changed file.",
+)
+@options_of(check_command, but=_NOT_HERE)
+def command(
+    form: str | None,
+    output: Path | None,
+    quiet: bool,
+    exit_zero: bool,
+    timings: bool,
+    changed_since: str | None,
+    **options: Any,
+) -> int:
+    """Check each asset of a folder as a scene of its own.
+
+    An asset is a mesh file, a scene or a robot. In a folder every asset below it counts; a pattern
+    ("props/**/*.glb") may stand for files, and - reads their names from standard input, a line
+    each. Bodies of different assets are never compared. An asset with one body passes if that body
+    can be read.
+
+    The exit code is that of the worst asset: 2 if one cannot be read, else 1 if one fails, else 3
+    if one is not fully checked, else 0. Options that both commands have mean what they mean in
+    `satcheck A B`.
+    """
+    inputs = Inputs.taken_from(options)
+    form = form_of(form, output, REPORT_FORMATS)
+    refuse_early(inputs, output)
+    document = Document()
+    files = _files(inputs.paths, changed_since, planar=options["planar"] is not None)
+    if not files:
+        talk(f"satcheck: no asset changed since {changed_since}")
+        return exit_codes.CLEAN
+    report = _check(files, inputs, options, hashed=form == "json")
+    if output is not None or not quiet:
+        document.deliver(
+            lambda page: _render(report, form, page, timings=timings),
+            output,
+            utf8=form != "table",
+        )
+    return exit_codes.CLEAN if exit_zero and report.verdict == "fail" else _CODES[report.verdict]
+
+
+def _files(given: Sequence[str], revision: str | None, *, planar: bool) -> list[str]:
+    names: list[str] = []
+    for name in given:
+        names += sys.stdin.read().splitlines() if name == STANDARD_INPUT else [name]
+    files = asset_files(filter(None, names), drawings=DRAWINGS if planar else ())
+    if not files:
+        raise click.UsageError("no file is named: give a folder or files")
+    return files if revision is None else changed_since(revision, files)
+
+
+def _check(
+    files: Sequence[str], inputs: Inputs, options: Mapping[str, Any], *, hashed: bool
+) -> AssetsReport:
+    keep_freed_memory()
+
+    def load(file: str) -> Scene:
+        return load_scene(
+            [file],
+            split=inputs.split,
+            packages=inputs.packages,
+            allow_outside=inputs.allow_outside,
+            units=inputs.units,
+            hashed=hashed,
+        )
+
+    assets = []
+    with Bar("assets") as bar:
+        for number, file in enumerate(files):
+            assets.append(check_asset(file, load, lambda scene: settings_of(options, scene)))
+            if bar is not None:
+                bar(number + 1, len(files))
+    return assets_report(tool(), assets)
+
+
+def _render(report: AssetsReport, form: str, page: Page, *, timings: bool) -> str:
+    if form == "json":
+        return json_document(report if timings else without_timings(to_builtins(report)))
+    if form in CI_FORMATS:
+        return render_for_ci({asset.file: asset.report for asset in report.assets}, form)
+    from satcheck.cli.report.assets import render
+
+    return render(report, page)

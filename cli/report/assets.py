@@ -1,0 +1,77 @@
+"""The reports of many assets as a table: a row for each, the worst first, and the count of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from rich import box
+from rich.table import Table
+from rich.text import Text
+
+from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.ci.problems import problems
+from satcheck.cli.report.words import counted
+from satcheck.report.assets import ASSET_VERDICTS
+
+if TYPE_CHECKING:
+    from satcheck.cli.output import Page
+    from satcheck.report.assets import Asset, AssetsReport
+
+# Passing assets are listed up to this many assets.
+LISTED = 60
+# Colour only repeats what the word says.
+_COLOURS = {
+    "pass": "green",
+    "fail": "bold red",
+    "incomplete": "bold magenta",
+    "error": "bold magenta",
+}
+
+
+def render(report: AssetsReport, page: Page) -> str:
+    """The whole text, final newline included."""
+    console = Canvas(page)
+    shown = sorted(report.assets, key=lambda asset: ASSET_VERDICTS.index(asset.verdict))
+    if len(shown) > LISTED:
+        shown = [asset for asset in shown if asset.verdict != "pass"]
+    if shown:
+        console.print(_table(shown, unicode=page.unicode))
+    if hidden := report.counts.total - len(shown):
+        console.print(f"{counted(hidden, 'more asset')} {'passes' if hidden == 1 else 'pass'}")
+    console.print(summary_line(report))
+    return console.text()
+
+
+def summary_line(report: AssetsReport) -> str:
+    """`FAIL: 39 assets: 1 unreadable, 2 fail, 36 pass.`"""
+    counts = report.counts
+    parts = [
+        f"{count:,} {words}"
+        for count, words in (
+            (counts.error, "with errors"),
+            (counts.fail, "fail" if counts.fail > 1 else "fails"),
+            (counts.incomplete, "incomplete"),
+            (counts.passed, "pass" if counts.passed > 1 else "passes"),
+        )
+        if count
+    ]
+    return f"{report.verdict.upper()}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
+
+
+def _table(assets: list[Asset], *, unicode: bool) -> Table:
+    table = Table(box=box.ROUNDED if unicode else box.ASCII)
+    for name in ("asset", "verdict", "bodies", "pairs", "worst"):
+        right = name in ("bodies", "pairs")
+        table.add_column(name, justify="right" if right else "left", overflow="fold")
+    for asset in assets:
+        report = asset.report
+        listed = [p for p in problems({asset.file: report}) if p.level != "note"]
+        more = f" (and {len(listed) - 1:,} more)" if len(listed) > 1 else ""
+        table.add_row(
+            Text(asset.file),
+            Text(asset.verdict, style=_COLOURS[asset.verdict]),
+            f"{len(report.bodies):,}",
+            f"{report.summary.pairs.total:,}",
+            Text(f"{listed[0].message}{more}" if listed else ""),
+        )
+    return table
