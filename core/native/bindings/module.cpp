@@ -26,6 +26,7 @@ void bind_resolve(nb::module_& m);
 void bind_surface(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
+void bind_overlap(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_motion(nb::module_& m);
 void bind_pairs(nb::module_& m);
@@ -166,6 +167,7 @@ void satcheck::bind_core(nb::module_& m) {
   bind_resolve(m);
   bind_contacts(m);
   bind_depth(m);
+  bind_overlap(m);
   bind_motion(m);
   bind_shapes(m);
   bind_pairs(m);

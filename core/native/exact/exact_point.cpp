@@ -73,6 +73,9 @@ class ExactPlane {
   }
 
   Dyadic value(Vec3 p) const { return nx_ * (p.x - ax_) + ny_ * (p.y - ay_) + nz_ * (p.z - az_); }
+  Dyadic value(const ExactPoint& p) const {  // times p.w
+    return nx_ * (p.x - ax_ * p.w) + ny_ * (p.y - ay_ * p.w) + nz_ * (p.z - az_ * p.w);
+  }
 
  private:
   Dyadic ax_, ay_, az_, nx_, ny_, nz_;
@@ -81,6 +84,7 @@ class ExactPlane {
 }  // namespace
 
 Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, Vec3 d) { return ExactPlane(a, b, c).value(d); }
+Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) { return ExactPlane(a, b, c).value(d); }
 
 ExactPoint plane_meeting_point(Vec3 a, Vec3 b, Vec3 c, Vec3 p, Vec3 q) {
   const ExactPlane plane(a, b, c);
@@ -130,12 +134,7 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d) {
   const int sign = filtered_orientation(a, b, c, {d.rounded, d.error});
   if (sign != kOpen) return sign;
   if (is_float64(d)) return orientation(a, b, c, d.rounded);
-  const Dyadic ax = a.x, ay = a.y, az = a.z;
-  const Dyadic ux = b.x - ax, uy = b.y - ay, uz = b.z - az;
-  const Dyadic vx = c.x - ax, vy = c.y - ay, vz = c.z - az;
-  return (minor(uy, uz, vy, vz) * (d.x - ax * d.w) + minor(uz, ux, vz, vx) * (d.y - ay * d.w) +
-          minor(ux, uy, vx, vy) * (d.z - az * d.w))
-      .sign();
+  return orientation_value(a, b, c, d).sign();
 }
 
 LazyPoint lazy_centroid(const std::array<Vec3, 3>& triangle) {

@@ -29,6 +29,8 @@ ExactPoint between(const ExactPoint& p, const ExactPoint& q, const Dyadic& wp, c
 
 // The value whose sign is orientation(a, b, c, d).
 Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+// The same times d.w.
+Dyadic orientation_value(Vec3 a, Vec3 b, Vec3 c, const ExactPoint& d);
 
 // Where the line through p and q, on different sides of the plane of a, b, c, meets it; one of them may lie in it.
 ExactPoint plane_meeting_point(Vec3 a, Vec3 b, Vec3 c, Vec3 p, Vec3 q);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exact/predicates.hpp"
+#include "exact/ratio.hpp"
 #include "mesh/bvh.hpp"
 #include "mesh/winding.hpp"
 
@@ -16,22 +17,6 @@ constexpr double kRoundingError = 8 * std::numeric_limits<double>::epsilon();
 
 // Below this a rounded fraction may have lost digits.
 constexpr double kSmallestFraction = 1e-200;
-
-// numerator / denominator, denominator > 0.
-struct Ratio {
-  Dyadic numerator, denominator;
-};
-
-bool less(const Ratio& a, const Ratio& b) {
-  return (a.numerator * b.denominator - b.numerator * a.denominator).sign() < 0;
-}
-
-double rounded(const Ratio& r) { return rounded_ratio(r.numerator, r.denominator); }
-
-Ratio make_ratio(Dyadic numerator, Dyadic denominator) {
-  if (denominator.sign() < 0) return {-numerator, -denominator};
-  return {std::move(numerator), std::move(denominator)};
-}
 
 Aabb segment_box(const PlaneSegment& s) {
   Aabb box = point_box(s.p);
@@ -99,7 +84,7 @@ class Pieces {
   Ratio meeting(const PlaneSegment& o, const ExactPoint& from, const ExactPoint& to) const {
     const Dyadic near = area_value(o.p, o.q, from, axis_) * to.w;
     const Dyadic far = area_value(o.p, o.q, to, axis_) * from.w;
-    return make_ratio(near, near - far);
+    return zero_between(near, far);
   }
 
   // The position of v on the way from `from` to `to`, on whose line it lies.

@@ -1,0 +1,46 @@
+// The vertices of two meshes and the points where their features meet, by number.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "mesh/incidence.hpp"
+
+namespace satcheck {
+
+// Numbers: the vertices of a, those of b, then the other incidences. A point has one number: a vertex of b that lies on
+// one of a has the latter's.
+class MeetingNodes {
+ public:
+  MeetingNodes(const Mesh& a, const Mesh& b) : meshes_{&a, &b} {}
+
+  std::uint32_t add(const Incidence& at);
+  // To be called after the last add(): puts the nodes on each edge in order.
+  void sort_edges();
+
+  std::size_t count() const { return first_incidence() + incidences_.size(); }
+  std::uint32_t of_vertex(int mesh, std::uint32_t vertex) const;
+  // The nodes inside an edge of one mesh (0: a, 1: b), from its lower vertex on.
+  const std::vector<std::uint32_t>& inside(int mesh, MeshFeature edge) const;
+  // Of one mesh, where a node that add() returned lies.
+  MeshFeature feature(int mesh, std::uint32_t node) const;
+  const ExactPoint& at(std::uint32_t node) const;
+
+ private:
+  std::uint32_t first_incidence() const {
+    return static_cast<std::uint32_t>(meshes_[0]->vertices.size() + meshes_[1]->vertices.size());
+  }
+  std::uint32_t number(const Incidence& at);
+
+  const Mesh* meshes_[2];
+  std::map<Incidence, std::uint32_t> number_;
+  std::vector<Incidence> incidences_;
+  std::unordered_map<std::uint32_t, Incidence> of_node_;
+  std::unordered_map<std::uint32_t, std::uint32_t> same_as_;  // vertices of b that lie on one of a
+  std::map<MeshFeature, std::vector<std::uint32_t>> on_edge_[2];
+  mutable std::unordered_map<std::uint32_t, ExactPoint> where_;
+};
+
+}  // namespace satcheck

@@ -1,0 +1,186 @@
+#include "overlap/overlap_components.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "mesh/self_contact.hpp"
+#include "mesh/slivers.hpp"
+#include "mesh/surface_order.hpp"
+#include "overlap/passing.hpp"
+#include "overlap/shell_labels.hpp"
+
+namespace satcheck {
+namespace {
+
+bool lies_within(const Aabb& in, const Aabb& out) {
+  return in.min.x >= out.min.x && in.min.y >= out.min.y && in.min.z >= out.min.z && in.max.x <= out.max.x &&
+         in.max.y <= out.max.y && in.max.z <= out.max.z;
+}
+
+class Overlap {
+ public:
+  explicit Overlap(SpaceCells& cells)
+      : cells_(cells), labels_(cells), resolved_(labels_.complete()), joined_(2 * cells.faces().size()) {
+    for (std::uint32_t s = 0; s < sides(); ++s) joined_.unite(s, cells.shell(s));
+    for (std::uint32_t s = 0; s < sides(); s += 2) {
+      if (labels_.in_both(s) && labels_.in_both(s + 1)) joined_.unite(s, s + 1);  // a face within one of the solids
+    }
+    join_caves();
+    component_.assign(sides(), kNoComponent);
+    for (std::uint32_t s = 0; s < sides(); ++s) {
+      if (labels_.in_both(s)) component_[s] = joined_.find(s);
+    }
+  }
+
+  OverlapComponents describe() {
+    find_self_contact();
+    std::map<std::uint32_t, OverlapComponent> found;
+    add_faces(found);
+    add_curves(found);
+    const auto passing = find_passing(cells_, component_);
+    for (auto& [number, component] : found) {
+      const auto known = passing.find(number);
+      const Passing here = known == passing.end() ? Passing{false, false} : known->second;
+      if (!component.resolved) continue;
+      component.a_through_b = here.a_through_b;
+      component.b_through_a = here.b_through_a;
+    }
+    OverlapComponents result{resolved_, {}};
+    for (auto& [_, component] : found) result.components.push_back(std::move(component));
+    return result;
+  }
+
+ private:
+  std::uint32_t sides() const { return static_cast<std::uint32_t>(2 * cells_.faces().size()); }
+
+  // A component within the box of another may be a cave of it.
+  void join_caves() {
+    std::map<std::uint32_t, Aabb> boxes;
+    for (std::uint32_t s = 0; s < sides(); ++s) {
+      if (labels_.in_both(s)) boxes[joined_.find(s)].include(cells_.box(s / 2));
+    }
+    for (const auto& [side, box] : boxes) {
+      const bool may_be_cave = std::any_of(boxes.begin(), boxes.end(), [&, inner = side, &in = box](const auto& other) {
+        return other.first != inner && lies_within(in, other.second);
+      });
+      if (!may_be_cave) continue;
+      const auto pairs = sides_on_way(cells_, side);
+      resolved_ = resolved_ && pairs;
+      if (!pairs) continue;
+      for (const auto& [from, to] : *pairs) joined_.unite(from, to);
+    }
+  }
+
+  // Of what meets the other surface or lies within the other solid.
+  void find_self_contact() {
+    irregular_.assign(cells_.faces().size(), false);
+    for (std::uint32_t f = 0; f < cells_.faces().size(); ++f) {
+      const CellFace& face = cells_.faces()[f];
+      const auto in_other = [&](std::uint32_t side) {
+        const auto windings = labels_.of(side);
+        return windings && (face.mesh == 0 ? windings->b : windings->a) != 0;
+      };
+      const bool matters = cells_.in_contact(face.mesh, face.triangle) || in_other(2 * f) || in_other(2 * f + 1);
+      if (!matters || cells_.bounds_nothing(face)) continue;
+      irregular_[f] = face.within > 0 ? irregular_[f - 1]
+                                      : has_irregular_partners(cells_.surface(face.mesh), face.triangle);
+      resolved_ = resolved_ && !irregular_[f];
+    }
+  }
+
+  void add_faces(std::map<std::uint32_t, OverlapComponent>& found) const {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> counted;  // components and the first faces of triangles
+    for (std::uint32_t s = 0; s < sides(); ++s) {
+      if (component_[s] == kNoComponent) continue;
+      const std::uint32_t f = s / 2;
+      const auto [at, is_new] = found.try_emplace(component_[s]);
+      OverlapComponent& component = at->second;
+      if (const auto p = is_new ? cells_.sample(f) : std::nullopt) component.point = p->rounded;
+      component.bounds.include(cells_.box(f));
+      component.triangles += counted.emplace(component_[s], f - cells_.faces()[f].within).second;
+      component.resolved = component.resolved && !irregular_[f];
+    }
+  }
+
+  void add_curves(std::map<std::uint32_t, OverlapComponent>& found) const {
+    std::map<std::uint32_t, std::vector<NodePair>> segments;
+    for (const Wedge& w : cells_.wedges()) {
+      const CellFace &f = cells_.faces()[w.side / 2], &g = cells_.faces()[w.other / 2];
+      const bool crosses = f.mesh != g.mesh && !f.shared && !g.shared;
+      if (crosses && component_[w.side] != kNoComponent) segments[component_[w.side]].emplace_back(w.low, w.high);
+    }
+    for (auto& [component, pairs] : segments) {
+      for (const auto& [low, high] : pairs) {
+        found[component].curve_length += norm(cells_.nodes().at(high).rounded - cells_.nodes().at(low).rounded);
+      }
+      found[component].curves = count_chains(pairs);
+    }
+  }
+
+  static std::size_t count_chains(std::vector<NodePair> pairs) {
+    std::map<std::uint32_t, std::uint32_t> numbers;
+    const auto number = [&](std::uint32_t node) {
+      return numbers.emplace(node, static_cast<std::uint32_t>(numbers.size())).first->second;
+    };
+    for (auto& [low, high] : pairs) low = number(low), high = number(high);
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return join_chains(pairs, numbers.size()).size();
+  }
+
+  SpaceCells& cells_;
+  ShellLabels labels_;
+  bool resolved_;
+  DisjointSets joined_;                   // of sides
+  std::vector<std::uint32_t> component_;  // by side
+  std::vector<bool> irregular_;           // by face
+};
+
+// The solid without collinear triangles, which hide that an edge ends at a vertex.
+Surface without_collinear(const Surface& solid) {
+  Sliverless sliverless = without_slivers(solid.mesh);
+  Surface result(std::make_shared<const Mesh>(std::move(sliverless.mesh)));
+  result.solid = true;
+  result.bvh = sliverless.changed ? build_bvh(result.mesh) : solid.bvh;
+  return result;
+}
+
+OverlapComponents components_in_order(const Surface& a, const Surface& b, std::size_t max_pairs) {
+  if (!a.solid || !b.solid || a.bvh.nodes.empty() || b.bvh.nodes.empty()) return {false, {}};
+  const Surface plain_a = without_collinear(a), plain_b = without_collinear(b);
+  SpaceCells cells(plain_a, plain_b, max_pairs);
+  if (!cells.complete()) return {false, {}};
+  return Overlap(cells).describe();
+}
+
+}  // namespace
+
+OverlapComponents overlap_components(const Surface& a, const Surface& b, std::size_t max_pairs) {
+  const bool in_order = comes_before(a, b);
+  OverlapComponents result = in_order ? components_in_order(a, b, max_pairs) : components_in_order(b, a, max_pairs);
+  std::stable_sort(result.components.begin(), result.components.end(), [](const auto& x, const auto& y) {
+    return x.bounds.min != y.bounds.min ? coordinates_less(x.bounds.min, y.bounds.min)
+                                        : coordinates_less(x.bounds.max, y.bounds.max);
+  });
+  for (OverlapComponent& component : result.components) {
+    if (!in_order) std::swap(component.a_through_b, component.b_through_a);
+  }
+  return result;
+}
+
+std::optional<bool> passes_through(const Surface& a, const Surface& b, std::size_t max_pairs) {
+  const OverlapComponents overlap = overlap_components(a, b, max_pairs);
+  const auto any = [&](std::optional<bool> answer) {
+    return std::any_of(overlap.components.begin(), overlap.components.end(), [&](const OverlapComponent& c) {
+      return c.a_through_b == answer || c.b_through_a == answer;
+    });
+  };
+  if (any(true)) return true;
+  if (any(std::nullopt) || !overlap.resolved) return std::nullopt;
+  return false;
+}
+
+}  // namespace satcheck

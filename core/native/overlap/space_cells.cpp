@@ -1,0 +1,209 @@
+#include "overlap/space_cells.hpp"
+
+#include <algorithm>
+
+#include "base/edge_table.hpp"
+#include "mesh_pair/traversal.hpp"
+
+namespace satcheck {
+namespace {
+
+template <class T>
+void sort_and_drop_copies(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+SpaceCells::SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs)
+    : a_(a), b_(b), nodes_(a.mesh, b.mesh) {
+  meet(max_pairs);
+  for (int mesh = 0; mesh < 2 && complete_; ++mesh) cut(mesh);
+  shells_ = DisjointSets(2 * faces_.size());
+  for (int mesh = 0; mesh < 2 && complete_; ++mesh) join_at_edges(mesh);
+  if (complete_) join_at_stretches();
+}
+
+void SpaceCells::meet(std::size_t max_pairs) {
+  for (const int mesh : {0, 1}) cut_[mesh].assign(surface(mesh).mesh.triangles.size(), kNotCut);
+  const std::vector<ContactPair> pairs = find_contacts(a_, b_, AtCrossing::go_on).contacts;
+  complete_ = pairs.size() <= max_pairs;
+  if (!complete_) return;
+  for (const ContactPair& pair : pairs) {
+    if (repeats_a_corner(a_.mesh.triangles[pair.a]) || repeats_a_corner(b_.mesh.triangles[pair.b])) continue;
+    const TriangleMeeting meeting = meet_triangles(a_.mesh, pair.a, b_.mesh, pair.b);
+    std::vector<NodePair> segments;
+    std::vector<std::uint32_t> at;
+    for (const Incidence& node : meeting.nodes) at.push_back(nodes_.add(node));
+    if (meeting.kind == MeetingKind::segment) segments.emplace_back(at[0], at[1]);
+    for (const MeetingSide& side : meeting.sides) segments.emplace_back(nodes_.add(side.from), nodes_.add(side.to));
+    for (auto [low, high] : segments) {
+      if (high < low) std::swap(low, high);
+      segments_[0].emplace_back(pair.a, NodePair{low, high});
+      segments_[1].emplace_back(pair.b, NodePair{low, high});
+    }
+    cut_[0][pair.a] = cut_[1][pair.b] = 0;
+  }
+  nodes_.sort_edges();
+  for (auto& segments : segments_) sort_and_drop_copies(segments);
+}
+
+// The faces of all triangles of one mesh.
+void SpaceCells::cut(int mesh) {
+  const Mesh& m = surface(mesh).mesh;
+  first_face_[mesh].reserve(m.triangles.size());
+  for (std::uint32_t t = 0; t < m.triangles.size() && complete_; ++t) {
+    const auto first = static_cast<std::uint32_t>(faces_.size());
+    first_face_[mesh].push_back(first);
+    const std::uint32_t count = in_contact(mesh, t) ? cut_triangle(mesh, t) : 1;
+    for (std::uint32_t k = 0; k < count; ++k) faces_.push_back({mesh, t, k});
+  }
+}
+
+// The number of its faces.
+std::uint32_t SpaceCells::cut_triangle(int mesh, std::uint32_t triangle) {
+  const Corners c = corners(surface(mesh).mesh, triangle);
+  complete_ = complete_ && !collinear(c[0], c[1], c[2]);
+  if (!complete_) return 0;
+  const Border border = border_of(mesh, triangle);
+  cut_[mesh][triangle] = static_cast<std::uint32_t>(cuts_.size());
+  const TriangleFaces& faces = cuts_.emplace_back(nodes_, c, border.nodes, inner_stretches(mesh, triangle));
+  complete_ = complete_ && faces.complete();
+  for (std::uint32_t h = 0; h < 2 * faces.stretches().size(); ++h) {
+    if (faces.left(h) == TriangleFaces::kOutside) continue;
+    const auto [from, to] = faces.stretches()[h / 2];
+    const bool left = (from < to) == (h % 2 == 0);
+    const int edge = h / 2 < border.edges.size() ? border.edges[h / 2] : -1;
+    const std::uint32_t face = first_face_[mesh][triangle] + faces.left(h);
+    half_planes_.push_back({std::min(from, to), std::max(from, to), mesh, triangle, face, left, edge});
+  }
+  return faces.count();
+}
+
+SpaceCells::Border SpaceCells::border_of(int mesh, std::uint32_t triangle) const {
+  const Triangle& v = surface(mesh).mesh.triangles[triangle];
+  Border border;
+  for (int i = 0; i < 3; ++i) {
+    const std::uint32_t from = v[i], to = v[(i + 1) % 3];
+    std::vector<std::uint32_t> inside = nodes_.inside(mesh, MeshFeature::edge(from, to));
+    if (from > to) std::reverse(inside.begin(), inside.end());
+    border.nodes.push_back(nodes_.of_vertex(mesh, from));
+    border.nodes.insert(border.nodes.end(), inside.begin(), inside.end());
+    border.edges.resize(border.nodes.size(), i);
+  }
+  return border;
+}
+
+// Those that do not lie along an edge of the triangle.
+std::vector<NodePair> SpaceCells::inner_stretches(int mesh, std::uint32_t triangle) const {
+  const Triangle& v = surface(mesh).mesh.triangles[triangle];
+  const auto on_edge = [&](std::uint32_t node, int i) {
+    const MeshFeature f = nodes_.feature(mesh, node);
+    const std::uint32_t from = v[i], to = v[(i + 1) % 3];
+    return f == MeshFeature::edge(from, to) || (f.is_vertex() && (f.first == from || f.first == to));
+  };
+  std::vector<NodePair> inner;
+  auto segment = std::lower_bound(segments_[mesh].begin(), segments_[mesh].end(), std::pair(triangle, NodePair{}));
+  for (; segment != segments_[mesh].end() && segment->first == triangle; ++segment) {
+    const auto [low, high] = segment->second;
+    bool on_border = false;
+    for (int i = 0; i < 3; ++i) on_border = on_border || (on_edge(low, i) && on_edge(high, i));
+    if (!on_border) inner.emplace_back(low, high);
+  }
+  return inner;
+}
+
+// Edges of triangles that do not meet the other surface.
+void SpaceCells::join_at_edges(int mesh) {
+  const Mesh& m = surface(mesh).mesh;
+  const EdgeTable edges(m.vertices.size(), m.triangles);
+  std::vector<HalfPlane> here;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    here.clear();
+    const auto half_edges = edges.half_edges(e);
+    for (const std::uint32_t h : half_edges) {
+      if (in_contact(mesh, h / 3)) continue;
+      const Triangle& v = m.triangles[h / 3];
+      const std::uint32_t from = nodes_.of_vertex(mesh, v[h % 3]), to = nodes_.of_vertex(mesh, v[(h % 3 + 1) % 3]);
+      here.push_back({std::min(from, to), std::max(from, to), mesh, h / 3, first_face_[mesh][h / 3], from < to,
+                      static_cast<int>(h % 3)});
+    }
+    if (here.size() == 2 && half_edges.size() == 2) {
+      for (const int k : {0, 1}) join(here[k].side_ahead(), here[1 - k].side_behind(), here[k].low, here[k].high);
+    } else {
+      half_planes_.insert(half_planes_.end(), here.begin(), here.end());
+    }
+  }
+}
+
+void SpaceCells::join_at_stretches() {
+  const auto ends = [](const HalfPlane& h) { return NodePair{h.low, h.high}; };
+  std::stable_sort(half_planes_.begin(), half_planes_.end(),
+                   [&](const HalfPlane& g, const HalfPlane& h) { return ends(g) < ends(h); });
+  for (std::size_t i = 0; i < half_planes_.size() && complete_;) {
+    std::vector<HalfPlane> here;
+    for (const NodePair at = ends(half_planes_[i]); i < half_planes_.size() && ends(half_planes_[i]) == at; ++i) {
+      here.push_back(half_planes_[i]);
+    }
+    const auto groups = here.size() == 2 ? std::optional(std::vector<std::vector<HalfPlane>>{{here[0]}, {here[1]}})
+                                         : order_around(a_.mesh, b_.mesh, nodes_, here);
+    complete_ = groups && groups->size() > 1;
+    for (std::size_t k = 0; complete_ && k < groups->size(); ++k) {
+      const auto &group = (*groups)[k], &next = (*groups)[(k + 1) % groups->size()];
+      unite_shared(group);
+      join(group[0].side_ahead(), next[0].side_behind(), here[0].low, here[0].high);
+    }
+  }
+  half_planes_ = {};
+}
+
+void SpaceCells::join(std::uint32_t side, std::uint32_t other, std::uint32_t low, std::uint32_t high) {
+  shells_.unite(side, other);
+  wedges_.push_back({side, other, low, high});
+}
+
+// Half-planes that coincide: a face of each surface.
+void SpaceCells::unite_shared(const std::vector<HalfPlane>& half_planes) {
+  if (half_planes.size() == 1) return;
+  complete_ = complete_ && half_planes.size() == 2 && half_planes[0].mesh != half_planes[1].mesh;
+  if (!complete_) return;
+  shells_.unite(half_planes[0].side_ahead(), half_planes[1].side_ahead());
+  shells_.unite(half_planes[0].side_behind(), half_planes[1].side_behind());
+  for (const HalfPlane& h : half_planes) faces_[h.face].shared = true;
+}
+
+bool SpaceCells::bounds_nothing(const CellFace& face) const {
+  const Corners c = corners(surface(face.mesh).mesh, face.triangle);
+  return collinear(c[0], c[1], c[2]);
+}
+
+std::optional<ExactPoint> SpaceCells::sample(std::uint32_t face) const {
+  const CellFace& f = faces_[face];
+  const Corners c = corners(surface(f.mesh).mesh, f.triangle);
+  if (!in_contact(f.mesh, f.triangle)) return weighted_point(c[0], c[1], c[2], 1.0, 1.0, 1.0);
+  return cuts_[cut_[f.mesh][f.triangle]].sample(f.within);
+}
+
+std::optional<std::uint32_t> SpaceCells::face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const {
+  const std::uint32_t first = first_face_[mesh][triangle];
+  if (!in_contact(mesh, triangle)) return first;
+  const auto within = cuts_[cut_[mesh][triangle]].face_at(p);
+  return within ? std::optional(first + *within) : std::nullopt;
+}
+
+Aabb SpaceCells::box(std::uint32_t face) const {
+  const CellFace& f = faces_[face];
+  if (!in_contact(f.mesh, f.triangle)) return triangle_box(surface(f.mesh).mesh, f.triangle);
+  const TriangleFaces& cut = cuts_[cut_[f.mesh][f.triangle]];
+  Aabb box;
+  for (std::size_t h = 0; h < 2 * cut.stretches().size(); ++h) {
+    if (cut.left(h) != f.within) continue;
+    const auto [first, second] = cut.stretches()[h / 2];
+    box.include(nodes_.at(first).rounded);
+    box.include(nodes_.at(second).rounded);
+  }
+  return box;
+}
+
+}  // namespace satcheck

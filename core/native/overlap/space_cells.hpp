@@ -1,0 +1,87 @@
+// The cells into which two closed surfaces cut space, by the sides of the faces that bound them.
+//
+// Each surface cuts the triangles of the other into faces. Around each stretch at which faces end, those that follow
+// each other in a turn about it bound a common cell (around_stretch.hpp). So the sides of the faces join into the
+// closed surfaces that bound the cells: each one is a shell. A cell may have several shells: caves within it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/patches.hpp"
+#include "mesh/surface.hpp"
+#include "overlap/around_stretch.hpp"
+#include "overlap/triangle_faces.hpp"
+
+namespace satcheck {
+
+struct CellFace {
+  int mesh;  // 0: a, 1: b
+  std::uint32_t triangle;
+  std::uint32_t within;  // which one of the triangle's faces
+  bool shared = false;   // a face of the other surface coincides with it
+};
+
+// Two sides that look at each other across a stretch; the numbers of its ends (meeting_nodes.hpp).
+struct Wedge {
+  std::uint32_t side, other;
+  std::uint32_t low, high;
+};
+
+class SpaceCells {
+ public:
+  // Of surfaces without collinear triangles, as without_slivers() leaves them. Where more triangles meet than
+  // `max_pairs`, and where a surface meets itself at the other one, not complete().
+  SpaceCells(const Surface& a, const Surface& b, std::size_t max_pairs);
+
+  bool complete() const { return complete_; }
+  const Surface& surface(int mesh) const { return mesh == 0 ? a_ : b_; }
+  const MeetingNodes& nodes() const { return nodes_; }
+  const std::vector<CellFace>& faces() const { return faces_; }
+  const std::vector<Wedge>& wedges() const { return wedges_; }
+  std::uint32_t shell(std::uint32_t side) { return shells_.find(side); }
+  // Triangles that meet the other surface.
+  bool in_contact(int mesh, std::uint32_t triangle) const { return cut_[mesh][triangle] != kNotCut; }
+  bool any_contact() const { return !cuts_.empty(); }
+  bool bounds_nothing(const CellFace& face) const;
+
+  // A point inside the face, and the face of a triangle in which a point lies; nothing where that cannot be told.
+  std::optional<ExactPoint> sample(std::uint32_t face) const;
+  std::optional<std::uint32_t> face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const;
+  // Around the face, rounded.
+  Aabb box(std::uint32_t face) const;
+
+ private:
+  static constexpr std::uint32_t kNotCut = 0xFFFFFFFF;
+
+  // The nodes around a triangle, and on which edge of it the stretch from each one lies.
+  struct Border {
+    std::vector<std::uint32_t> nodes;
+    std::vector<int> edges;
+  };
+
+  void meet(std::size_t max_pairs);
+  void cut(int mesh);
+  std::uint32_t cut_triangle(int mesh, std::uint32_t triangle);
+  Border border_of(int mesh, std::uint32_t triangle) const;
+  std::vector<NodePair> inner_stretches(int mesh, std::uint32_t triangle) const;
+  void join_at_edges(int mesh);
+  void join_at_stretches();
+  void join(std::uint32_t side, std::uint32_t other, std::uint32_t low, std::uint32_t high);
+  void unite_shared(const std::vector<HalfPlane>& half_planes);
+
+  const Surface &a_, &b_;
+  MeetingNodes nodes_;
+  std::vector<std::pair<std::uint32_t, NodePair>> segments_[2];  // by triangle
+  std::vector<std::uint32_t> cut_[2];                            // of each triangle: which of the cuts_, or kNotCut
+  std::vector<std::uint32_t> first_face_[2];                     // of each triangle
+  std::vector<TriangleFaces> cuts_;
+  std::vector<CellFace> faces_;
+  std::vector<HalfPlane> half_planes_;
+  std::vector<Wedge> wedges_;
+  DisjointSets shells_{0};
+  bool complete_ = true;
+};
+
+}  // namespace satcheck
