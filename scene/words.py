@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
 from functools import lru_cache
 
 _SHOWN = 5  # of a long list
@@ -17,6 +16,8 @@ def meant(word: str, known: Iterable[str], form: str = " (did you mean {}?)") ->
 
 @lru_cache(maxsize=64)  # who misspells a key of one body misspells it in all of them
 def _closest(word: str, known: frozenset[str]) -> str | None:
+    from difflib import get_close_matches
+
     return next(iter(get_close_matches(word, sorted(known), n=1)), None)
 
 

@@ -14,6 +14,7 @@ from satcheck.report.report import Report, without_timings
 
 INDENT = 2
 _INDENTATION = re.compile("\n *")
+_IN_A_PIECE = 500  # elements of a list
 # How MessagePack marks a float64, and the bits of a NaN or an infinity. Other bytes may look so.
 _NOT_FINITE = re.compile(rb"\xcb[\x7f\xff][\xf0-\xff]")
 
@@ -23,11 +24,10 @@ def render(report: Report, *, timings: bool) -> list[str]:
 
     Not as one text: the report of a scene can be larger than the scene in memory.
     """
-    pieces = []
-    for number, key in enumerate(report.__struct_fields__):
-        pieces.append(f'{"," if number else "{"}\n  "{key}": ')
-        pieces += _member(getattr(report, key), timings)
-    return [*pieces, "\n}\n"]
+    pieces = ["{"]
+    for key in report.__struct_fields__:
+        pieces += [*_member(key, getattr(report, key), timings), ","]
+    return [*pieces[:-1], "\n}\n"]
 
 
 def document(values: Any) -> str:
@@ -43,26 +43,28 @@ def line(values: Any) -> str:
     return _INDENTATION.sub("", document(values)) + "\n"
 
 
-def _member(value: Any, timings: bool) -> Iterable[str]:
-    """A value of the outermost object; a list of structs in a piece for each."""
+def _member(key: str, value: Any, timings: bool) -> Iterable[str]:
+    """A member of the outermost object; a long list of structs in pieces."""
     if not isinstance(value, tuple) or not value:
-        yield _text(value, depth=1)
+        yield _text({key: value}).removeprefix("{").removesuffix("\n}")
         return
-    written = value if timings else (without_timings(to_builtins(element)) for element in value)
-    for number, element in enumerate(written):
-        yield f"{',' if number else '['}\n    {_text(element, depth=2)}"
-    yield "\n  ]"
+    begin, end = f'\n  "{key}": [', "\n  ]"
+    for first in range(0, len(value), _IN_A_PIECE):
+        yield "," if first else begin
+        piece = value[first : first + _IN_A_PIECE]
+        written = piece if timings else without_timings(to_builtins(piece))
+        yield _text({key: written}).removeprefix("{" + begin).removesuffix(end + "\n}")
+    yield end
 
 
-def _text(value: Any, depth: int = 0) -> str:
+def _text(value: Any) -> str:
     try:
         _require_finite(value)
         text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT).decode()
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
         text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False)
     # No string has a line end in it, so these are numbers.
-    text = f"{text}\n".replace("-0.0\n", "0.0\n").replace("-0.0,\n", "0.0,\n")[:-1]
-    return text.replace("\n", "\n" + " " * (INDENT * depth))
+    return f"{text}\n".replace("-0.0\n", "0.0\n").replace("-0.0,\n", "0.0,\n")[:-1]
 
 
 def _require_finite(value: Any) -> None:

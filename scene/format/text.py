@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import re
-import tomllib
 from codecs import BOM_UTF8
 from functools import cached_property
 from pathlib import Path
@@ -76,6 +75,8 @@ def parsed(path: str, location: Path, text: str) -> Parsed:
 
 
 def _toml(path: str, text: str) -> Any:
+    import tomllib
+
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:

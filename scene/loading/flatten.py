@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
+from array import array
+from collections.abc import Sequence
 
 from satcheck.core import Mesh
 from satcheck.core.transform import Transform
@@ -49,7 +50,7 @@ def flattened(scene: RawScene) -> RawMesh:
     )
 
 
-def concatenate(parts: list[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:
+def concatenate(parts: Sequence[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:
     """(vertices, triangles) of all parts together, each at its matrix.
 
     parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the
@@ -57,16 +58,15 @@ def concatenate(parts: list[tuple[Block, Block, Transform | None]]) -> tuple[Blo
     """
     if len(parts) == 1 and parts[0][2] is None:
         return parts[0][:2]
-    placed = [
-        (vertices, triangles) if matrix is None else _placed(vertices, triangles, matrix)
-        for vertices, triangles, matrix in parts
-    ]
-    offsets = np.cumsum([0, *(len(vertices) // 24 for vertices, _ in placed)], dtype=np.uint32)
-    corners = [
-        np.frombuffer(triangles, "<u4") + offset
-        for (_, triangles), offset in zip(placed, offsets, strict=False)
-    ]
-    return b"".join(vertices for vertices, _ in placed), b"".join(c.tobytes() for c in corners)
+    all_vertices, all_triangles = bytearray(), array("I")
+    for vertices, triangles, matrix in parts:
+        if matrix is not None:
+            vertices, triangles = _placed(vertices, triangles, matrix)
+        before = len(all_vertices) // 24
+        corners = array("I", bytes(triangles))
+        all_triangles.extend((corner + before for corner in corners) if before else corners)
+        all_vertices += vertices
+    return bytes(all_vertices), all_triangles.tobytes()
 
 
 def _placed(vertices: Block, triangles: Block, matrix: Transform) -> tuple[Block, Block]:

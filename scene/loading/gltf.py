@@ -175,7 +175,8 @@ class _Scene:
         translations = columns("TRANSLATION", "VEC3")
         rotations = columns("ROTATION", "VEC4")
         scales = columns("SCALE", "VEC3")
-        counts = {len(rows) for rows in (translations, rotations, scales) if rows is not None}
+        given = ((translations, 3), (rotations, 4), (scales, 3))
+        counts = {len(rows) // width for rows, width in given if rows is not None}
         if len(counts) != 1 or 0 in counts:
             raise MeshFileError("count-mismatch", f"node {node.key}: how many instances is unclear")
         (count,) = counts
@@ -185,8 +186,7 @@ class _Scene:
         copies = []
         for i in range(count):
             parts = (
-                None if rows is None else rows[i].tolist()
-                for rows in (translations, rotations, scales)
+                None if rows is None else rows[width * i : width * (i + 1)] for rows, width in given
             )
             copies.append((f"{node.path}[{i}]", multiply(node.matrix, _placement(*parts))))
         return copies
@@ -197,7 +197,7 @@ class _Scene:
         bound = None
         if "inverseBindMatrices" in skin:
             bound = self._accessors.numbers(integer(skin, "inverseBindMatrices", -1), "MAT4")
-            if len(bound) < len(joints):
+            if len(bound) < 16 * len(joints):
                 raise MeshFileError("count-mismatch", f"skin {number}: a joint lacks its matrix")
         return Skin(tuple(self._world(joint) or IDENTITY for joint in joints), bound)
 

@@ -1,31 +1,28 @@
-"""Typed arrays of glTF: accessors, dense and sparse, each range checked."""
+"""Typed arrays of glTF: accessors, dense and sparse, each range checked.
+
+The arrays are those of the standard library: importing numpy takes longer than reading most files.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from array import array
+from collections.abc import Callable, Iterable
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
 from satcheck.scene.loading.gltf_buffers import BufferViews, integer, items, member
 
-Floats = NDArray[np.float64]
-Indices = NDArray[np.uint32]
-
-_COMPONENTS = {
-    number: np.dtype(name)
-    for number, name in (
-        *((5120, "<i1"), (5121, "<u1"), (5122, "<i2"), (5123, "<u2")),
-        *((5125, "<u4"), (5126, "<f4")),
-    )
-}
+# componentType: typecode of an array.
+_COMPONENTS = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
+_UNSIGNED = frozenset("BHI")
+# typecode: the integer that stands for 1.0 in a normalized accessor.
+_LARGEST = {"b": 127, "B": 255, "h": 32767, "H": 65535}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
-# (name, type) -> the rows of that vertex attribute; None if there is none.
-Columns = Callable[[str, str], Floats | None]
+# (name, type) -> that vertex attribute, row by row; None if there is none.
+Columns = Callable[[str, str], "array[float] | None"]
 
 
 class Accessors:
@@ -35,30 +32,31 @@ class Accessors:
         self._accessors = items(document, "accessors")
         self._views = views
 
-    def positions(self, index: int) -> Floats:
-        """x, y, z of each vertex (n, 3), all finite."""
-        if self._type(member(self._accessors, index, "accessor")) == np.uint32:
+    def positions(self, index: int) -> array[float]:
+        """x, y, z of each vertex, all finite."""
+        if self._type(member(self._accessors, index, "accessor")) == "I":
             raise MeshFileError("bad-record", f"accessor {index}: positions of type uint32")
         return self.numbers(index, "VEC3", "coordinates")
 
-    def numbers(self, index: int, kind: str, what: str = "numbers") -> Floats:
-        """The rows of a type such as VEC4, all finite."""
+    def numbers(self, index: int, kind: str, what: str = "numbers") -> array[float]:
+        """The numbers of a type such as VEC4 row by row, all finite."""
         values = self._read(index, kind)
-        if not np.isfinite(values).all():
+        # A sum of float32 numbers does not overflow, and a term that is not finite stays in it.
+        if not math.isfinite(sum(values)):
             raise MeshFileError("non-finite", f"accessor {index}: non-finite {what}")
         return normalized(values, self.largest_integer(index))
 
-    def indices(self, index: int) -> Indices:
-        """Vertex numbers (n,)."""
+    def indices(self, index: int) -> array[int]:
+        """Vertex numbers."""
         values = self._read(index, "SCALAR")
-        if values.dtype.kind != "u":
+        if values.typecode not in _UNSIGNED:
             raise MeshFileError("bad-record", f"accessor {index}: indices are not unsigned")
-        return values.ravel().astype(np.uint32)
+        return array("I", values)
 
     def columns(self, attributes: dict[str, Any]) -> Columns:
         """attributes: numbers of accessors by name."""
 
-        def rows(name: str, kind: str) -> Floats | None:
+        def rows(name: str, kind: str) -> array[float] | None:
             return self.numbers(integer(attributes, name, -1), kind) if name in attributes else None
 
         return rows
@@ -70,41 +68,41 @@ class Accessors:
     def largest_integer(self, index: int) -> int | None:
         """The integer that stands for 1.0; None where integers stand for themselves."""
         accessor = member(self._accessors, index, "accessor")
-        dtype = self._type(accessor)
-        if accessor.get("normalized") is not True or dtype is None or dtype.itemsize == 4:
-            return None
-        return int(np.iinfo(dtype).max)
+        stands = accessor.get("normalized") is True
+        return _LARGEST.get(self._type(accessor)) if stands else None
 
     def bytes_of_view(self, number: int) -> bytes:
         return bytes(self._views.view(number))
 
     @staticmethod
-    def _type(owner: dict[str, Any]) -> np.dtype[Any] | None:
-        return _COMPONENTS.get(integer(owner, "componentType", 0))
+    def _type(owner: dict[str, Any]) -> str:
+        """The typecode of an array; "" for none."""
+        return _COMPONENTS.get(integer(owner, "componentType", 0), "")
 
-    def _read(self, index: int, kind: str) -> NDArray[Any]:
-        """(count, columns), of the type that the file has."""
+    def _read(self, index: int, kind: str) -> array[Any]:
+        """The numbers row by row, of the type that the file has."""
         accessor = member(self._accessors, index, "accessor")
-        dtype = self._type(accessor)
-        if dtype is None or accessor.get("type") != kind:
+        code = self._type(accessor)
+        if not code or accessor.get("type") != kind:
             raise MeshFileError("bad-record", f"accessor {index}: {kind} expected")
-        shape = integer(accessor, "count", 0), _COLUMNS[kind]
+        count, columns = integer(accessor, "count", 0), _COLUMNS[kind]
         if "bufferView" in accessor:
-            values = self._rows(accessor, f"accessor {index}", shape, dtype)
-        elif shape[0] > limits.MAX_ZEROS:
-            raise MeshFileError("too-large", f"accessor {index}: {shape[0]} elements without data")
+            values = self._rows(accessor, f"accessor {index}", count, columns, code)
+        elif count > limits.MAX_ZEROS:
+            raise MeshFileError("too-large", f"accessor {index}: {count} elements without data")
         else:
-            values = np.zeros(shape, dtype)
-        if "sparse" not in accessor:
-            return values
-        return self._replaced(values, accessor["sparse"], f"accessor {index}: sparse data")
+            values = array(code, [0]) * (count * columns)
+        if "sparse" in accessor:
+            where = f"accessor {index}: sparse data"
+            self._replace(values, columns, accessor["sparse"], where)
+        return values
 
     def _rows(
-        self, owner: dict[str, Any], what: str, shape: tuple[int, int], dtype: np.dtype[Any]
-    ) -> NDArray[Any]:
-        """The elements where the owner says that they lie; not to be written to."""
-        number = integer(owner, "bufferView", 0)
-        count, row = shape[0], shape[1] * dtype.itemsize
+        self, owner: dict[str, Any], what: str, count: int, columns: int, code: str
+    ) -> array[Any]:
+        """The elements where the owner says that they lie."""
+        values = array(code)
+        number, row = integer(owner, "bufferView", 0), columns * values.itemsize
         view, stride = self._views.view(number), self._views.stride(number, row)
         start = integer(owner, "byteOffset", 0)
         needed = start + (count - 1) * stride + row if count else start
@@ -114,29 +112,34 @@ class Accessors:
                 f"{what} exceeds its buffer view {number}: "
                 f"{count} elements need {needed} bytes, it has {len(view)}",
             )
-        if not count:
-            return np.empty(shape, dtype)
-        return np.ndarray(shape, dtype, view, start, (stride, dtype.itemsize))
+        if stride == row:
+            values.frombytes(view[start:needed])
+        else:
+            starts = range(start, needed, stride)
+            values.frombytes(b"".join(view[first : first + row] for first in starts))
+        return values
 
-    def _replaced(self, values: NDArray[Any], sparse: Any, where: str) -> NDArray[Any]:
-        """The values with the elements that sparse data list."""
+    def _replace(self, values: array[Any], columns: int, sparse: Any, where: str) -> None:
+        """Overwrites the elements that sparse data list."""
         given = sparse if isinstance(sparse, dict) else {}
         places, rows = (member([given.get(key)], 0, where) for key in ("indices", "values"))
-        dtype = self._type(places)
-        if dtype is None or dtype.kind != "u":
+        code = self._type(places)
+        if code not in _UNSIGNED:
             raise MeshFileError("bad-record", f"{where}: indices are not unsigned")
         count = integer(sparse, "count", 0)
-        elements = self._rows(places, where, (count, 1), dtype).ravel()
-        if count and elements.max() >= len(values):
+        elements = self._rows(places, where, count, 1, code)
+        if count and max(elements) * columns >= len(values):
             raise MeshFileError(
-                "index-out-of-range", f"{where}: element {elements.max()} does not exist"
+                "index-out-of-range", f"{where}: element {max(elements)} does not exist"
             )
-        changed = values.copy()
-        changed[elements] = self._rows(rows, where, (count, values.shape[1]), values.dtype)
-        return changed
+        replaced = self._rows(rows, where, count, columns, values.typecode)
+        for k, element in enumerate(elements):
+            start = element * columns
+            values[start : start + columns] = replaced[k * columns : (k + 1) * columns]
 
 
-def normalized(values: NDArray[Any], largest: int | None) -> Floats:
-    """largest: the integer that stands for 1.0."""
-    real = values.astype(np.float64)
-    return real if largest is None else np.maximum(real / largest, -1.0)
+def normalized(values: Iterable[float], largest: int | None) -> array[float]:
+    """As float64. largest: the integer that stands for 1.0."""
+    if largest is None:
+        return array("d", values)
+    return array("d", (max(value / largest, -1.0) for value in values))

@@ -6,19 +6,19 @@ those that the decoder gives: packing rounded them, and may have put them in ano
 
 from __future__ import annotations
 
+import math
+from array import array
 from typing import Any
 
-import numpy as np
-
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.gltf_accessors import Accessors, Floats, Indices, normalized
+from satcheck.scene.loading.gltf_accessors import Accessors, normalized
 from satcheck.scene.loading.gltf_buffers import integer
 
 
 class Unpacked:
     """packed: what the extension says. attributes: accessors of the primitive by name.
 
-    Raises MeshFileError. triangles: vertex numbers (m,), three each.
+    Raises MeshFileError. triangles: vertex numbers, three each.
     """
 
     def __init__(
@@ -47,22 +47,22 @@ class Unpacked:
                 "index-out-of-range",
                 f"Draco data: index out of range: {faces.max()} of {count} vertices",
             )
-        self.triangles: Indices = faces.astype(np.uint32).ravel()
+        self.triangles = array("I", faces.astype("<u4").tobytes())
 
-    def positions(self) -> Floats:
+    def positions(self) -> array[float]:
         positions = self._columns("POSITION", 3)
         if positions is None:
             raise MeshFileError("bad-record", "Draco data: no positions")
-        if not np.isfinite(positions).all():
+        if not all(map(math.isfinite, positions)):
             raise MeshFileError("non-finite", "Draco data: non-finite coordinates")
         return positions
 
-    def columns(self, name: str, kind: str) -> Floats | None:
+    def columns(self, name: str, kind: str) -> array[float] | None:
         """As Accessors.columns(): what Draco did not pack has an accessor of its own."""
         rows = self._columns(name, 4)
         return self._accessors.columns(self._attributes)(name, kind) if rows is None else rows
 
-    def _columns(self, name: str, count: int) -> Floats | None:
+    def _columns(self, name: str, count: int) -> array[float] | None:
         """An attribute that Draco packed; the accessor says what its integers stand for."""
         id_ = self._ids.get(name)
         if id_ is None:
@@ -72,4 +72,4 @@ class Unpacked:
         if data is None or data.ndim != 2 or data.shape[1] != count:
             raise MeshFileError("bad-record", f"Draco data: no attribute {id_!r} for {name}")
         largest = self._accessors.largest_integer(integer(self._attributes, name, -1))
-        return normalized(data, None if data.dtype.kind == "f" else largest)
+        return normalized(data.ravel().tolist(), None if data.dtype.kind == "f" else largest)

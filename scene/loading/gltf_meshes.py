@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 from msgspec import Struct
 
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.gltf_accessors import Accessors, Columns, Floats, Indices
+from satcheck.scene.loading.flatten import concatenate
+from satcheck.scene.loading.gltf_accessors import Accessors, Columns
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
-from satcheck.scene.loading.gltf_shapes import morphed, skinned
-from satcheck.scene.loading.raw_mesh import NO_SURFACE, RawMesh
+from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh
 
 DRACO = "KHR_draco_mesh_compression"
 
@@ -36,10 +36,10 @@ class Shape(Struct, frozen=True):
 
 class Skin(Struct, frozen=True):
     """joints: where each stands in the world. bound: for each the matrix from the mesh to the joint
-    as it was bound, column-major 4x4; None: the identity."""
+    as it was bound, 16 numbers column by column; None: the identity."""
 
     joints: tuple[Transform, ...]
-    bound: Floats | None = None
+    bound: array[float] | None = None
 
 
 class Meshes:
@@ -69,20 +69,17 @@ class Meshes:
         """
         warnings: dict[str, str] = {}
         where = f"mesh {shape.mesh}"
-        vertices: list[Floats] = []
-        triangles: list[Indices] = []
-        count = 0
+        parts: list[tuple[Block, Block, None]] = []
         for primitive in items(member(self._meshes, shape.mesh, "mesh"), "primitives"):
             part = self._primitive(primitive, shape, skin, where, warnings)
             if part is not None:
-                vertices.append(part[0])
-                triangles.append(part[1] + np.uint32(count))
-                count += len(part[0])
-        if not any(map(len, triangles)):
+                parts.append((part[0].tobytes(), part[1].tobytes(), None))
+        vertices, triangles = concatenate(parts)
+        if not triangles:
             raise MeshFileError(NO_SURFACE, f"{where} has no triangles, only lines or points")
         return RawMesh(
-            vertices=np.concatenate(vertices).astype("<f8").tobytes(),
-            triangles=np.concatenate(triangles).astype("<u4").tobytes(),
+            vertices=vertices,
+            triangles=triangles,
             precision="float32",
             units="meter",
             warnings=tuple(warnings.items()),
@@ -95,8 +92,8 @@ class Meshes:
         skin: Skin | None,
         where: str,
         warnings: dict[str, str],
-    ) -> tuple[Floats, Indices] | None:
-        """Vertices (n, 3) and corners (m,), three a triangle; None where it has no triangles."""
+    ) -> tuple[array[float], array[int]] | None:
+        """x, y, z of each vertex and the corners of each triangle; None where it has none."""
         mode = integer(primitive, "mode", _TRIANGLES)
         if mode in _NO_TRIANGLES:
             warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
@@ -116,13 +113,15 @@ class Meshes:
         else:
             self._refuse_unread(primitive, attributes, where)
             positions = self._accessors.positions(integer(attributes, "POSITION", -1))
-            triangles = self._triangles(primitive, mode, len(positions), where)
+            triangles = self._triangles(primitive, mode, len(positions) // 3, where)
             columns = self._accessors.columns(attributes)
         if primitive.get("targets"):
             warnings["rest-shape"] = "morph targets have the weights that the file stores"
             if shape.weights:
                 positions = self._morphed(positions, items(primitive, "targets"), shape.weights)
         if skin is not None:
+            from satcheck.scene.loading.gltf_shapes import skinned
+
             warnings["rest-shape"] = "the joints of the skin stand as the file stores them"
             positions = skinned(positions, columns, skin.joints, skin.bound, where)
         return positions, triangles
@@ -145,18 +144,26 @@ class Meshes:
                 "unsupported-feature", f"{where}: the positions or indices are not in the file"
             )
 
-    def _triangles(self, primitive: dict[str, Any], mode: int, count: int, where: str) -> Indices:
+    def _triangles(
+        self, primitive: dict[str, Any], mode: int, count: int, where: str
+    ) -> array[int]:
+        """The corners of each triangle. count: of the vertices."""
         if "indices" not in primitive:
-            return _as_list(np.arange(count, dtype=np.uint32), mode, where)
+            return _as_list(array("I", range(count)), mode, where)
         corners = self._accessors.indices(integer(primitive, "indices", -1))
-        if len(corners) and corners.max() >= count:
+        largest = max(corners, default=0)
+        if corners and largest >= count:
             raise MeshFileError(
                 "index-out-of-range",
-                f"{where}: index out of range: {corners.max()} of {count} vertices",
+                f"{where}: index out of range: {largest} of {count} vertices",
             )
         return _as_list(corners, mode, where)
 
-    def _morphed(self, positions: Floats, targets: list[Any], weights: Sequence[float]) -> Floats:
+    def _morphed(
+        self, positions: array[float], targets: list[Any], weights: Sequence[float]
+    ) -> array[float]:
+        from satcheck.scene.loading.gltf_shapes import morphed
+
         if len(targets) != len(weights):
             raise MeshFileError("count-mismatch", f"{len(weights)} weights, {len(targets)} targets")
         moves = [
@@ -173,18 +180,19 @@ def _needed(primitive: dict[str, Any], attributes: dict[str, Any]) -> list[int]:
     return [integer(owner, key, -1) for owner, key in owners if key in owner]
 
 
-def _as_list(corners: Indices, mode: int, where: str) -> Indices:
+def _as_list(corners: array[int], mode: int, where: str) -> array[int]:
     """The corners of strips and fans, three a triangle."""
     if mode == _TRIANGLES:
         if len(corners) % 3:
             raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
         return corners
-    first, second, third = corners[:-2], corners[1:-1], corners[2:]
-    if mode == _FAN:
-        triangles = np.column_stack((second, third, np.full(len(third), corners[:1])))
-    else:  # in a strip, every other triangle runs backwards
-        backward = np.arange(len(first)) % 2 == 1
-        triangles = np.column_stack(
-            (first, np.where(backward, third, second), np.where(backward, second, third))
-        )
-    return triangles.ravel()
+    triangles = array("I")
+    for i in range(len(corners) - 2):
+        first, second, third = corners[i : i + 3]
+        if mode == _FAN:
+            triangles.extend((second, third, corners[0]))
+        elif i % 2:  # in a strip, every other triangle runs backwards
+            triangles.extend((first, third, second))
+        else:
+            triangles.extend((first, second, third))
+    return triangles

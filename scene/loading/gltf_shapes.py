@@ -2,45 +2,53 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
-from satcheck.scene.loading.gltf_accessors import Columns, Floats
+from satcheck.scene.loading.gltf_accessors import Columns
 
 
-def morphed(positions: Floats, moves: Sequence[tuple[float, Floats]]) -> Floats:
-    """positions: (n, 3). moves: a weight, and how far 1.0 moves each vertex."""
-    moved = positions.copy()
+def morphed(positions: array[float], moves: Sequence[tuple[float, array[float]]]) -> array[float]:
+    """positions: x, y, z of each vertex. moves: a weight, and how far 1.0 moves each vertex."""
+    moved = np.array(positions)
     for weight, move in moves:
         if len(move) != len(moved):
             raise MeshFileError("count-mismatch", "a morph target has another number of vertices")
-        moved += weight * move
+        moved += weight * np.array(move)
     return _finite(moved)
 
 
 def skinned(
-    points: Floats, columns: Columns, joints: Sequence[Transform], bound: Floats | None, where: str
-) -> Floats:
+    positions: array[float],
+    columns: Columns,
+    joints: Sequence[Transform],
+    bound: array[float] | None,
+    where: str,
+) -> array[float]:
     """Each vertex where its joints put it, in world coordinates.
 
-    columns: of the attributes JOINTS_0, WEIGHTS_0, JOINTS_1 and so on. joints: row-major 4x4, from
-    each joint to the world. bound: column-major 4x4, from the mesh to each joint. As the last rows
-    of matrices and the sums of weights are rounded in many files, what they make is divided by its
-    fourth coordinate.
+    positions: x, y, z of each vertex. columns: of the attributes JOINTS_0, WEIGHTS_0, JOINTS_1 and
+    so on. joints: row-major 4x4, from each joint to the world. bound: column-major 4x4, from the
+    mesh to each joint. As the last rows of matrices and the sums of weights are rounded in many
+    files, what they make is divided by its fourth coordinate.
     """
+    points = np.array(positions).reshape(-1, 3)
     matrices = np.array(joints, np.float64).reshape(-1, 4, 4)
     if bound is not None:
-        matrices = matrices @ bound[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1)
+        matrices = matrices @ np.array(bound).reshape(-1, 4, 4)[: len(joints)].transpose(0, 2, 1)
     blended = np.zeros((len(points), 4, 4))
     number = 0
     while (indices := columns(f"JOINTS_{number}", "VEC4")) is not None:
-        weights = columns(f"WEIGHTS_{number}", "VEC4")
-        if weights is None or not len(indices) == len(weights) == len(points):
+        shares = columns(f"WEIGHTS_{number}", "VEC4")
+        if shares is None or not len(indices) == len(shares) == 4 * len(points):
             raise MeshFileError("count-mismatch", f"{where}: joints and weights are not one each")
-        numbers = indices.astype(np.int64)
+        numbers = np.array(indices).astype(np.int64).reshape(-1, 4)
+        weights = np.array(shares).reshape(-1, 4)
         if numbers.size and numbers.max() >= len(matrices):
             raise MeshFileError(
                 "index-out-of-range", f"{where}: joint {numbers.max()} of {len(matrices)}"
@@ -54,7 +62,7 @@ def skinned(
     return _finite(placed[:, :3] / placed[:, 3:])
 
 
-def _finite(points: Floats) -> Floats:
+def _finite(points: NDArray[np.float64]) -> array[float]:
     if not np.isfinite(points).all():
         raise MeshFileError("non-finite", "the pose makes non-finite coordinates")
-    return points
+    return array("d", points.tobytes())
