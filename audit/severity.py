@@ -42,7 +42,7 @@ class Judgement(Struct, frozen=True):
 _OVERLAP, _TOUCH, _NOTHING = Judgement("error"), Judgement("note"), Judgement("none")
 
 
-def of_clearance(
+def clearance_judgement(
     request: Request, least: float, most: float, kept: bool | None = None
 ) -> Judgement | None:
     """Of a gap between these bounds; None: it keeps the clearance, or there is none. kept:
@@ -74,7 +74,7 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
         is_proven = verified or not judgement.passes
         return judgement if is_proven else _warned(judgement, "relation")
     if answer.relation in OVERLAPS:  # or a gap that may keep no clearance
-        close = of_clearance(pair.request, 0.0, pair.farther)
+        close = clearance_judgement(pair.request, 0.0, pair.farther)
         if close is not None and close.severity == "error":
             return _warned(by_rule(close, pair.request), "relation")
         return _warned(replace(judgement, severity="warning"), "relation")
@@ -96,9 +96,9 @@ def _judged(answer: Answer, pair: Pair) -> Judgement:
     if answer.relation == "near":
         return Judgement("error", request.rule("clearance") or CLEARANCE_RULE)
     if gap is None:  # an overlap within the touch band
-        close = of_clearance(request, 0.0, pair.farther)
+        close = clearance_judgement(request, 0.0, pair.farther)
     else:
-        close = of_clearance(request, gap.lower, gap.upper, gap.kept)
+        close = clearance_judgement(request, gap.lower, gap.upper, gap.kept)
     return close or (_TOUCH if answer.relation == "touching" else _NOTHING)
 
 

@@ -17,7 +17,7 @@ INTERRUPTED = 130  # Ctrl-C, the shells' 128 + SIGINT
 _BY_VERDICT = {"pass": CLEAN, "fail": FINDINGS, "incomplete": INCOMPLETE}
 
 
-def of_verdict(verdict: Verdict, issues: Iterable[Issue], *, exit_zero: bool) -> int:
+def for_verdict(verdict: Verdict, issues: Iterable[Issue], *, exit_zero: bool) -> int:
     """ERROR when an input could not be used, else by verdict; exit_zero forgives findings only."""
     if any(issue.severity == "error" for issue in issues):
         return ERROR

@@ -26,7 +26,7 @@ def cos_sin(degrees: float) -> tuple[float, float]:
     return ((cosine, sine), (0.0 - sine, cosine), (-cosine, 0.0 - sine), (sine, -cosine))[quarter]
 
 
-def of_quaternion(x: float, y: float, z: float, w: float) -> Rotation:
+def quaternion_matrix(x: float, y: float, z: float, w: float) -> Rotation:
     """Of any length but zero. No root is taken, so that (s, 0, 0, s) is a quarter turn exactly."""
     largest = max(abs(x), abs(y), abs(z), abs(w))
     x, y, z, w = x / largest, y / largest, z / largest, w / largest

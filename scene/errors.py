@@ -30,7 +30,7 @@ class SceneFileError(SatcheckError):
         self.line = line
 
     @classmethod
-    def of_several(cls, errors: Sequence[SceneFileError]) -> SceneFileError:
+    def combined(cls, errors: Sequence[SceneFileError]) -> SceneFileError:
         """The first of them, which knows the others."""
         first, *others = errors
         first.others = tuple(others)

@@ -74,7 +74,7 @@ class Selector(Struct, frozen=True):
         return cls("".join(_NO_CHARACTER if "\ud800" <= c <= "\udfff" else c for c in text))
 
     @classmethod
-    def of_nobody(cls) -> Selector:
+    def nobody(cls) -> Selector:
         return cls("[!\0-\U0010ffff]")  # no character is outside of this range
 
     @property

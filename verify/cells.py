@@ -17,7 +17,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, sub
+from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, sub
 from satcheck.verify.surfaces import common, meeting
 from satcheck.verify.world import Corners, Exact
 
@@ -44,7 +44,7 @@ class Sides:
 
     triangle: int
     point: Point
-    normal: Vector
+    normal: IntVector
     front: tuple[bool, bool]
     back: tuple[bool, bool]
 
@@ -79,7 +79,7 @@ def sides_of(
             yield Sides(t, point, normal, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
 
 
-def _point(p: Vector) -> Point:
+def _point(p: IntVector) -> Point:
     return Fraction(p[0]), Fraction(p[1]), Fraction(p[2])
 
 
@@ -145,7 +145,7 @@ def _with_own_partners(a: Exact, chosen: list[int]) -> Iterator[tuple[int, list[
             yield t, own.get(t, [])
 
 
-def _cuts(corners: Corners, normal: Vector, others: list[Corners]) -> list[Segment]:
+def _cuts(corners: Corners, normal: IntVector, others: list[Corners]) -> list[Segment]:
     """The segments within a triangle along which it shares something with others.
 
     An edge that triangles in its plane run equally often in both directions is no cut: across it
@@ -164,7 +164,7 @@ def _cuts(corners: Corners, normal: Vector, others: list[Corners]) -> list[Segme
     return [edge for edge in kept if _inside(edge)]
 
 
-def _in_plane(corners: Corners, normal: Vector, p: Point) -> Plane:
+def _in_plane(corners: Corners, normal: IntVector, p: Point) -> Plane:
     origin, e, f = corners[0], sub(corners[1], corners[0]), sub(corners[2], corners[0])
     step = [p[k] - origin[k] for k in range(3)]
     size = dot(normal, normal)
@@ -187,7 +187,7 @@ def _inside(edge: Segment) -> bool:
     return s > 0 and r > 0 and s + r < 2
 
 
-def cells_of(corners: Corners, normal: Vector, *surfaces: list[Corners]) -> list[list[Plane]]:
+def cells_of(corners: Corners, normal: IntVector, *surfaces: list[Corners]) -> list[list[Plane]]:
     """Convex pieces of a triangle, cut along all that it shares with triangles of each surface."""
     cells = [UNIT_CELL]
     for edge in (cut for others in surfaces for cut in _cuts(corners, normal, others)):
@@ -249,7 +249,7 @@ def in_space(corners: Corners, p: Plane) -> Point:
 
 
 def look(
-    corners: Corners, normal: Vector, cell: list[Plane], bodies: Sequence[Exact]
+    corners: Corners, normal: IntVector, cell: list[Plane], bodies: Sequence[Exact]
 ) -> tuple[Point, list[tuple[bool, bool]]]:
     """A point of the open cell and whether in front of it and behind it each body is.
 

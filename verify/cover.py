@@ -15,15 +15,15 @@ from math import ceil
 from satcheck.report.certificate import Cover
 from satcheck.verify.cells import UNIT_CELL, look, own_partners
 from satcheck.verify.evidence import index
-from satcheck.verify.exact import Rejected, Vector, cross, dot, sub
+from satcheck.verify.exact import IntVector, Rejected, cross, dot, sub
 from satcheck.verify.surfaces import common
 from satcheck.verify.world import Corners, Exact
 
 LEVELS = 12  # a cube is halved so often at most
 MOST_CUBES = 50_000
 SPLIT = -1
-HalfSpace = tuple[Vector, int]  # n . t < h, on the lattice
-Cube = tuple[Vector, int]  # its middle and half its edge, in 2**-LEVELS of the lattice
+HalfSpace = tuple[IntVector, int]  # n . t < h, on the lattice
+Cube = tuple[IntVector, int]  # its middle and half its edge, in 2**-LEVELS of the lattice
 
 
 def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: Fraction) -> None:
@@ -85,7 +85,7 @@ def is_outside(cube: Cube, squared: int) -> bool:
     return dot(steps, steps) >= squared  # type: ignore[no-any-return]
 
 
-def _holds_ball(n: Vector, h: int, squared: Fraction) -> bool:
+def _holds_ball(n: IntVector, h: int, squared: Fraction) -> bool:
     """Whether the half-space n . t < h holds the open ball; squared: its radius."""
     return h > 0 and h * h >= squared * dot(n, n)
 

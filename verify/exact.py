@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-Vector = tuple[int, int, int]
+IntVector = tuple[int, int, int]
 Point = tuple[Fraction, Fraction, Fraction]
 
 SIGNIFICANT_BITS = 53
@@ -33,7 +33,7 @@ def lattice(*arrays: Floats) -> int:
     return max(0, int((SIGNIFICANT_BITS - exponents - lowest_bit).max()))
 
 
-def integers(array: Floats, k: int) -> list[Vector]:
+def integers(array: Floats, k: int) -> list[IntVector]:
     """The rows of an (n, 3) array times 2**k, for a k that makes them integers."""
     fractions, exponents = np.frexp(array)
     mantissas = np.ldexp(fractions, SIGNIFICANT_BITS).astype(np.int64).tolist()
@@ -48,7 +48,7 @@ def shifted(number: int, by: int) -> int:
     return number << by if by >= 0 else number >> -by
 
 
-def sub(p: Vector, q: Vector) -> Vector:
+def sub(p: IntVector, q: IntVector) -> IntVector:
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
@@ -56,7 +56,7 @@ def dot(p: Sequence[Any], q: Sequence[Any]) -> Any:
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
-def cross(p: Vector, q: Vector) -> Vector:
+def cross(p: IntVector, q: IntVector) -> IntVector:
     return (
         p[1] * q[2] - p[2] * q[1],
         p[2] * q[0] - p[0] * q[2],
@@ -74,7 +74,7 @@ def homogeneous(p: Point) -> tuple[int, int, int, int]:
     return int(p[0] * w), int(p[1] * w), int(p[2] * w), w
 
 
-def nearest_to_origin(points: Sequence[Vector]) -> tuple[Point, dict[int, Fraction]]:
+def nearest_to_origin(points: Sequence[IntVector]) -> tuple[Point, dict[int, Fraction]]:
     """The point of the hull of a few points next to the origin, and its weights on them.
 
     By trying every subset of up to four: the nearest point x is a convex combination of one of
@@ -94,7 +94,7 @@ def nearest_to_origin(points: Sequence[Vector]) -> tuple[Point, dict[int, Fracti
     raise AssertionError("every convex hull has a point next to the origin")
 
 
-def _foot(points: Sequence[Vector]) -> list[Fraction] | None:
+def _foot(points: Sequence[IntVector]) -> list[Fraction] | None:
     """Weights, of sum 1, of the foot of the origin on the flat through these points; None where
     they do not span it."""
     edges = [sub(p, points[0]) for p in points[1:]]

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from satcheck.report.certificate import Indices, Polytope, PolytopeProof
 from satcheck.verify.evidence import index
-from satcheck.verify.exact import Rejected, Vector, cross, dot, sub
+from satcheck.verify.exact import IntVector, Rejected, cross, dot, sub
 from satcheck.verify.world import Exact
 
 MOST_FACES = 100_000
@@ -45,5 +45,5 @@ def inner_radius_exceeds(
         raise Rejected("the polytope is not closed")
 
 
-def _difference(pair: Indices, a: Exact, b: Exact) -> Vector:
+def _difference(pair: Indices, a: Exact, b: Exact) -> IntVector:
     return sub(a.points[index(pair[0], len(a.points))], b.points[index(pair[1], len(b.points))])

@@ -34,7 +34,7 @@ from satcheck.verify.evidence import (
     triangle_of,
     vector,
 )
-from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, sub
+from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, sub
 from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.sheets import no_crossing
 from satcheck.verify.surfaces import common, meeting
@@ -247,7 +247,7 @@ def _crossing(proof: CrossingProof, pair: Pair) -> None:
         raise Rejected("no triangle of the crossing is of a sheet, or one lies within material")
 
 
-def _sides(body: Exact, p: Point, normal: Vector) -> tuple[bool, bool]:
+def _sides(body: Exact, p: Point, normal: IntVector) -> tuple[bool, bool]:
     """Whether there is material in front of a triangle of the body and behind it, next to p."""
     windings = body.beside(p, normal)
     if windings is None:

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from satcheck.verify.exact import (
     Floats,
+    IntVector,
     Point,
     Rejected,
-    Vector,
     cross,
     dot,
     nearest_to_origin,
@@ -23,7 +23,7 @@ from satcheck.verify.world import Corners, Exact, Indices
 
 BLOCK = 4096  # so many pairs are compared at once
 MOST_PAIRS = 50_000_000  # beyond, the surfaces lie in each other: a check would not end
-HalfSpace = tuple[Vector, int]
+HalfSpace = tuple[IntVector, int]
 Mask = NDArray[np.bool_]
 
 
@@ -165,7 +165,7 @@ def common(a: Corners, b: Corners) -> list[Point]:
     return [(Fraction(p[0]), Fraction(p[1]), Fraction(p[2])) for p in region]
 
 
-def _normal(t: Corners) -> Vector:
+def _normal(t: Corners) -> IntVector:
     return cross(sub(t[1], t[0]), sub(t[2], t[0]))
 
 
@@ -187,11 +187,11 @@ def half_spaces(t: Corners) -> list[HalfSpace]:
     return [(v, dot(v, anchor)) for v, anchor in zip(normals, anchors, strict=True)]
 
 
-def _negated(v: Vector) -> Vector:
+def _negated(v: IntVector) -> IntVector:
     return -v[0], -v[1], -v[2]
 
 
-def clipped(region: list[Any], normal: Vector, limit: int) -> list[Any]:
+def clipped(region: list[Any], normal: IntVector, limit: int) -> list[Any]:
     """The part of a convex polygon, segment or point in the half-space normal . x <= limit."""
     heights = [dot(normal, p) - limit for p in region]
     kept: list[Any] = []

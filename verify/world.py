@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from satcheck.verify.exact import (
     Floats,
+    IntVector,
     Point,
     Rejected,
-    Vector,
     cross,
     dot,
     homogeneous,
@@ -186,7 +186,11 @@ def is_convex(vertices: Floats, triangles: Indices) -> bool:
 
 
 def _reaches_beyond(
-    normal: Vector, at: Vector, points: Floats, used: Indices, exact: Sequence[Vector]
+    normal: IntVector,
+    at: IntVector,
+    points: Floats,
+    used: Indices,
+    exact: Sequence[IntVector],
 ) -> bool:
     """Whether one of the points used lies beyond the plane through a point."""
     limit = dot(normal, at)
@@ -217,7 +221,7 @@ class Exact:
         self.world, self.k = world, k
 
     @cached_property
-    def points(self) -> list[Vector]:
+    def points(self) -> list[IntVector]:
         return integers(self.world.vertices, self.k)
 
     def part(self, triangles: list[int]) -> Exact:
@@ -225,7 +229,7 @@ class Exact:
         world = World(self.world.vertices, self.world.triangles[triangles], solid=False)
         return Exact(world, self.k)
 
-    def corners(self, t: int) -> tuple[Vector, Vector, Vector]:
+    def corners(self, t: int) -> tuple[IntVector, IntVector, IntVector]:
         i, j, k = self.world.triangles[t].tolist()
         return self.points[i], self.points[j], self.points[k]
 
@@ -245,7 +249,7 @@ class Exact:
         crossings = self.ray(p, 0, None)
         return None if crossings is None else crossings[0]
 
-    def beside(self, p: Point, normal: Vector) -> tuple[int, int] | None:
+    def beside(self, p: Point, normal: IntVector) -> tuple[int, int] | None:
         """Winding numbers in front of and behind a point of a plane, next to it; None where p also
         lies on a triangle of another plane."""
         axis = max(range(3), key=lambda k: abs(normal[k]))
@@ -255,7 +259,7 @@ class Exact:
         ahead, flush = crossings
         return (ahead, ahead + flush) if normal[axis] > 0 else (ahead + flush, ahead)
 
-    def ray(self, p: Point, axis: int, plane: Vector | None) -> tuple[int, int] | None:
+    def ray(self, p: Point, axis: int, plane: IntVector | None) -> tuple[int, int] | None:
         """Signed crossings of the ray from p along +axis: beyond p, and in p's own plane.
 
         Ties are broken as if p were moved across the ray by (e, e^2), e > 0 and infinitely small.
@@ -290,7 +294,7 @@ class Exact:
         return np.flatnonzero(hit).tolist()
 
 
-Corners = tuple[Vector, Vector, Vector]
+Corners = tuple[IntVector, IntVector, IntVector]
 Homogeneous = tuple[int, int, int, int]
 
 
@@ -308,7 +312,7 @@ def projected_side(corners: Corners, x: Homogeneous, axis: int) -> int:
     return sides.pop() if len(sides) == 1 else 0
 
 
-def holds(corners: Corners, normal: Vector, x: Homogeneous) -> bool:
+def holds(corners: Corners, normal: IntVector, x: Homogeneous) -> bool:
     """Whether a closed triangle holds a point of its plane; where it has no area, whether the
     segment that it is does."""
     w = x[3]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import UNIT_ROUNDOFF
-from satcheck.report.report import Vector
 
 Box = tuple[Vector, Vector]
 

@@ -6,7 +6,7 @@ from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.audit.vectors import crossed, unit
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector
 
 Crossing = tuple[int, int]
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from satcheck.report.report import Relation, Vector
+from satcheck.core.conventions import Vector
+from satcheck.report.report import Relation
 
 if TYPE_CHECKING:
     from satcheck import core

@@ -12,7 +12,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from satcheck.verify.exact import Point, Vector, cross, dot, nearest_to_origin, sub
+from satcheck.verify.exact import IntVector, Point, cross, dot, nearest_to_origin, sub
 from satcheck.verify.relations import Pair
 
 MOST_EXPANSIONS = 2000
@@ -31,7 +31,7 @@ class Expanded(Struct, frozen=True):
     """axis: along which the bodies do not overlap, or overlap least; vertices, faces: the polytope
     around the origin, where there is one."""
 
-    axis: Vector
+    axis: IntVector
     overlaps: bool
     vertices: list[Vertex]
     faces: list[tuple[int, int, int]]
@@ -43,12 +43,12 @@ class Difference:
     def __init__(self, pair: Pair) -> None:
         self.pair = pair
 
-    def support(self, n: Any) -> tuple[Vertex, Vector]:
+    def support(self, n: Any) -> tuple[Vertex, IntVector]:
         i, _ = self.pair.a.farthest(n)
         j, _ = self.pair.b.farthest([-c for c in n])
         return (i, j), self.point((i, j))
 
-    def point(self, vertex: Vertex) -> Vector:
+    def point(self, vertex: Vertex) -> IntVector:
         return sub(self.pair.a.points[vertex[0]], self.pair.b.points[vertex[1]])
 
 
@@ -101,9 +101,9 @@ class _Polytope:
     def __init__(self, difference: Difference) -> None:
         self.difference = difference
         self.vertices: list[Vertex] = []
-        self.points: list[Vector] = []
+        self.points: list[IntVector] = []
         self.faces: set[tuple[int, int, int]] = set()
-        self.plane: dict[tuple[int, int, int], tuple[Vector, int]] = {}
+        self.plane: dict[tuple[int, int, int], tuple[IntVector, int]] = {}
         self.distance: dict[tuple[int, int, int], float] = {}
 
     def start(self) -> bool:
@@ -137,7 +137,11 @@ class _Polytope:
         return True
 
     def _off(
-        self, support: dict[Vertex, Vector], first: Vertex, axes: list[Vector], measure: Any
+        self,
+        support: dict[Vertex, IntVector],
+        first: Vertex,
+        axes: list[IntVector],
+        measure: Any,
     ) -> Any:
         """A support point along one of the axes, either way, that the measure does not call 0."""
         for n in axes:
@@ -160,7 +164,7 @@ class _Polytope:
         size = math.sqrt(Fraction(height * height, _square(normal)))
         self.distance[face] = size if height > 0 else -size
 
-    def expand(self, vertex: Vertex, w: Vector) -> None:
+    def expand(self, vertex: Vertex, w: IntVector) -> None:
         """Faces that w is in front of go; what is left open is closed with w."""
         seen = {f for f in self.faces if dot(self.plane[f][0], w) > self.plane[f][1]}
         edges = {(f[k - 1], f[k]) for f in seen for k in range(3)}
@@ -171,18 +175,18 @@ class _Polytope:
             if (q, p) not in edges:
                 self._add((p, q, len(self.points) - 1))
 
-    def result(self, normal: Vector) -> Expanded:
+    def result(self, normal: IntVector) -> Expanded:
         used = sorted({v for face in self.faces for v in face})
         place = {v: k for k, v in enumerate(used)}
         faces = sorted((place[p], place[q], place[r]) for p, q, r in self.faces)
         return Expanded(normal, True, [self.vertices[v] for v in used], faces)
 
 
-def _square(v: Vector) -> int:
+def _square(v: IntVector) -> int:
     return dot(v, v)  # type: ignore[no-any-return]
 
 
-def shortened(v: Vector | Point) -> Vector:
+def shortened(v: IntVector | Point) -> IntVector:
     """The same direction in the smallest integers."""
     scale = math.lcm(*(Fraction(c).denominator for c in v))
     whole = [int(c * scale) for c in v]

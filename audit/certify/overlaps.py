@@ -14,7 +14,7 @@ from satcheck.audit.certify.values import exact_number, exact_point, or_unset
 from satcheck.report.certificate import CrossingProof, Ends, ExactVector, OnBody, OverlapProof
 from satcheck.verify.boundary import Boundary
 from satcheck.verify.cells import sides_of
-from satcheck.verify.exact import Point, Rejected, Vector, cross, dot, nearest_to_origin, sub
+from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, nearest_to_origin, sub
 from satcheck.verify.relations import A_ALONE, B_ALONE, BOTH, Pair, prove
 from satcheck.verify.surfaces import close_pairs, common
 from satcheck.verify.world import Exact
@@ -149,7 +149,7 @@ def _world(p: Point, k: int) -> ExactVector:
     return exact_point(c / (1 << k) for c in p)
 
 
-def _quadrants(a: Any, b: Any) -> Iterator[tuple[Point, Vector]]:
+def _quadrants(a: Any, b: Any) -> Iterator[tuple[Point, IntVector]]:
     """The middle of the segment in which two triangles cross, and ways from there to each of the
     four combinations of their sides."""
     shared = common(a, b)
@@ -172,7 +172,7 @@ def _quadrants(a: Any, b: Any) -> Iterator[tuple[Point, Vector]]:
             yield middle, way
 
 
-def _normal(t: Any) -> Vector:
+def _normal(t: Any) -> IntVector:
     return cross(sub(t[1], t[0]), sub(t[2], t[0]))
 
 

@@ -8,7 +8,7 @@ from satcheck import core
 from satcheck.audit.bodies.boxes import box_escape
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector
 
 
 class WayOut(Struct, frozen=True):

@@ -13,7 +13,7 @@ from satcheck.audit.bodies.placed_body import PlacedBody
 from satcheck.scene.health import MOST_AROUND
 
 if TYPE_CHECKING:
-    from satcheck.report.report import Vector
+    from satcheck.core.conventions import Vector
 
 
 def open_pieces_around(pair: Pair) -> str | None:

@@ -17,7 +17,7 @@ from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.motion.limits import SHORTEST_STEP
 from satcheck.audit.motion.moving_pair import MovingPair
 from satcheck.audit.vectors import scaled, unit
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector
 
 # A part in a corner has to leave three walls.
 WALLS = 3

@@ -24,7 +24,8 @@ from satcheck.core.tolerances import UNIT_ROUNDOFF
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from satcheck.report.report import Finding, Vector
+    from satcheck.core.conventions import Vector
+    from satcheck.report.report import Finding
 
 
 class Unanswerable(Exception):

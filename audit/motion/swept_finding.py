@@ -11,7 +11,7 @@ from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
 from satcheck.audit.request.planner import Request
 from satcheck.audit.request.trace import Trace
-from satcheck.audit.severity import Judgement, by_rule, of_clearance
+from satcheck.audit.severity import Judgement, by_rule, clearance_judgement
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Quality, Relation
 from satcheck.report.sweep import Sweep
@@ -76,7 +76,7 @@ def _clearance(swept: Sweep, request: Request) -> Judgement | None:
     """None where the clearance is kept all the way, or there is none."""
     worst = swept.worst
     gap = (0.0, math.inf) if worst is None else worst.distance or (0.0, 0.0)
-    return of_clearance(request, *gap)
+    return clearance_judgement(request, *gap)
 
 
 def _limited(swept: Sweep, pair: Pair) -> Judgement:

@@ -20,16 +20,16 @@ from satcheck.audit.motion.turn import (
     Matrix,
     applied,
     between,
-    of_quaternion,
     product,
+    quaternion_matrix,
     rotation,
     unit,
 )
 from satcheck.audit.vectors import added
+from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import UNIT_ROUNDOFF
 from satcheck.scene.motion import Path, Rotation, Translation
 
-Vector = tuple[float, float, float]
 Frame = tuple[Matrix, Vector]
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 WORLD: Frame = (STILL, ORIGIN)
@@ -159,7 +159,7 @@ def track_of(path: Path) -> Track:
         length = there.time - here.time
         steps = (q - p for p, q in zip(here.position, there.position, strict=True))
         x, y, z = (step / length for step in steps)
-        turn = of_quaternion(here.orientation)
+        turn = quaternion_matrix(here.orientation)
         pieces.append(
             Piece(
                 here.time,

@@ -49,8 +49,8 @@ def product(m: Matrix, n: Matrix) -> Matrix:
     )
 
 
-def of_quaternion(q: Quaternion) -> Matrix:
-    return _rows(transform.of_quaternion(*q))
+def quaternion_matrix(q: Quaternion) -> Matrix:
+    return _rows(transform.quaternion_matrix(*q))
 
 
 def between(start: Quaternion, end: Quaternion) -> tuple[Vector, float]:

@@ -17,8 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import rounding_pad
-from satcheck.report.report import Vector
 
 Array = npt.NDArray[np.float64]
 

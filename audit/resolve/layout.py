@@ -22,7 +22,7 @@ from satcheck.audit.request.trace import Trace
 from satcheck.audit.resolve.pair_state import PairState, is_objected, is_overlap_excused, state_of
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 from satcheck.audit.vectors import added, dot, scaled
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector
 from satcheck.scene.bodies import IDENTITY
 
 if TYPE_CHECKING:

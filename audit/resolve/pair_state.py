@@ -16,8 +16,9 @@ from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.request.settings import FailOn
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.vectors import scaled, unit
+from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import rounding_pad
-from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Vector
+from satcheck.report.report import OVERLAPS, SEVERITIES, Finding
 
 
 class PairState(Struct, frozen=True):

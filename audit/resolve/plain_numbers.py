@@ -9,7 +9,7 @@ from collections.abc import Collection
 from satcheck.audit.bodies.boxes import Box, largest_coordinate
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector
 
 # Digits that a place keeps, counted from the first of the largest coordinate of its body: fewer
 # are tried first.

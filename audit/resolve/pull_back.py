@@ -19,8 +19,8 @@ from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pair_state import may_overlap, separation
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
+from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import rounding_pad
-from satcheck.report.report import Vector
 
 STEPS = 8
 HALVINGS = 2

@@ -18,8 +18,8 @@ from satcheck.audit.resolve.resolution import Resolution, left_pairs, reasons
 from satcheck.audit.resolve.retry import retry
 from satcheck.audit.resolve.rounds import Progress, Rounds
 from satcheck.audit.resolve.walls import ORIGIN
+from satcheck.core.conventions import Vector
 from satcheck.core.errors import SatcheckError
-from satcheck.report.report import Vector
 from satcheck.report.resolution import Move
 from satcheck.scene import Scene
 from satcheck.scene.rules import Selector

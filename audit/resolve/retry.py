@@ -24,8 +24,7 @@ from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pull_back import pull_back, swept
 from satcheck.audit.resolve.rounds import Rounds
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
-from satcheck.core.conventions import axis_across
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector, axis_across
 
 # More triangles than this around a body, and it is not tried.
 MOST_TRIANGLES = 500_000

@@ -26,8 +26,8 @@ from satcheck.audit.resolve.pair_state import PairState, longer, out_of_hull
 from satcheck.audit.resolve.pull_back import swept, walled
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair, Wall, connected, least_motion
 from satcheck.audit.vectors import added, dot, scaled, unit
+from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import rounding_pad
-from satcheck.report.report import Vector
 
 # After so many rounds in which a pair overlaps, one wall between its hulls takes the place of all,
 # if the way out of these is not much longer. After so many, one of its bodies is taken out.

@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from satcheck import core
 from satcheck.audit.vectors import added, dot, scaled
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector
 
 BodyPair = tuple[int, int]
 

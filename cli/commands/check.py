@@ -257,7 +257,7 @@ def command(
         )
     _tell(result, scene, None if quiet else output)
     verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
-    return exit_codes.of_verdict(verdict, result.issues, exit_zero=exit_zero)
+    return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
 
 
 def _collect_garbage(scene: Scene) -> None:

@@ -144,7 +144,7 @@ def command(
     if stray is not None:
         talk(f"note: to read {moved} give --allow-outside, because of {stray}")
     summary = result.report.summary
-    return exit_codes.of_verdict(summary.verdict, result.report.issues, exit_zero=False)
+    return exit_codes.for_verdict(summary.verdict, result.report.issues, exit_zero=False)
 
 
 class _Target(Struct, frozen=True):

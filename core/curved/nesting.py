@@ -12,7 +12,7 @@ from msgspec import Struct
 from satcheck.core import Polytope
 from satcheck.core.conventions import Bounds
 from satcheck.core.curved.exact.curved_body import CurvedBody
-from satcheck.core.curved.exact.lattice import Vector, negated, sign_of_difference
+from satcheck.core.curved.exact.lattice import IntVector, negated, sign_of_difference
 from satcheck.core.curved.exact.pair import on_lattice
 from satcheck.core.curved.exact.polytope_body import PolytopeBody
 from satcheck.core.curved.exact.proof import ExactBody
@@ -176,6 +176,6 @@ def _of_shapes(a: CurvedBody, b: CurvedBody) -> tuple[bool | None, bool | None]:
     return (False if signs - {1} else None), (False if signs - {-1} else None)
 
 
-def _axes(a: CurvedBody, b: CurvedBody) -> list[Vector]:
+def _axes(a: CurvedBody, b: CurvedBody) -> list[IntVector]:
     rows = [n for body in (a, b) for n in body.inverse]
     return rows + [negated(n) for n in rows]

@@ -99,9 +99,7 @@ def _own_rules(
         if a_stays and b_stays:
             yield rule
         elif not a or not b:
-            yield replace(
-                rule, a=Selector.of_nobody()
-            )  # the check then warns that it selects no pair
+            yield replace(rule, a=Selector.nobody())  # the check then warns that it selects no pair
         elif len(a) * len(b) > MOST_PAIRS:
             message = (
                 f"{rule.name}: beside the other inputs this rule has to be written out for "

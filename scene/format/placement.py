@@ -13,7 +13,7 @@ from satcheck.core.transform import (
     Transform,
     about_fixed_axes,
     cos_sin,
-    of_quaternion,
+    quaternion_matrix,
 )
 from satcheck.scene.format.problems import Wrong
 from satcheck.scene.format.table import Table
@@ -113,11 +113,11 @@ def quaternion(value: Any) -> Quaternion:
 
 
 def _quaternion(value: Any) -> Rotation:
-    return of_quaternion(*quaternion(value))
+    return quaternion_matrix(*quaternion(value))
 
 
 def _euler(value: Any) -> Rotation:
-    return of_euler(triple(value))
+    return euler_matrix(triple(value))
 
 
 def _scale(value: Any) -> Vector:
@@ -127,7 +127,7 @@ def _scale(value: Any) -> Vector:
     return factors
 
 
-def of_euler(degrees: Sequence[float]) -> Rotation:
+def euler_matrix(degrees: Sequence[float]) -> Rotation:
     """Turned about the fixed axes x, then y, then z. Quarter turns are exact."""
     x, y, z = map(cos_sin, degrees)
     return about_fixed_axes(x, y, z)

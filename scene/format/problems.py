@@ -56,7 +56,7 @@ class Problems:
         errors.sort(key=lambda error: error.line or 0)
         if left := len(self.entries[MOST:]):
             errors.append(SceneFileError("bad-scene", f"{left} more errors", file=path))
-        raise SceneFileError.of_several(errors)
+        raise SceneFileError.combined(errors)
 
 
 def dotted(keys: Keys) -> str:

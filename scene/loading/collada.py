@@ -21,7 +21,7 @@ from satcheck.scene.loading.collada_skin import Floats, morphed, skinned
 from satcheck.scene.loading.flatten import flattened
 from satcheck.scene.loading.placing import instances
 from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene
-from satcheck.scene.loading.written_mesh import of_fan, of_strip
+from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
 from satcheck.scene.loading.xml_tree import Element, read_elements
 
 Indices = NDArray[np.int64]
@@ -332,7 +332,7 @@ def _triangles(group: Element, points: Floats) -> Indices:
     if corners and max(corners) >= len(points):
         group.refuse(f"vertex {max(corners)} of {len(points)}", "index-out-of-range")
     if group.tag in ("tristrips", "trifans"):
-        split = of_strip if group.tag == "tristrips" else of_fan
+        split = strip_triangles if group.tag == "tristrips" else fan_triangles
         ends = np.cumsum(lengths)
         pieces = (corners[e - n : e] for e, n in zip(ends, lengths, strict=True))
         corners = [corner for piece in pieces for corner in split(piece)]

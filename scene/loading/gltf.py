@@ -13,7 +13,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from satcheck.core.transform import Transform, of_quaternion, placed
+from satcheck.core.transform import Transform, placed, quaternion_matrix
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading import limits
@@ -307,4 +307,4 @@ def _rotation(quaternion: Sequence[float]) -> Transform:
     if not any(quaternion):
         raise MeshFileError("bad-record", "a rotation quaternion is zero")
     x, y, z, w = quaternion
-    return placed(of_quaternion(x, y, z, w), (0.0, 0.0, 0.0))
+    return placed(quaternion_matrix(x, y, z, w), (0.0, 0.0, 0.0))

@@ -13,7 +13,7 @@ from satcheck.core.transform import Transform
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import instances, raw_scene, tidy_name
 from satcheck.scene.loading.raw_mesh import RawMesh, RawScene, Refusal
-from satcheck.scene.loading.written_mesh import WrittenMesh, of_fan, of_strip
+from satcheck.scene.loading.written_mesh import WrittenMesh, fan_triangles, strip_triangles
 from satcheck.scene.loading.xml_tree import Element, read_elements
 from satcheck.scene.loading.zip_guard import open_part, opened_zip
 
@@ -173,9 +173,9 @@ def _corners(face: Element, count: int) -> list[int]:
     given = face.attributes
     corners = face.indices(given.get("triangles", ""), count, 3)
     for strip in given.get("strips", "").split(","):
-        corners += of_strip(face.indices(strip, count))
+        corners += strip_triangles(face.indices(strip, count))
     for fan in given.get("fans", "").split(","):
-        corners += of_fan(face.indices(fan, count))
+        corners += fan_triangles(face.indices(fan, count))
     if not corners:
         face.refuse("a face without triangles, strips and fans", "unsupported-feature")
     return corners

@@ -48,7 +48,7 @@ def digits_of(number: str) -> tuple[int, int]:
     return len(mantissa.rstrip().partition(".")[2]), 0
 
 
-def of_strip(strip: Sequence[int]) -> list[int]:
+def strip_triangles(strip: Sequence[int]) -> list[int]:
     """Corners of the triangles of a strip: every other one is turned."""
     corners: list[int] = []
     for k, (a, b, c) in enumerate(zip(strip, strip[1:], strip[2:], strict=False)):
@@ -56,7 +56,7 @@ def of_strip(strip: Sequence[int]) -> list[int]:
     return corners
 
 
-def of_fan(fan: Sequence[int]) -> list[int]:
+def fan_triangles(fan: Sequence[int]) -> list[int]:
     corners: list[int] = []
     for b, c in pairwise(fan[1:]):
         corners += (fan[0], b, c)

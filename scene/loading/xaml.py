@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from satcheck.core.transform import Transform, about, compose, cos_sin, of_quaternion, placed
+from satcheck.core.transform import Transform, about, compose, cos_sin, placed, quaternion_matrix
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.raw_mesh import RawMesh
@@ -159,7 +159,7 @@ def _rotation(element: Element) -> tuple[float, ...]:
         x, y, z, w = _numbers(turn, "Quaternion", (0.0, 0.0, 0.0, 1.0))
         if math.hypot(x, y, z, w) == 0.0:
             turn.refuse("a quaternion of length 0")
-        return of_quaternion(x, y, z, w)
+        return quaternion_matrix(x, y, z, w)
     if element.children or "Rotation" in element.attributes:
         element.refuse("a rotation that is not read", "unsupported-feature")
     return _NO_TURN

@@ -16,8 +16,8 @@ from satcheck.core.transform import (
     about,
     about_fixed_axes,
     compose,
-    of_quaternion,
     placed,
+    quaternion_matrix,
 )
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot.model import Joint, Robot
@@ -71,7 +71,7 @@ def from_rpy(xyz: Vector, rpy: Vector) -> Transform:
 
 def from_quaternion(xyz: Vector, quaternion: tuple[float, float, float, float]) -> Transform:
     """(x, y, z, w) of any length but 0."""
-    return placed(of_quaternion(*quaternion), xyz)
+    return placed(quaternion_matrix(*quaternion), xyz)
 
 
 def _cos_sin(radians: float) -> tuple[float, float]:

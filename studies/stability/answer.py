@@ -10,15 +10,8 @@ from msgspec.structs import replace
 from satcheck import core
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import Settings
-from satcheck.report.report import (
-    OVERLAPS,
-    Finding,
-    Quality,
-    Relation,
-    Report,
-    Vector,
-    Witness,
-)
+from satcheck.core.conventions import Vector
+from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Report, Witness
 from satcheck.scene import Body, Scene
 from satcheck.studies.pair import Bodies, pair_of
 from satcheck.studies.stability.variant import Rows, Variant

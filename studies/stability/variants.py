@@ -11,8 +11,8 @@ import numpy as np
 from numpy.random import Generator
 
 from satcheck.core import Mesh
-from satcheck.core.transform import of_quaternion
-from satcheck.report.report import Vector
+from satcheck.core.conventions import Vector
+from satcheck.core.transform import quaternion_matrix
 from satcheck.scene import Body, MeshFile
 from satcheck.scene.shape_file import remeshed
 from satcheck.studies.stability.retessellation import retessellate
@@ -155,7 +155,7 @@ def in_motion(question: Question, samples: int, rng: Generator) -> Iterator[Vari
 
 def _rotation(rng: Generator) -> Rows:
     """Uniform: K. Shoemake, "Uniform Random Rotations" (1992), by a normal 4-vector."""
-    m = of_quaternion(*rng.normal(size=4).tolist())
+    m = quaternion_matrix(*rng.normal(size=4).tolist())
     return (m[0], m[1], m[2]), (m[3], m[4], m[5]), (m[6], m[7], m[8])
 
 

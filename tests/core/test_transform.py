@@ -6,7 +6,14 @@ import math
 
 import pytest
 
-from satcheck.core.transform import about, about_fixed_axes, compose, cos_sin, of_quaternion, placed
+from satcheck.core.transform import (
+    about,
+    about_fixed_axes,
+    compose,
+    cos_sin,
+    placed,
+    quaternion_matrix,
+)
 
 # Roundings of an entry: sine, cosine, axis and nine products.
 ERROR = 32 * 2.0**-53
@@ -31,7 +38,7 @@ def test_against_the_library(degrees: float) -> None:
 
 @pytest.mark.parametrize("length", [1.0, 3.0, 1e-200, 1e200])
 def test_a_quarter_turn_is_exact_however_it_is_written(length: float) -> None:
-    assert of_quaternion(0.0, 0.0, HALF * length, HALF * length) == QUARTER_ABOUT_Z
+    assert quaternion_matrix(0.0, 0.0, HALF * length, HALF * length) == QUARTER_ABOUT_Z
     assert about((0.0, 0.0, 1.0), cos_sin(90.0)) == QUARTER_ABOUT_Z
     assert about_fixed_axes(cos_sin(0.0), cos_sin(0.0), cos_sin(90.0)) == QUARTER_ABOUT_Z
 
@@ -41,7 +48,9 @@ def test_about_an_axis_as_the_quaternion_says(degrees: float) -> None:
     axis = (2 / 7, 3 / 7, 6 / 7)
     cosine, sine = cos_sin(degrees / 2)
     x, y, z = (sine * c for c in axis)
-    assert of_quaternion(x, y, z, cosine) == pytest.approx(about(axis, cos_sin(degrees)), abs=ERROR)
+    assert quaternion_matrix(x, y, z, cosine) == pytest.approx(
+        about(axis, cos_sin(degrees)), abs=ERROR
+    )
 
 
 def test_fixed_axes_in_their_order() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from satcheck.core.curved.exact.curved_body import CurvedBody
-from satcheck.core.curved.exact.lattice import of_rational
+from satcheck.core.curved.exact.lattice import from_rational
 from satcheck.core.curved.exact.pair import Lattice
 from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, Primitive, ShapeImage, Sphere
 from satcheck.verify import Rejected
@@ -44,7 +44,7 @@ def test_both_see_the_same_body(shape: Primitive) -> None:
             assert (other.q * scale, other.p * scale * scale) == (mine.q, mine.p)
         for p in rng.integers(-8, 9, (60, 3)).tolist():
             point = as_point([Fraction(c, 4) for c in p])
-            x, y, z, w = of_rational(point)
+            x, y, z, w = from_rational(point)
             side = theirs.side(point)
             assert side == ours.side((x * scale, y * scale, z * scale, w))
             seen.add(side)

@@ -11,9 +11,9 @@ import math
 from satcheck.core.curved.exact.faces import Disc, Face, Polygon
 from satcheck.core.curved.exact.lattice import (
     ROOT_BITS,
+    IntVector,
     Point,
     Reach,
-    Vector,
     combined,
     cross,
     dot,
@@ -35,7 +35,7 @@ class CurvedBody:
         self.kind = type(image.primitive)
         x, y, z = (_integers(column, matrix_bits) for column in image.columns)
         self.columns = x, y, z
-        self.origin: Vector = _integers(image.origin, bits)
+        self.origin: IntVector = _integers(image.origin, bits)
         a, b, c = (integer(s, bits - matrix_bits) for s in half_sizes(image.primitive))
         self.sizes = a, b, c
         # Rows of the inverse of M, times its determinant.
@@ -46,7 +46,7 @@ class CurvedBody:
     def middle(self) -> Point:
         return (*self.origin, 1)
 
-    def reach(self, n: Vector) -> Reach:
+    def reach(self, n: IntVector) -> Reach:
         """The largest product of n with a point of the body."""
         x, y, z = self._turned(n)
         a, b, c = self.sizes
@@ -61,7 +61,7 @@ class CurvedBody:
             return Reach(base + c * abs(z), across)
         return Reach(base + c * abs(z), across + a * a * z * z)
 
-    def _turned(self, n: Vector) -> Vector:
+    def _turned(self, n: IntVector) -> IntVector:
         x, y, z = self.columns
         return dot(x, n), dot(y, n), dot(z, n)
 
@@ -72,7 +72,7 @@ class CurvedBody:
             return -1
         return 4 * c * c * z * z - a * a * (x * x + y * y)
 
-    def face(self, n: Vector) -> Face:
+    def face(self, n: IntVector) -> Face:
         """The points that reach farthest along n; points very close to them where they are
         irrational."""
         x, y, z = self._turned(n)
@@ -93,7 +93,7 @@ class CurvedBody:
         ends = [-c] if self.kind is Cone else [c, -c] if z == 0 else [c if z > 0 else -c]
         return self._polygon([self._round((a, a, 0), (x, y, z), end) for end in ends])
 
-    def _round(self, radii: Sizes, m: Vector, lift: int = 0) -> Point:
+    def _round(self, radii: Sizes, m: IntVector, lift: int = 0) -> Point:
         """In the frame of the shape, of an ellipsoid about (0, 0, lift) the point farthest along m:
         (radii^2 m) / |radii m|."""
         square = sum((r * c) ** 2 for r, c in zip(radii, m, strict=True))
@@ -135,7 +135,7 @@ class CurvedBody:
         beyond = max(abs(z) - c, 0)
         return _sign(a * a - across - beyond * beyond)
 
-    def normals(self, toward: Vector) -> list[Vector]:
+    def normals(self, toward: IntVector) -> list[IntVector]:
         """Of the flat ends; of an ellipsoid across its axes."""
         if self.kind is Ellipsoid:
             rows = list(self.inverse)
@@ -146,13 +146,13 @@ class CurvedBody:
         normals = [shortened(row) for row in rows]
         return [n if dot(n, toward) > 0 else negated(n) for n in normals]
 
-    def lines(self, _toward: Vector) -> list[tuple[Vector, Vector]]:
+    def lines(self, _toward: IntVector) -> list[tuple[IntVector, IntVector]]:
         """Lines that a contact may depend on, each a point and a direction."""
         if self.kind is Capsule or self.kind is Cylinder:
             return [(self.origin, shortened(self.columns[2]))]
         return []
 
-    def points(self, _toward: Vector) -> list[Vector]:
+    def points(self, _toward: IntVector) -> list[IntVector]:
         """Points that a contact may depend on."""
         if self.kind is Sphere or self.kind is Ellipsoid or self.kind is Cylinder:
             return [self.origin]
@@ -172,6 +172,6 @@ def _sign(number: int) -> int:
     return (number > 0) - (number < 0)
 
 
-def _integers(v: tuple[float, ...], bits: int) -> Vector:
+def _integers(v: tuple[float, ...], bits: int) -> IntVector:
     x, y, z = (integer(c, bits) for c in v)
     return x, y, z

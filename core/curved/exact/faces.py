@@ -13,7 +13,14 @@ from fractions import Fraction
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.core.curved.exact.lattice import Point, Vector, between, dot, of_rational, shifted
+from satcheck.core.curved.exact.lattice import (
+    IntVector,
+    Point,
+    between,
+    dot,
+    from_rational,
+    shifted,
+)
 
 Flat = tuple[Fraction, Fraction]
 # How far a point on the border of a polygon is moved towards its middle, in turn.
@@ -25,7 +32,7 @@ class Polygon(Struct, frozen=True):
 
     points: tuple[Point, ...]
 
-    def moved(self, along: Vector, by: Fraction) -> Polygon:
+    def moved(self, along: IntVector, by: Fraction) -> Polygon:
         return Polygon(tuple(shifted(p, along, by) for p in self.points))
 
     @property
@@ -41,9 +48,9 @@ class Disc(Struct, frozen=True):
 
     centre: Point
     radius: int
-    inverse: tuple[Vector, Vector]
+    inverse: tuple[IntVector, IntVector]
 
-    def moved(self, along: Vector, by: Fraction) -> Disc:
+    def moved(self, along: IntVector, by: Fraction) -> Disc:
         return replace(self, centre=shifted(self.centre, along, by))
 
     @property
@@ -60,7 +67,7 @@ class Disc(Struct, frozen=True):
 Face = Polygon | Disc
 
 
-def common_points(f: Face, g: Face, axis: Vector) -> Iterator[Point]:
+def common_points(f: Face, g: Face, axis: IntVector) -> Iterator[Point]:
     """Candidates for a common point of two faces in one plane across the axis, cheap ones first.
 
     One of them is, if there is a common point at all, for polygons, for a polygon and a disc, and
@@ -123,7 +130,7 @@ def turn(p: Flat, q: Flat, r: Flat) -> Fraction:
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
-def _of_polygons(f: Polygon, g: Polygon, axis: Vector) -> Iterator[Point]:
+def _of_polygons(f: Polygon, g: Polygon, axis: IntVector) -> Iterator[Point]:
     """The middle of what two polygons have in common, by clipping one at the sides of the other."""
     high = max(range(3), key=lambda k: abs(axis[k]))
     i, j = (high + 1) % 3, (high + 2) % 3
@@ -141,7 +148,7 @@ def _of_polygons(f: Polygon, g: Polygon, axis: Vector) -> Iterator[Point]:
     rational = [x, x, x]
     rational[i], rational[j] = x, y
     rational[high] = (height - axis[i] * x - axis[j] * y) / axis[high]
-    yield of_rational((rational[0], rational[1], rational[2]))
+    yield from_rational((rational[0], rational[1], rational[2]))
 
 
 def sides(loop: list[Flat]) -> Iterator[tuple[Flat, Flat]]:

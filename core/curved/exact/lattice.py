@@ -12,7 +12,7 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-Vector = tuple[int, int, int]
+IntVector = tuple[int, int, int]
 Point = tuple[int, int, int, int]
 Rational = tuple[Fraction, Fraction, Fraction]
 
@@ -36,32 +36,32 @@ def dot(p: tuple[int, ...], q: tuple[int, ...]) -> int:
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
-def cross(p: Vector, q: Vector) -> Vector:
+def cross(p: IntVector, q: IntVector) -> IntVector:
     return p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]
 
 
-def sub(p: Vector, q: Vector) -> Vector:
+def sub(p: IntVector, q: IntVector) -> IntVector:
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
-def negated(v: Vector) -> Vector:
+def negated(v: IntVector) -> IntVector:
     return -v[0], -v[1], -v[2]
 
 
-def combined(vectors: Iterable[Vector], factors: Iterable[int]) -> Vector:
+def combined(vectors: Iterable[IntVector], factors: Iterable[int]) -> IntVector:
     x = y = z = 0
     for v, f in zip(vectors, factors, strict=True):
         x, y, z = x + f * v[0], y + f * v[1], z + f * v[2]
     return x, y, z
 
 
-def shortened(v: Vector) -> Vector:
+def shortened(v: IntVector) -> IntVector:
     """The same direction in the smallest integers."""
     divisor = math.gcd(*v) or 1
     return v[0] // divisor, v[1] // divisor, v[2] // divisor
 
 
-def shifted(p: Point, along: Vector, by: Fraction) -> Point:
+def shifted(p: Point, along: IntVector, by: Fraction) -> Point:
     """p + by * along."""
     u, v = by.numerator, by.denominator
     w = p[3]
@@ -80,12 +80,12 @@ def between(p: Point, q: Point, share: Fraction) -> Point:
     return p[0] * s + q[0] * t, p[1] * s + q[1] * t, p[2] * s + q[2] * t, p[3] * q[3] * v
 
 
-def of_rational(p: Rational) -> Point:
+def from_rational(p: Rational) -> Point:
     w = math.lcm(*(c.denominator for c in p))
     return int(p[0] * w), int(p[1] * w), int(p[2] * w), w
 
 
-def direction_of(v: Iterable[float]) -> Vector:
+def direction_of(v: Iterable[float]) -> IntVector:
     """Integers along a finite vector."""
     numbers = tuple(v)
     bits = bits_of(numbers)

@@ -11,11 +11,11 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from satcheck.core.conventions import Vector as WorldVector
+from satcheck.core.conventions import Vector
 from satcheck.core.curved.exact.curved_body import CurvedBody
 from satcheck.core.curved.exact.lattice import (
+    IntVector,
     Point,
-    Vector,
     bits_of,
     direction_of,
     dot,
@@ -67,39 +67,33 @@ def bits_of_array(numbers: Floats) -> int:
     return max(0, int((53 - exponents - lowest).max()))
 
 
-def proven(
-    a: Body, b: Body, bounds: Signed, move: WorldVector = ORIGIN
-) -> tuple[Signed, Proof | None]:
+def proven(a: Body, b: Body, bounds: Signed, move: Vector = ORIGIN) -> tuple[Signed, Proof | None]:
     """The signed distance of A, moved, and B with what exact arithmetic adds to its bounds."""
     proof, bits = proof_of(a, b, bounds, move)
     return (bounds if proof is None else with_proof(bounds, proof, bits)), proof
 
 
-def proof_of(
-    a: Body, b: Body, bounds: Signed, move: WorldVector = ORIGIN
-) -> tuple[Proof | None, int]:
+def proof_of(a: Body, b: Body, bounds: Signed, move: Vector = ORIGIN) -> tuple[Proof | None, int]:
     """And the bits of the lattice that it is on."""
     first, second, lattice = on_lattice(a, b, move)
     return prove(first, second, candidates(first, second, _toward(bounds, a, b))), lattice.bits
 
 
-def on_lattice(
-    a: Body, b: Body, move: WorldVector = ORIGIN
-) -> tuple[ExactBody, ExactBody, Lattice]:
+def on_lattice(a: Body, b: Body, move: Vector = ORIGIN) -> tuple[ExactBody, ExactBody, Lattice]:
     """Both as exact bodies, A moved. One of them at least is curved."""
     sides = _side_of(a, move), _side_of(b, ORIGIN)
     lattice = Lattice(sides)
     return lattice.body(sides[0]), lattice.body(sides[1]), lattice
 
 
-def _side_of(body: Body, move: WorldVector) -> Side:
+def _side_of(body: Body, move: Vector) -> Side:
     if body.curved is not None:
         return body.curved.moved(move).image
     hull = body.hull() if move == ORIGIN else body.mesh.translated(move).convex_hull()
     return Faces(np.asarray(hull.vertices), np.asarray(hull.triangles))
 
 
-def _toward(bounds: Signed, a: Body, b: Body) -> Vector:
+def _toward(bounds: Signed, a: Body, b: Body) -> IntVector:
     if bounds.normal is not None:
         return direction_of(bounds.normal)
     return direction_of(q - p for p, q in zip(_middle(a), _middle(b), strict=True))
@@ -145,7 +139,7 @@ def with_proof(bounds: Signed, proof: Proof, bits: int) -> Signed:
     return Signed(along, along, upper, axis, ends[0], ends[1], "penetrating", True)  # type: ignore[arg-type]
 
 
-def length_below(gap: Fraction, axis: Vector, bits: int) -> float:
+def length_below(gap: Fraction, axis: IntVector, bits: int) -> float:
     """A gap in lattice units times the length of the axis, in world units, rounded down."""
     low, high = root_bounds(dot(axis, axis))
     exact = gap / (high if gap > 0 else low) / (1 << bits)
@@ -163,12 +157,12 @@ def apart(ends: tuple[Point, Point], bits: int) -> float:
     return nearest if Fraction(nearest) >= exact else math.nextafter(nearest, math.inf)
 
 
-def rounded(p: Point, bits: int) -> WorldVector:
+def rounded(p: Point, bits: int) -> Vector:
     x, y, z = (float(Fraction(c, p[3] << bits)) for c in p[:3])
     return x, y, z
 
 
-def unit(axis: Vector) -> WorldVector:
+def unit(axis: IntVector) -> Vector:
     largest = max(abs(c) for c in axis)
     x, y, z = (c / largest for c in axis)
     length = math.hypot(x, y, z)
@@ -181,7 +175,7 @@ def refined(image: ShapeImage, corners: Floats, bounds: Sequence[Signed]) -> lis
     corners: (n, 3, 3), world, of the triangles; the shape is A."""
     lattice = Lattice((image, Faces(corners.reshape(-1, 3), _ALONE)))
     shape = CurvedBody(image, lattice.bits, lattice.matrix_bits)
-    known: list[Vector] = []  # one of them is the axis of most others
+    known: list[IntVector] = []  # one of them is the axis of most others
     touched, results = 0, []
     for points, signed in zip(corners, bounds, strict=True):
         triangle = PolytopeBody(points, _ALONE, lattice.bits)

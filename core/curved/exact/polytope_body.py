@@ -9,9 +9,9 @@ import numpy.typing as npt
 
 from satcheck.core.curved.exact.faces import Polygon
 from satcheck.core.curved.exact.lattice import (
+    IntVector,
     Point,
     Reach,
-    Vector,
     cross,
     dot,
     integer,
@@ -42,22 +42,22 @@ class PolytopeBody:
     def __init__(self, vertices: Floats, triangles: Triangles, bits: int) -> None:
         self.vertices, self.triangles, self.bits = vertices, triangles, bits
         self.flat = len(triangles) == 1
-        self._known: dict[int, Vector] = {}
+        self._known: dict[int, IntVector] = {}
 
-    def _vertex(self, k: int) -> Vector:
+    def _vertex(self, k: int) -> IntVector:
         vertex = self._known.get(k)
         if vertex is None:
             x, y, z = (integer(c, self.bits) for c in self.vertices[k].tolist())
             vertex = self._known[k] = (x, y, z)
         return vertex
 
-    def _plane(self, triangle: int) -> tuple[Vector, int]:
+    def _plane(self, triangle: int) -> tuple[IntVector, int]:
         """An outward normal, and its product with the points of the plane."""
         a, b, c = (self._vertex(k) for k in self.triangles[triangle].tolist())
         n = cross(sub(b, a), sub(c, a))
         return n, dot(n, a)
 
-    def _farthest(self, n: Vector) -> tuple[int, list[int]]:
+    def _farthest(self, n: IntVector) -> tuple[int, list[int]]:
         """The largest product of n with a vertex, and all vertices that have it."""
         candidates = list(range(len(self.vertices)))
         if len(candidates) > _FEW:
@@ -72,11 +72,11 @@ class PolytopeBody:
     def middle(self) -> Point:
         return Polygon(tuple(self.corners())).middle
 
-    def reach(self, n: Vector) -> Reach:
+    def reach(self, n: IntVector) -> Reach:
         """The largest product of n with a point of the body."""
         return Reach(self._farthest(n)[0])
 
-    def face(self, n: Vector) -> Polygon:
+    def face(self, n: IntVector) -> Polygon:
         _, farthest = self._farthest(n)
         return Polygon(tuple((*self._vertex(k), 1) for k in farthest))
 
@@ -117,7 +117,7 @@ class PolytopeBody:
                 return False
         return True
 
-    def face_normals(self) -> set[Vector]:
+    def face_normals(self) -> set[IntVector]:
         """Outward, exact, each once."""
         normals = {shortened(self._plane(k)[0]) for k in range(len(self.triangles))}
         return {n for n in normals if any(n)}
@@ -125,7 +125,7 @@ class PolytopeBody:
     def corners(self) -> list[Point]:
         return [(*self._vertex(k), 1) for k in range(len(self.vertices))]
 
-    def _near(self, toward: Vector) -> npt.NDArray[np.bool_]:
+    def _near(self, toward: IntVector) -> npt.NDArray[np.bool_]:
         """Of each vertex, whether it reaches about as far along the axis as any."""
         products = self.vertices @ _floats(toward)
         spread = np.linalg.norm(np.ptp(self.vertices, axis=0))
@@ -136,7 +136,7 @@ class PolytopeBody:
         ends = np.concatenate([self.triangles[:, [i, (i + 1) % 3]] for i in range(3)])
         return np.unique(np.sort(ends, axis=1), axis=0)
 
-    def normals(self, toward: Vector) -> list[Vector]:
+    def normals(self, toward: IntVector) -> list[IntVector]:
         """Of faces, outward, those that look along `toward` most."""
         near = np.flatnonzero(self._near(toward)[self.triangles].any(axis=1))
         a, b, c = (self.vertices[self.triangles[near, k]] for k in range(3))
@@ -152,7 +152,7 @@ class PolytopeBody:
             normals = [n if dot(n, toward) > 0 else negated(n) for n in normals]
         return list(dict.fromkeys(n for n in normals if any(n)))[:MOST]
 
-    def lines(self, toward: Vector) -> list[tuple[Vector, Vector]]:
+    def lines(self, toward: IntVector) -> list[tuple[IntVector, IntVector]]:
         """Edges, those across the axis first."""
         edges, near = self._edges(), self._near(toward)
         edges = edges[near[edges].any(axis=1)]
@@ -163,12 +163,12 @@ class PolytopeBody:
         ends = [(self._vertex(i), self._vertex(j)) for i, j in order]
         return [(p, shortened(sub(q, p))) for p, q in ends]
 
-    def points(self, toward: Vector) -> list[Vector]:
+    def points(self, toward: IntVector) -> list[IntVector]:
         """Vertices that a contact may depend on."""
         return [self._vertex(k) for k in np.flatnonzero(self._near(toward))[:MOST].tolist()]
 
 
-def _floats(n: Vector) -> Floats:
+def _floats(n: IntVector) -> Floats:
     """Along n, about 1 long."""
     largest = max(abs(c) for c in n)
     return np.array([c / largest for c in n])

@@ -17,8 +17,8 @@ from msgspec import Struct
 from satcheck.core.curved.exact.curved_body import CurvedBody
 from satcheck.core.curved.exact.faces import Disc, Polygon, common_points
 from satcheck.core.curved.exact.lattice import (
+    IntVector,
     Point,
-    Vector,
     between,
     cross,
     dot,
@@ -54,14 +54,14 @@ class Proof(Struct, frozen=True):
     they penetrate, and inside B if it has an inside. ends: a point of each, across the gap."""
 
     outcome: Outcome
-    axis: Vector
+    axis: IntVector
     gap: Gap
     point: Point | None = None
     ends: tuple[Point, Point] | None = None
 
 
 def prove(
-    a: ExactBody, b: ExactBody, axes: Iterable[Vector], *, contact: bool = True
+    a: ExactBody, b: ExactBody, axes: Iterable[IntVector], *, contact: bool = True
 ) -> Proof | None:
     """What the first of the axes proves that says anything about them. B alone may be flat.
 
@@ -92,7 +92,7 @@ def prove(
     return None
 
 
-def _contact(a: ExactBody, b: ExactBody, n: Vector) -> Proof:
+def _contact(a: ExactBody, b: ExactBody, n: IntVector) -> Proof:
     """Where they touch. Without a gap every root is rational, so the faces are exact, and of those
     all but two discs are searched completely."""
     f, g = a.face(n), b.face(negated(n))
@@ -103,7 +103,7 @@ def _contact(a: ExactBody, b: ExactBody, n: Vector) -> Proof:
     return Proof("free" if both_discs else "separated", n, NO_GAP)
 
 
-def _ends(a: ExactBody, b: ExactBody, n: Vector, gap: Gap) -> tuple[Point, Point] | None:
+def _ends(a: ExactBody, b: ExactBody, n: IntVector, gap: Gap) -> tuple[Point, Point] | None:
     """Points of both that the axis joins, where there are some; if their coordinates are
     irrational, points next to them."""
     step = gap[0] / dot(n, n)
@@ -117,7 +117,7 @@ def _ends(a: ExactBody, b: ExactBody, n: Vector, gap: Gap) -> tuple[Point, Point
     return None
 
 
-def _point_inside(a: ExactBody, b: ExactBody, n: Vector, gap: Gap) -> Point | None:
+def _point_inside(a: ExactBody, b: ExactBody, n: IntVector, gap: Gap) -> Point | None:
     """Half way between their faces; of a flat B on it."""
     # B's face is moved into the plane of A's; from there the way back is along -n.
     step = -gap[0] / dot(n, n)
@@ -133,7 +133,7 @@ def _is_inside(a: ExactBody, b: ExactBody, p: Point) -> bool:
     return a.side(p) > 0 and b.side(p) >= (not b.flat)
 
 
-def _pulled_in(a: ExactBody, b: ExactBody, n: Vector) -> Iterator[Point]:
+def _pulled_in(a: ExactBody, b: ExactBody, n: IntVector) -> Iterator[Point]:
     """Where one body reaches farthest into the other, and a little towards its own middle: of faces
     that are nearly, and not quite, across the axis."""
     for body, face in ((a, a.face(n)), (b, b.face(negated(n)))):
@@ -145,9 +145,9 @@ def _pulled_in(a: ExactBody, b: ExactBody, n: Vector) -> Iterator[Point]:
             )
 
 
-def candidates(a: ExactBody, b: ExactBody, toward: Vector) -> Iterator[Vector]:
+def candidates(a: ExactBody, b: ExactBody, toward: IntVector) -> Iterator[IntVector]:
     """Axes along which the bodies may touch, from A to B, each once."""
-    seen: set[Vector] = set()
+    seen: set[IntVector] = set()
     for raw in _raw(a, b, toward):
         n = shortened(raw)
         if dot(n, toward) < 0:
@@ -157,7 +157,7 @@ def candidates(a: ExactBody, b: ExactBody, toward: Vector) -> Iterator[Vector]:
             yield n
 
 
-def _raw(a: ExactBody, b: ExactBody, toward: Vector) -> Iterator[Vector]:
+def _raw(a: ExactBody, b: ExactBody, toward: IntVector) -> Iterator[IntVector]:
     yield from a.normals(toward)
     yield from map(negated, b.normals(negated(toward)))
     largest = max(range(3), key=lambda k: abs(toward[k]))
@@ -174,7 +174,7 @@ def _raw(a: ExactBody, b: ExactBody, toward: Vector) -> Iterator[Vector]:
     yield toward
 
 
-def _across(along: Vector, step: Vector) -> Vector:
+def _across(along: IntVector, step: IntVector) -> IntVector:
     """The part of a step that is perpendicular to a line, times its squared length."""
     square, share = dot(along, along), dot(along, step)
     x, y, z = (square * s - share * d for s, d in zip(step, along, strict=True))

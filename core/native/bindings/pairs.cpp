@@ -160,10 +160,10 @@ PairResults check_many(const std::vector<const Shape*>& shapes, Indices index_a,
     if (a >= shapes.size() || b >= shapes.size()) throw std::invalid_argument("a shape index is out of range");
     return {shapes[a], shapes[b], pose_from(poses_a.data() + 7 * i), pose_from(poses_b.data() + 7 * i)};
   };
-  const Query asked = query_from(query);
+  const Query goal = query_from(query);
   const MethodChoice choice = method_from(method);
   nb::gil_scoped_release release;
-  return check_pairs(count, request, asked, choice, threads);
+  return check_pairs(count, request, goal, choice, threads);
 }
 
 }  // namespace
@@ -179,10 +179,10 @@ void bind_pairs(nb::module_& m) {
       [](const Shape& a, const Shape& b, const std::optional<std::vector<double>>& pose_a,
          const std::optional<std::vector<double>>& pose_b, const std::string& query, const std::string& method) {
         const Pose pa = pose_from(pose_a), pb = pose_from(pose_b);
-        const Query asked = query_from(query);
+        const Query goal = query_from(query);
         const MethodChoice choice = method_from(method);
         nb::gil_scoped_release release;
-        return check_pair(a, pa, b, pb, asked, choice);
+        return check_pair(a, pa, b, pb, goal, choice);
       },
       nb::arg("a"), nb::arg("b"), nb::arg("pose_a") = nb::none(), nb::arg("pose_b") = nb::none(),
       nb::arg("query") = "depth", nb::arg("method") = "auto");

@@ -14,12 +14,12 @@ std::string at_least(const char* what, double length) {
   return std::string(what) + " apart by at least " + std::string(digits, end);
 }
 
-RungWords of_boxes(double gap, std::int64_t cost) {
+RungWords words_of_boxes(double gap, std::int64_t cost) {
   if (gap > 0) return {"aabb", "separated", at_least("world boxes", gap), cost};
   return {"aabb", "meet", "world boxes meet", cost};
 }
 
-RungWords of_oriented_boxes(const Climb& climb, std::int64_t cost) {
+RungWords words_of_oriented_boxes(const Climb& climb, std::int64_t cost) {
   switch (climb.boxes) {
     case BoxOutcome::apart: return {"obb", "separated", name_of(climb.box_feature), cost};
     case BoxOutcome::sheared: return {"obb", "skipped", "a transform shears: the carried box is no box", cost};
@@ -29,12 +29,12 @@ RungWords of_oriented_boxes(const Climb& climb, std::int64_t cost) {
   }
 }
 
-RungWords of_convex_bodies(const PairResult& result, std::int64_t cost) {
+RungWords words_of_convex_bodies(const PairResult& result, std::int64_t cost) {
   std::string detail = std::string("both convex: ") + name_of(result.method) + " " + name_of(result.feature);
   return {"hull", name_of(result.outcome), std::move(detail), cost};
 }
 
-RungWords of_hulls(const Climb& climb, std::int64_t cost) {
+RungWords words_of_hulls(const Climb& climb, std::int64_t cost) {
   const PairResult& result = *climb.hulls;
   if (result.outcome == Outcome::separated) {
     return {"hull", "separated", at_least("hulls", gap_of_hulls(climb)), cost};
@@ -43,7 +43,7 @@ RungWords of_hulls(const Climb& climb, std::int64_t cost) {
   return {"hull", outcome, "not both convex: hulls prove only separation", cost};
 }
 
-RungWords of_triangles(const MeshRelation& r, std::int64_t cost) {
+RungWords words_of_triangles(const MeshRelation& r, std::int64_t cost) {
   std::string detail = std::to_string(r.box_tests) + " box tests, ";
   detail += std::to_string(r.triangle_tests) + " triangle tests";
   if (r.triangle_a != kNoTriangle && r.triangle_b != kNoTriangle) {
@@ -60,13 +60,14 @@ std::vector<RungWords> words_of(const Climb& climb) {
   std::vector<RungWords> words;
   words.reserve(cost.size());
   const bool began_above = climb.boxes == BoxOutcome::not_asked && (climb.hulls || climb.triangles);
-  if (!began_above) words.push_back(of_boxes(climb.box_gap, cost[kBoxes]));
-  if (climb.boxes != BoxOutcome::not_asked) words.push_back(of_oriented_boxes(climb, cost[kOriented]));
+  if (!began_above) words.push_back(words_of_boxes(climb.box_gap, cost[kBoxes]));
+  if (climb.boxes != BoxOutcome::not_asked) words.push_back(words_of_oriented_boxes(climb, cost[kOriented]));
   if (climb.hulls) {
-    words.push_back(climb.both_convex ? of_convex_bodies(*climb.hulls, cost[kHulls]) : of_hulls(climb, cost[kHulls]));
+    words.push_back(climb.both_convex ? words_of_convex_bodies(*climb.hulls, cost[kHulls])
+                                      : words_of_hulls(climb, cost[kHulls]));
   }
   if (climb.nesting) words.push_back({"containment", name_of(*climb.nesting), "one world box holds the other", cost[kNesting]});
-  if (climb.triangles) words.push_back(of_triangles(*climb.triangles, cost[kTriangles]));
+  if (climb.triangles) words.push_back(words_of_triangles(*climb.triangles, cost[kTriangles]));
   return words;
 }
 

@@ -10,8 +10,8 @@ from satcheck.audit.motion.turn import (
     STILL,
     applied,
     between,
-    of_quaternion,
     product,
+    quaternion_matrix,
     rotation,
     unit,
 )
@@ -45,6 +45,6 @@ def test_between_takes_the_shortest_arc() -> None:
 
 def test_the_turn_between_leads_from_one_to_the_other() -> None:
     start, end = (0.1, -0.7, 0.3, 0.5), (-0.4, 0.2, 0.9, 0.1)
-    there = product(rotation(*between(start, end)), of_quaternion(start))
-    for row, expected in zip(there, of_quaternion(end), strict=True):
+    there = product(rotation(*between(start, end)), quaternion_matrix(start))
+    for row, expected in zip(there, quaternion_matrix(end), strict=True):
         assert row == pytest.approx(expected, abs=8 * ERROR)

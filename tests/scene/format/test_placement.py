@@ -6,8 +6,8 @@ import math
 
 import pytest
 
-from satcheck.core.transform import of_quaternion
-from satcheck.scene.format.placement import of_euler, placement, quaternion_of_euler
+from satcheck.core.transform import quaternion_matrix
+from satcheck.scene.format.placement import euler_matrix, placement, quaternion_of_euler
 from satcheck.scene.format.problems import Problems
 from satcheck.scene.format.table import Table
 
@@ -68,9 +68,9 @@ def test_a_quaternion_of_any_length_is_w_x_y_z(length):
 
 @pytest.mark.parametrize("euler", [(10, 20, 30), (-170, 85, 3.5), (0, 90, 45), (720, -90, 1)])
 def test_euler_angles_and_their_quaternion_are_one_rotation(euler):
-    matrix = of_euler(euler)
+    matrix = euler_matrix(euler)
     x, y, z, w = quaternion_of_euler(euler)
-    assert of_quaternion(x, y, z, w) == pytest.approx(matrix, abs=ROUNDING)
+    assert quaternion_matrix(x, y, z, w) == pytest.approx(matrix, abs=ROUNDING)
     columns = [matrix[k::3] for k in range(3)]
     for i, a in enumerate(columns):
         for j, b in enumerate(columns):

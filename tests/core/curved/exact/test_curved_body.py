@@ -11,7 +11,7 @@ import pytest
 
 from satcheck.core.curved.exact.curved_body import CurvedBody
 from satcheck.core.curved.exact.faces import Disc, Polygon
-from satcheck.core.curved.exact.lattice import Point, Vector, dot
+from satcheck.core.curved.exact.lattice import IntVector, Point, dot
 from satcheck.core.curved.exact.pair import Lattice
 from satcheck.core.shapes import (
     Capsule,
@@ -43,7 +43,7 @@ def placed(rng: np.random.Generator, shape: Primitive) -> tuple[ShapeImage, Curv
     return image, body, lattice.bits
 
 
-def directions(rng: np.random.Generator, body: CurvedBody) -> list[Vector]:
+def directions(rng: np.random.Generator, body: CurvedBody) -> list[IntVector]:
     """Random ones, along and across the axis: those that tell apart flat ends and mantle lines."""
     free = [tuple(rng.integers(-9, 10, 3).tolist()) for _ in range(6)]
     rows = [*body.inverse, *(tuple(-c for c in row) for row in body.inverse)]

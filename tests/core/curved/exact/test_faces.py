@@ -8,7 +8,7 @@ import numpy as np
 
 from satcheck.core.curved.exact.curved_body import CurvedBody
 from satcheck.core.curved.exact.faces import Disc, Polygon, common_points, outline
-from satcheck.core.curved.exact.lattice import Point, Vector, cross, dot
+from satcheck.core.curved.exact.lattice import IntVector, Point, cross, dot
 from satcheck.core.shapes import Cylinder, ShapeImage
 from tests.oracles.exact_distance import exact_truth
 
@@ -16,7 +16,7 @@ U, V = (1, 2, 2), (2, 1, -2)
 AXIS = cross(U, V)
 
 
-def corners(rng: np.random.Generator) -> list[Vector]:
+def corners(rng: np.random.Generator) -> list[IntVector]:
     """Of a polygon, a segment or a point in the plane of u and v."""
     middle = rng.integers(-4, 5, 2)
     return [
@@ -25,11 +25,11 @@ def corners(rng: np.random.Generator) -> list[Vector]:
     ]
 
 
-def polygon(points: list[Vector]) -> Polygon:
+def polygon(points: list[IntVector]) -> Polygon:
     return Polygon(tuple((*p, 1) for p in points))
 
 
-def lies_in(p: Point, points: list[Vector], u: Vector = U, v: Vector = V) -> bool:
+def lies_in(p: Point, points: list[IntVector], u: IntVector = U, v: IntVector = V) -> bool:
     """Whether it adds no corner to the outline of the points of the plane."""
     flat = {(Fraction(dot(u, q)), Fraction(dot(v, q))) for q in points}
     at = Fraction(dot(u, p), p[3]), Fraction(dot(v, p), p[3])
