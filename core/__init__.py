@@ -35,6 +35,7 @@ from satcheck._native.core import (
     Sphere,
     Surface,
     SurfaceIntersection,
+    ThicknessInterval,
     Topology,
     box_gap,
     climb,
@@ -61,6 +62,7 @@ from satcheck._native.core import (
     placed_bounds,
     safe_time,
     search_depth,
+    search_thickness,
     surface_intersection,
     with_cracks_closed,
 )
@@ -101,6 +103,7 @@ __all__ = [
     "Sphere",
     "Surface",
     "SurfaceIntersection",
+    "ThicknessInterval",
     "Topology",
     "box_gap",
     "check_pair",
@@ -131,6 +134,7 @@ __all__ = [
     "safe_time",
     "sat_polygons",
     "search_depth",
+    "search_thickness",
     "surface_intersection",
     "with_cracks_closed",
 ]

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
 #include "depth/depth_search.hpp"
 
@@ -14,12 +15,6 @@ using namespace nb::literals;
 
 namespace satcheck {
 namespace {
-
-// Ctrl-C would not be heard before the end of a long search.
-void raise_interrupts() {
-  const nb::gil_scoped_acquire held;
-  if (PyErr_CheckSignals() != 0) throw nb::python_error();
-}
 
 DepthInterval checked_search(const Surface& a, const Surface& b, double upper, double lower, double width,
                              std::uint64_t work, int across) {

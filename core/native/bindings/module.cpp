@@ -27,6 +27,7 @@ void bind_surface(nb::module_& m);
 void bind_contacts(nb::module_& m);
 void bind_depth(nb::module_& m);
 void bind_overlap(nb::module_& m);
+void bind_thickness(nb::module_& m);
 void bind_mesh(nb::module_& m);
 void bind_motion(nb::module_& m);
 void bind_pairs(nb::module_& m);
@@ -168,6 +169,7 @@ void satcheck::bind_core(nb::module_& m) {
   bind_contacts(m);
   bind_depth(m);
   bind_overlap(m);
+  bind_thickness(m);
   bind_motion(m);
   bind_shapes(m);
   bind_pairs(m);

@@ -1,0 +1,59 @@
+// The Python face of the thickness of overlaps. Nothing but conversions.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "bindings/interrupts.hpp"
+#include "bindings/tuples.hpp"
+#include "thickness/thickness_search.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace satcheck {
+namespace {
+
+const char* name_of(ThicknessStop stop) {
+  return stop == ThicknessStop::narrow ? "narrow" : stop == ThicknessStop::decided ? "decided" : "work spent";
+}
+
+ThicknessInterval checked_search(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
+                                 double less_b, std::optional<double> limit, int across) {
+  if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
+  if (!(less_a >= 0 && std::isfinite(less_a))) throw std::invalid_argument("less_a must be a finite length >= 0");
+  if (!(less_b >= 0 && std::isfinite(less_b))) throw std::invalid_argument("less_b must be a finite length >= 0");
+  if (limit && !std::isfinite(*limit)) throw std::invalid_argument("limit must be finite");
+  if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
+  return search_thickness(a, b, {width, work, less_a, less_b, limit, across, raise_interrupts});
+}
+
+}  // namespace
+
+void bind_thickness(nb::module_& m) {
+  nb::class_<ThicknessInterval>(m, "ThicknessInterval", R"(lower <= 2 max over p inside both of min(d_A(p) - less_a, d_B(p) - less_b) <= upper, rounding included. centre: a point
+that is that deep, world frame; None where no common inner point is known. radius: no triangle of either surface is nearer to it.
+stop: "narrow", "decided" (the interval lies on one side of the limit) or "work spent"; boxes of space that were bounded.)")
+      .def_ro("lower", &ThicknessInterval::lower)
+      .def_ro("upper", &ThicknessInterval::upper)
+      .def_prop_ro("centre",
+                   [](const ThicknessInterval& t) {
+                     return t.found ? std::optional(to_tuple(t.centre)) : std::nullopt;
+                   })
+      .def_ro("radius", &ThicknessInterval::radius)
+      .def_prop_ro("stop", [](const ThicknessInterval& t) { return name_of(t.stop); })
+      .def_ro("work", &ThicknessInterval::work)
+      .def_ro("boxes", &ThicknessInterval::boxes);
+  m.def("search_thickness", &checked_search, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
+        "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, nb::call_guard<nb::gil_scoped_release>(),
+        R"(The diameter of the largest ball inside both of two solids as a proven interval, at most `width` wide relative to its
+upper end unless `work` steps, each about a nanosecond, are spent first. less_a, less_b: taken from the distance to the surface
+of a and of b. limit: the search ends as soon as the interval lies on one side of this length. across: an axis of the world along
+which both solids are prisms: triangles across it do not count; -1: none. The same input gives the same result on every machine.
+Swapping a and b changes nothing. In the main thread a signal handler may raise, KeyboardInterrupt for one.
+ValueError for a length that is negative or not finite, or for a surface that is not a solid.)");
+}
+
+}  // namespace satcheck

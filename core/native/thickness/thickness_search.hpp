@@ -1,0 +1,45 @@
+// The thickness of an overlap: the diameter of the largest ball inside both of two solids, as a proven interval.
+//
+// With d_X(p) the distance from p, inside X, to the nearest triangle of X, and lengths e_A and e_B, the search bounds
+// 2 max over p inside both of min(d_A(p) - e_A, d_B(p) - e_B). Lengths of 0 give the thickness. Where A and B have no
+// common point, and wherever it is smaller, the value is that of the surfaces: -2 max(e_A, e_B).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "mesh/surface.hpp"
+
+namespace satcheck {
+
+struct ThicknessGoal {
+  double width = 0.01;     // the interval may stay this wide, relative to its upper end
+  std::uint64_t work = 0;  // steps that may be spent (base/work.hpp)
+  double less_a = 0, less_b = 0;  // e_A and e_B, world units
+  std::optional<double> limit = {};  // the search ends as soon as the interval lies on one side of this length
+  // An axis of the world along which both solids are prisms: triangles across it do not count; -1: none.
+  int across = -1;
+  std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
+};
+
+enum class ThicknessStop : std::uint8_t {
+  narrow,      // the interval is as narrow as asked
+  decided,     // it lies on one side of the limit
+  work_spent,  // it is what was reached
+};
+
+struct ThicknessInterval {
+  double lower = 0, upper = 0;  // of the diameter, rounding included
+  bool found = false;           // whether a point inside both is known that is as deep as `lower` says
+  Vec3 centre;                  // that point, world frame
+  double radius = 0;            // no triangle of either surface is nearer to it, rounding included
+  ThicknessStop stop = ThicknessStop::narrow;
+  std::uint64_t work = 0;
+  std::uint32_t boxes = 0;  // that were bounded
+};
+
+// Swapping the surfaces, and less_a with less_b, changes nothing. Throws std::invalid_argument unless both are solids.
+ThicknessInterval search_thickness(const Surface& a, const Surface& b, const ThicknessGoal& goal);
+
+}  // namespace satcheck
