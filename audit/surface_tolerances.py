@@ -56,7 +56,7 @@ def _of_body(body: Body, known: dict[tuple[object, ...], Curves]) -> BodyToleran
         mesh = body.file.mesh
         middle = np.mean(mesh.bounds, axis=0)
         points = (mesh.vertices - middle) @ linear.T
-        precision = math.ldexp(body.resolution_world, -exponent)
+        precision = body.file.resolution * float(np.linalg.norm(linear, 2))
         known[key] = find_curves(points, mesh.triangles.astype(np.intp), precision)
     curves = _told(known[key].curves, body, exponent)
     return BodyTolerance(
@@ -90,7 +90,7 @@ def _told(curves: tuple[Curve, ...], body: Body, exponent: int) -> tuple[Faceted
         FacetedCurves(
             chains=len(group),
             facets=sum(curve.facets for curve in group),
-            degrees=math.degrees(max(curve.turn for curve in group)),
+            degrees=math.degrees(group[0].turn),
             radius=math.ldexp(group[0].radius, exponent),
             sagitta=math.ldexp(group[0].sagitta, exponent),
             place=_place(body, group[0].triangle),

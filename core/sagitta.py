@@ -17,12 +17,12 @@ import numpy as np
 from msgspec import Struct
 
 from satcheck.core.facets import (
+    LEAST_TURN,
     Facets,
     Flags,
     Floats,
     Indices,
     Ridges,
-    angles_between,
     components,
     facets_and_ridges,
     sums_of,
@@ -34,21 +34,25 @@ from satcheck.core.facets import (
 # columns, nuts. Nobody draws a circle with less than six.
 LEAST_AROUND = 9
 LEAST_PRISM = 6
-# What rounded coordinates may add to an angle.
+# What rounding may add to a limit.
 _SLACK = 1.01
 # Neighbouring facets of one curve are about equally wide. A flat side that a curve runs into, up to
 # twice as wide as its facets and turning half as much, reads no larger sagitta than they.
 MOST_UNLIKE = 2.0
-# Fewer facets in a row are those of a roof or of a chamfer.
+# Fewer facets in a row are those of a roof or of a chamfer. Three count where the faces beside them
+# continue the curve: there it turns half as much as between facets, to this fraction.
 LEAST_FACETS = 4
+HALF_WITHIN = 0.1
+# The last facet of a chain turns on one side only, so that it reads half the sagitta (1 / 2.05 at
+# 40 degrees).
+AGREEING = 2.1
 
 
 class Curve(Struct, frozen=True):
     """A chain or a patch of facets that stands for one smooth surface.
 
-    facets: how many. turn: the largest angle between two of them, radians. radius: the smaller one
-    of curvature, the median over the facets. sagitta: the largest of the facets. triangle: of the
-    mesh, in the facet that has it.
+    facets: how many. sagitta: the largest one. Of that facet, turn: the angle by which the
+    surface turns over it, radians; radius: of curvature; triangle: one of the mesh.
     """
 
     facets: int
@@ -70,59 +74,40 @@ def find_curves(points: Floats, triangles: Indices, precision: float) -> Curves:
     """points: (v, 3), triangles: (t, 3), of a welded mesh with consistent winding. precision: how
     finely the coordinates are known, in their unit."""
     facets, ridges = facets_and_ridges(points, triangles.astype(np.intp), precision)
-    smooth = _smooth(facets, ridges, 2 * math.pi / LEAST_AROUND)
-    curves, taken = _curves(facets, ridges, smooth)
-    steep = _smooth(facets, ridges, 2 * math.pi / LEAST_PRISM)
-    left_out, _ = _curves(facets, ridges, steep & ~taken[ridges.facets].any(axis=1))
+    nothing = np.zeros(facets.count, dtype=bool)
+    curves, taken = _curves(facets, ridges, 2 * math.pi / LEAST_AROUND, nothing)
+    left_out, _ = _curves(facets, ridges, 2 * math.pi / LEAST_PRISM, taken)
     return Curves(curves, left_out)
 
 
-def _smooth(facets: Facets, ridges: Ridges, most_turn: float) -> Flags:
-    """(r,): whether a curve may run across the ridge.
-
-    Between two ridges a facet turns by the angle between them too: the sides of a low pyramid
-    hardly bend, but there are only a few of them around."""
+def _curves(
+    facets: Facets, ridges: Ridges, most_turn: float, apart_from: Flags
+) -> tuple[tuple[Curve, ...], Flags]:
+    """The curves whose neighbouring facets turn by no more than that, and the facets of which they
+    consist, (f,). Those with a facet of `apart_from` are left out."""
     most_turn *= _SLACK
-    alike = ridges.widths.max(axis=1) <= MOST_UNLIKE * ridges.widths.min(axis=1)
-    gentle = alike & (ridges.angles <= most_turn)
-    sides, along = ridges.facets[gentle], ridges.directions[gentle]
-    squares = np.zeros((facets.count, 3, 3))
-    for k in (0, 1):
-        np.add.at(squares, sides[:, k], along[:, :, None] * along[:, None])
-    two = np.flatnonzero(np.bincount(sides.ravel(), minlength=facets.count) == 2)
-    # The sum for two unit vectors at an angle phi has the largest eigenvalue 1 + |cos phi|.
-    cosine = np.clip(np.linalg.eigvalsh(squares[two])[:, 2] - 1, 0.0, 1.0)
-    between = np.zeros(facets.count)
-    between[two] = np.arccos(cosine)
-    turn = np.hypot(between[ridges.facets].max(axis=1), ridges.angles)
-    smooth: Flags = gentle & (turn <= most_turn)
-    return smooth
-
-
-def _curves(facets: Facets, ridges: Ridges, smooth: Flags) -> tuple[tuple[Curve, ...], Flags]:
-    """Those of facets that these ridges join, and which facets they consist of, (f,)."""
+    smooth = _smooth(facets, ridges, most_turn)
     patch = components(facets.count, ridges.facets[smooth])
-    taken = (np.bincount(patch) >= LEAST_FACETS)[patch]
-    smooth = smooth & taken[ridges.facets[:, 0]]
+    sizes = np.bincount(patch)
+    long = (sizes >= LEAST_FACETS) | (sizes + _faces_beside(ridges, smooth, patch) > LEAST_FACETS)
+    taken = (long & (np.bincount(patch, apart_from) == 0))[patch]
+    smooth &= taken[ridges.facets[:, 0]]
     if not smooth.any():
         return (), taken
     pairs = ridges.facets[smooth]
     chosen = np.flatnonzero(taken[facets.of_triangle])
-    sagittas, radii = _of_triangles(facets, ridges, smooth, chosen)
+    sagittas, radii, turns = _of_triangles(facets, ridges, smooth, chosen, most_turn)
     order = np.lexsort((sagittas, facets.of_triangle[chosen]))
     counts = np.bincount(facets.of_triangle[chosen], minlength=facets.count)
     highest = order[np.cumsum(counts) - 1]  # of each facet, among those chosen
     of_facet = np.where(taken, sagittas[highest], 0.0)
-    turns = np.zeros(facets.count)
-    np.maximum.at(turns, pairs, ridges.angles[smooth][:, None])
     members = np.flatnonzero(taken & _agreeing(of_facet, pairs))
     members = members[np.lexsort((-of_facet[members], patch[members]))]
-    sizes = np.bincount(patch)
     curves = [
         Curve(
             facets=int(sizes[patch[group[0]]]),
-            turn=float(turns[group].max()),
-            radius=float(np.median(radii[highest[group]])),
+            turn=float(turns[highest[group[0]]]),
+            radius=float(radii[highest[group[0]]]),
             sagitta=float(of_facet[group[0]]),
             triangle=int(chosen[highest[group[0]]]),
         )
@@ -132,28 +117,74 @@ def _curves(facets: Facets, ridges: Ridges, smooth: Flags) -> tuple[tuple[Curve,
     return tuple(sorted(curves, key=lambda curve: -curve.sagitta)), taken
 
 
+def _smooth(facets: Facets, ridges: Ridges, most_turn: float) -> Flags:
+    """(r,): whether a curve may run across the ridge.
+
+    Between two ridges a facet turns by the angle between them too: the sides of a low pyramid
+    hardly bend, but there are only a few of them around."""
+    alike = ridges.widths.max(axis=1) <= MOST_UNLIKE * ridges.widths.min(axis=1)
+    gentle = alike & (ridges.angles <= most_turn)
+    number = np.bincount(ridges.facets[gentle].ravel(), minlength=facets.count)
+    # The sum for two unit vectors at an angle phi has the largest eigenvalue 1 + |cos phi|.
+    largest = np.linalg.eigvalsh(_squares(facets, ridges, gentle)[number == 2])[:, 2]
+    between = np.zeros(facets.count)
+    between[number == 2] = np.arccos(np.clip(largest - 1, 0.0, 1.0))
+    turns = np.hypot(between[ridges.facets].max(axis=1), ridges.angles)
+    smooth: Flags = gentle & (turns <= most_turn)
+    return smooth
+
+
+def _squares(facets: Facets, ridges: Ridges, chosen: Flags) -> Floats:
+    """(f, 3, 3): the sum of d d^T for the directions d of the chosen ridges of each facet."""
+    squares = np.zeros((facets.count, 3, 3))
+    along = ridges.directions[chosen]
+    for k in (0, 1):
+        np.add.at(squares, ridges.facets[chosen, k], along[:, :, None] * along[:, None])
+    return squares
+
+
+def _faces_beside(ridges: Ridges, smooth: Flags, patch: Indices) -> Indices:
+    """(p,): how many faces each patch of facets runs into: at them it turns half as much."""
+    inside = np.zeros(len(patch))
+    np.maximum.at(inside, ridges.facets[smooth], ridges.angles[smooth][:, None])
+    share = ridges.angles[:, None] / np.maximum(inside[ridges.facets], LEAST_TURN)
+    beside = ~smooth[:, None] & (np.abs(share - 0.5) <= HALF_WITHIN)
+    return np.bincount(patch[ridges.facets[beside]], minlength=int(patch.max()) + 1)
+
+
 def _agreeing(sagittas: Floats, pairs: Indices) -> Flags:
     """(f,): whether a neighbour has about the same sagitta: one facet alone is a flaw."""
     low, high = np.sort(sagittas[pairs], axis=1).T
     agreeing = np.zeros(len(sagittas), dtype=bool)
-    agreeing[pairs[(low > 0) & (high <= MOST_UNLIKE * low)]] = True
+    agreeing[pairs[(low > 0) & (high <= AGREEING * low)]] = True
     return agreeing
 
 
 def _of_triangles(
-    facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indices
-) -> tuple[Floats, Floats]:
-    """(c,): the sagittas of these triangles, and the least radius of curvature along an edge."""
+    facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indices, most_turn: float
+) -> tuple[Floats, Floats, Floats]:
+    """(c,): the sagittas of these triangles, the radius of the surface over the edge with the
+    highest rise, and how far it turns there. The sagitta is 0 where that is too far, even for the
+    diagonal of a quadrilateral."""
+    facet = facets.of_triangle[chosen]
     corners = facets.points[facets.triangles[chosen]]
     normals = _corner_normals(facets, ridges, smooth, chosen)
     edges = np.roll(corners, -1, axis=1) - corners
-    after = np.roll(normals, -1, axis=1)
-    cosine = np.cos(angles_between(normals, after) / 4)
-    at_edges = (edges * (after - normals)).sum(axis=2) / (8 * cosine**2)
+    change = np.roll(normals, -1, axis=1) - normals
+    # A strip is curved across its ridges alone, whatever it runs into at its ends.
+    values, vectors = np.linalg.eigh(_squares(facets, ridges, smooth))
+    is_strip = values[:, 1] <= math.tan(math.pi / LEAST_AROUND) ** 2 * values[:, 2]
+    along = np.where(is_strip[:, None], vectors[:, :, 2], 0.0)[facet, None]
+    change -= (change * along).sum(axis=2, keepdims=True) * along
+    edges -= (edges * along).sum(axis=2, keepdims=True) * along
+    turns = 2 * np.arcsin(np.minimum(np.linalg.norm(change, axis=2) / 2, 1.0))
+    at_edges = (edges * change).sum(axis=2) / (8 * np.cos(turns / 4) ** 2)
     rises = np.abs(at_edges)
-    squares = (edges**2).sum(axis=2)
-    radii = np.divide(squares, 8 * rises, out=np.full_like(rises, np.inf), where=rises > 0)
-    return _highest(at_edges), (radii + rises / 2).min(axis=1)
+    top = np.arange(len(rises)), rises.argmax(axis=1)
+    rise, turn, square = rises[top], turns[top], (edges[top] ** 2).sum(axis=1)
+    radius = np.divide(square, 8 * rise, out=np.full_like(rise, np.inf), where=rise > 0)
+    even = turn <= math.sqrt(2) * most_turn
+    return np.where(even, _highest(at_edges), 0.0), radius + rise / 2, turn
 
 
 def _highest(at_edges: Floats) -> Floats:

@@ -11,9 +11,9 @@ from satcheck.report.values import Count, Length, Size, Tool, Value, Vector
 class FacetedCurves(Value, frozen=True):
     """Chains of facets with the same radius and sagitta, to a few per cent.
 
-    chains: how many. facets: of all of them. degrees: the largest angle between two neighbouring
-    facets. radius: of curvature. sagitta: the largest distance of a facet from the curve. place: of
-    a facet that has it, world.
+    chains: how many. facets: of all of them. sagitta: the largest distance of a facet from the
+    curve. Of that facet, degrees: the angle by which the surface turns over it; radius: of
+    curvature; place: a point of it, world.
     """
 
     chains: Count

@@ -38,7 +38,7 @@ def remark(report: SurfaceTolerancesReport) -> str:
     """For standard error."""
     limit = (
         f"Facets at angles of up to {report.most_degrees:g} degrees count as a curve, in chains of "
-        f"{report.least_facets} or more: eight sides or less may be a prism."
+        f"{report.least_facets} or more: a shape with eight sides or fewer may be a prism."
     )
     if all(body.surface_tolerance is None for body in report.bodies):
         return limit
@@ -94,7 +94,7 @@ def _chains(curve: FacetedCurves) -> str:
 def _measured(curve: FacetedCurves, unit: str | None) -> str:
     return (
         f"radius {with_unit(f'{curve.radius:.3g}', unit)}, "
-        f"up to {curve.degrees:.3g} degrees from facet to facet, "
+        f"turning by {curve.degrees:.3g} degrees over a facet, "
         f"sagitta {with_unit(f'{curve.sagitta:.3g}', unit)}"
     )
 

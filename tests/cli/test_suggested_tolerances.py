@@ -28,12 +28,12 @@ def test_what_to_type_and_why(files: dict[str, str]) -> None:
     first, evidence, nut, left_out, box, whole = ran.out.splitlines()
     assert first == "c24: --surface-tolerance 0.0428"
     assert evidence.startswith(
-        "  24 facets: radius 5, up to 15 degrees from facet to facet, sagitta 0.0428, as at ("
+        "  24 facets: radius 5, turning by 15 degrees over a facet, sagitta 0.0428, as at ("
     )
     assert nut == "c6: no curved surface is seen"
     assert left_out == (
         "  left out, perhaps a prism: 6 facets; if a curve, radius 5, "
-        "up to 60 degrees from facet to facet, sagitta 0.67"
+        "turning by 60 degrees over a facet, sagitta 0.67"
     )
     assert box == "box: no curved surface is seen"
     assert whole == "whole input: --surface-tolerance 0.0428"

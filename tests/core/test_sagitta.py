@@ -109,7 +109,7 @@ def test_a_torus() -> None:
     assert curve.sagitta == pytest.approx(outer, rel=0.02)
 
 
-@pytest.mark.parametrize("steps", [4, 8])
+@pytest.mark.parametrize("steps", [3, 4, 8])
 def test_a_rounded_edge(steps: int) -> None:
     """The faces beside it do not count as facets of it."""
     (curve,) = curves_of(rounded_box(steps)).curves
@@ -123,6 +123,13 @@ def test_an_ellipse() -> None:
     (curve,) = curves_of(mesh).curves
     # As far as a stretched circle is off its chords: where the stretch is across them.
     assert curve.sagitta == pytest.approx(3 * sagitta(1, 2 * math.pi / 96), rel=0.03)
+
+
+def test_a_rounded_edge_that_runs_into_a_ball() -> None:
+    """The strips of a capsule are straight, however far the facets at their ends turn."""
+    curves = curves_of(creation.capsule(50, 1, count=(24, 24))).curves
+    strips = [curve for curve in curves if curve.facets == 24]
+    assert [curve.sagitta for curve in strips] == [pytest.approx(sagitta(1, math.pi / 12))]
 
 
 @pytest.mark.parametrize("number", [6, 8])
