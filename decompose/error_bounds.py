@@ -1,18 +1,19 @@
-"""How far convex parts and the mesh they came from stick out of each other: proven upper bounds.
+"""How far convex parts and their mesh stick out of each other: proven upper bounds.
 
-Outside, of the parts: `core.deviation`. Missing, of the mesh, tight:
+`outside_error`: how far the parts stick out of the mesh, by `core.deviation`.
 
-The distance to a convex body is a convex function, so over a convex polygon it is largest at a
-corner. The mesh's triangles are cut along the parts into polygons, and each polygon is given to one
-part: then the largest distance of a corner to its part bounds the distance of the whole mesh to the
-union. Any cutting and any giving away yields a valid bound; cutting where the parts end makes it
-tight. So rounding in the cuts costs nothing but tightness, and only the distances have to be right.
+`missing_error`: how far the mesh sticks out of the parts. The distance to a convex body is a convex
+function, so it is largest at a corner of a polygon. The triangles of the mesh are cut along the
+parts into polygons, and each polygon is assigned to one part. The largest distance of a corner to
+its part bounds the distance of the mesh to the union of the parts. Every cut and every assignment
+give a valid bound; cuts at the borders of the parts make it tight. So the cuts may be rounded, and
+only the distances must be right.
 
-Parts leave slits between them, so each is first widened by a slack, the least (but for a factor)
-at which the widened parts hold the triangle.
+Parts leave slits between them. So each part is first widened by a slack: nearly the least slack at
+which the widened parts contain the triangle.
 
-Branch and bound on the deviation from the union as one mesh needs thousands of times more pieces
-for the same width: the parts' faces lie in the mesh's, where a small piece is nearly outside.
+Branch and bound on the deviation from the union needs thousands of times more pieces for the same
+width, because faces of the parts lie in faces of the mesh.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-# The first slack: of the diagonal, or of the largest coordinate where that is far away.
+# The first slack, relative to the diagonal, and to the largest coordinate (for meshes far away).
 _FIRST_SLACK: Final = 1e-6
 _FIRST_SLACK_FAR: Final = 1e-13
 _SLACK_GROWTH: Final = 1.5
@@ -47,7 +48,7 @@ _WIDE: Final = 1.25  # upper over lower bound that is not worth the finer slack
 
 
 def outside_error(parts: Sequence[Polytope], surface: Surface, threshold: float) -> float:
-    """Upper bound of max over points of the parts' surfaces of the distance to the mesh."""
+    """An upper bound of the largest distance of a part's surface from the mesh."""
     unit = threshold * diagonal(surface.mesh)
     meshes = [part.to_mesh() for part in parts]
     bounds = [deviation(mesh, surface, _SLACKS[0] * unit) for mesh in meshes]
@@ -61,9 +62,9 @@ def outside_error(parts: Sequence[Polytope], surface: Surface, threshold: float)
 
 
 def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NEVER) -> float:
-    """Upper bound of max over points of the mesh's surface of the distance to the parts' union.
+    """An upper bound of the largest distance of the mesh's surface from the union of the parts.
 
-    At most some 2 times the least upper bound, or 1e-6 of the mesh's diagonal above it. Raises
+    At most about twice that distance, or 1e-6 of the mesh's diagonal above it. Raises
     DecompositionError at the deadline.
     """
     vertices = np.asarray(mesh.vertices)
@@ -93,7 +94,7 @@ def missing_error(mesh: Mesh, parts: Sequence[Polytope], deadline: Deadline = NE
 
 
 class _Bodies:
-    """The parts, made ready for many questions."""
+    """The parts, prepared for many queries."""
 
     def __init__(self, parts: Sequence[Polytope]) -> None:
         self._spaces = [
@@ -118,8 +119,8 @@ class _Bodies:
         return max((self.distance(point, part) for point in polygon), default=0.0)
 
     def cover(self, polygon: Polygon, slack: float) -> float | None:
-        """The largest distance of a piece of the polygon to the part that holds it, when parts
-        widened by `slack` hold all of it; else None."""
+        """The largest distance of a piece of the polygon to the part that contains it; None: the
+        parts widened by `slack` do not contain all of the polygon."""
         corners = np.array(polygon)
         near = (corners.max(axis=0) >= self._low - slack).all(axis=1)
         near &= (corners.min(axis=0) <= self._high + slack).all(axis=1)

@@ -1,11 +1,11 @@
-"""What lies on either side of two surfaces, everywhere: the proof that there is no overlap.
+"""What lies on both sides of two surfaces: the proof that two solids do not overlap.
 
-Beside almost every point of a triangle lies, on each of its sides, either the inside or the outside
-of A, and of B. Cut each triangle along all it shares with others, of both surfaces: within a cell
-these answers do not change, so one point of it, and winding numbers, tell them. An open set that is
-the overlap of two solids, or where they differ, is bounded by cells; where no cell has it on a
-side, it is empty. Triangles that the other surface does not meet see one answer of it per connected
-region.
+Each side of a triangle faces the inside or the outside of A, and of B. These facts change only
+where triangles meet. So each triangle is cut along everything it shares with other triangles of
+both surfaces. Within a cell the facts are constant, and winding numbers at one point give them.
+Cells bound the overlap of two solids, and the set in which they differ. If no cell has that set on
+a side, the set is empty. A connected region that the other surface does not meet needs only one
+point.
 """
 
 from __future__ import annotations
@@ -37,9 +37,10 @@ BLOCK = 256  # triangles whose own partners are looked up at once
 
 @dataclass(frozen=True, slots=True)
 class Sides:
-    """A point of a triangle, off all edges, and what is in front of it and behind it: (in A, in B).
+    """A point of a triangle, off all edges, and the facts in front of it and behind it: (in A, in
+    B).
 
-    Of a surface that is not solid, nothing is inside.
+    A surface that is not solid has no inside.
     """
 
     triangle: int
@@ -52,10 +53,10 @@ class Sides:
 def sides_of(
     a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
 ) -> Iterator[Sides]:
-    """Both sides of every cell of every triangle of A, but for regions that B does not meet and
-    that are not wanted.
+    """Both sides of every cell of the triangles of A.
 
-    contacts: all pairs of triangles that meet. wanted: of a region, by whether it lies inside B.
+    contacts: all pairs of triangles that meet. wanted: whether to include a region that B does not
+    meet; its argument: whether the region lies inside B.
     """
     partners: dict[int, list[int]] = {}
     for s, t in contacts:
@@ -106,7 +107,7 @@ def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
 
 
 def own_partners(a: Exact, index: list[int]) -> dict[int, list[int]]:
-    """Triangles of A itself that meet those of the index. None where A has no inside."""
+    """The other triangles of A that meet those of the index; empty if A has no inside."""
     partners: dict[int, list[int]] = {}
     if not a.world.solid or not index:
         return partners
@@ -137,7 +138,7 @@ def sheets_among(body: Exact, contacts: list[tuple[int, int]], side: int) -> set
 
 
 def _with_own_partners(a: Exact, chosen: list[int]) -> Iterator[tuple[int, list[int]]]:
-    """In blocks, because most falsehoods are found out by the first few triangles."""
+    """In blocks, because the first few triangles reveal most false claims."""
     for start in range(0, len(chosen), BLOCK):
         block = chosen[start : start + BLOCK]
         own = own_partners(a, block)
@@ -146,10 +147,10 @@ def _with_own_partners(a: Exact, chosen: list[int]) -> Iterator[tuple[int, list[
 
 
 def _cuts(corners: Corners, normal: IntVector, others: list[Corners]) -> list[Segment]:
-    """The segments within a triangle along which it shares something with others.
+    """The segments within a triangle along which it meets others.
 
-    An edge that triangles in its plane run equally often in both directions is no cut: across it
-    winding numbers change only where another triangle cuts.
+    An edge between triangles in its plane, run equally often in both directions, is no cut: winding
+    numbers do not change across it.
     """
     crossing: set[Segment] = set()
     flat: Counter[Segment] = Counter()

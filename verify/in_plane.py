@@ -1,13 +1,13 @@
 """Checks in a plane: what certificates about prisms prove about their outlines.
 
-Each body is the prism over its outline, |z| <= its height, where z runs across the plane, and all
-reach farther than any body is wide. Prisms are apart, or touch, or overlap, exactly where their
-outlines do, and are as far apart and as deep in each other. Which of them holds the other depends
-on heights that no outline has. So one that is said to hold the other is made to reach beyond it.
-Where neither does, both have one height, and only their walls may tell them apart.
+Each body is the prism over its outline, |z| <= height, where z is normal to the plane. Every height
+exceeds the width of every body. Two prisms relate as their outlines do, with the same gap and
+depth. Only containment depends on the heights, which outlines do not have. So a prism that is
+claimed to contain the other one gets the greater height. Otherwise both get the same height, and
+only their walls may separate them.
 
-A polygon may stand for a curve. Then only that is proven which holds for every boundary that is
-nowhere farther from the polygon than the deviation of the body.
+A polygon may replace a curve. A proof must then hold for every boundary whose distance from the
+polygon is at most the deviation of the body.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ ACROSS = {"xy": 2, "yz": 0, "xz": 1}
 
 @dataclass(frozen=True, slots=True)
 class CurveError:
-    """How much closer, or deeper, and how much farther apart two bodies may be than the polygons
-    that stand for them: world units; 0: these are the bodies."""
+    """How much closer (or deeper) and how much farther two bodies may be than their polygons. World
+    units; 0: the polygons are exact."""
 
     closer: Fraction
     farther: Fraction
@@ -51,13 +51,13 @@ class CurveError:
     def check_overlap(
         self, relation: Relation | None, proof: Proof, pair: Pair, across: int
     ) -> None:
-        """Rejects an exact relation of bodies that meet, where it is shown of the polygons alone.
+        """Rejects an exact relation of bodies that meet if it is proven of the polygons only.
         pair: with heights that suit the relation.
 
-        A body lies within another if its polygon does, with more room than the curves may be off.
-        Inscribed polygons that overlap are within bodies that overlap, and so are convex ones that
-        overlap by more than they may reach out of the curves. Neither of these bodies holds the
-        other if the box of each sticks out by more than the curves may be off.
+        A body lies within another if its polygon does, with more room than the deviation. Bodies
+        overlap if their inscribed polygons overlap, or if convex polygons overlap by more than
+        they may reach out of the curves. Neither body contains the other if the box of each
+        sticks out of the other by more than the deviation.
         """
         if not self.closer:
             return

@@ -1,14 +1,16 @@
-"""When bodies that move first overlap by more than the touch band: the scan along t.
+"""The first moment at which moving bodies overlap by more than the touch band: a scan along t.
 
 Conservative advancement: Brian Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems"
 (1996), 2.3; Xinyu Zhang, Minkyoung Lee, Young J. Kim, "Interactive Continuous Collision Detection
-for Non-convex Polyhedra" (2006). From t on, the bodies stay apart at least until their gap could
-have closed; go there and ask again. No moment is left out, so that nothing is too fast or too thin.
+for Non-convex Polyhedra" (2006). The gap at t proves that the bodies stay apart for some time. The
+scan goes to the end of that time and measures the gap again. It skips no moment, so it misses no
+body, however fast or thin.
 
-Where we deviate: contact is no collision. Where bodies touch, the scan goes on as long as it can be
-proven that they overlap by no more than the touch band: two convex ones by their signed distance,
-others by a small translation of A, no longer than the band, after which they stay apart. Where
-nothing can be proven, an overlap is looked for beyond; without one the answer is open.
+Where we deviate: a contact is no collision. While bodies touch, the scan goes on as long as it can
+prove that they overlap by no more than the touch band. For two convex bodies the signed distance
+proves it; for others, a translation of A, no longer than the band, after which they stay apart. If
+the proof fails, the scan looks for an overlap later in the motion. If it finds none, the answer is
+open.
 """
 
 from __future__ import annotations
@@ -25,12 +27,11 @@ from satcheck.report.report import OVERLAPS, Finding
 
 
 class Impact(Struct, frozen=True):
-    """lower, upper: of the first t at which the bodies overlap by more than the touch band. Before
-    lower they do not; at upper they do, None where no overlap was found.
+    """lower, upper: bounds of the first t at which the bodies overlap by more than the touch band.
+    Before lower they do not; at upper they do. upper is None if no overlap was found.
 
-    reached: up to there it is proven that they do not, 1.0 for the whole motion. contact: the first
-    t at which they could not be told apart from touching; None where they never are. reason: why
-    the scan ended before the motion, without an overlap.
+    reached: up to this t no such overlap is proven; 1.0: for the whole motion. contact: the first t
+    at which the bodies may touch; None: never. reason: why the scan ended early without an overlap.
     """
 
     lower: float
@@ -54,7 +55,7 @@ def first_impact(pair: MovingPair) -> Impact:
     if start.relation == "indeterminate" or start.relation in OVERLAPS:
         reason = f"undecided where the motion starts: {start.reason}"
         return Impact(0.0, None, 0.0, 0.0, reason)
-    # A touch as far as bounds tell is a contact: how deep it may be, the scan proves by itself.
+    # A possible touch counts as a contact; the scan itself proves how deep it is.
     scan = _Scan(pair, outside=start.exact_relation in FREE)
     try:
         scan.run()
@@ -69,8 +70,8 @@ def overlaps(finding: Finding) -> bool:
 
 
 def possible_overlap(pair: MovingPair, start: float) -> float | None:
-    """A t >= start at which the bodies may overlap by the coarse test that a capped ladder ends at;
-    None where no probe shows one."""
+    """A t >= start at which the bodies may overlap, by the last test that --accuracy allows; None:
+    no probe shows one."""
     try:
         return next((t for t in _probes(start) if pair.found_at(t).relation in OVERLAPS), None)
     except Unanswerable:
@@ -78,10 +79,10 @@ def possible_overlap(pair: MovingPair, start: float) -> float | None:
 
 
 class _Scan:
-    """t: free, or within the touch band, up to there. met: where the contact at t began; it is no
-    later than t, and a tidier end of the interval of the impact. outside: known to have no common
-    interior at t. Surfaces that are apart prove nothing about a body, smaller than the touch band,
-    that has slipped into the other one."""
+    """t: until t the bodies are free or within the touch band. met: where the contact at t began,
+    the lower end of the interval that is reported. outside: the bodies are known to have no common
+    interior at t. Separate surfaces do not prove that: a body smaller than the touch band may have
+    entered the other body."""
 
     def __init__(self, pair: MovingPair, outside: bool) -> None:
         self.t = 0.0
@@ -110,7 +111,7 @@ class _Scan:
                 self.met = self.t
 
     def _apart(self, end: float) -> float:
-        """For how long the bodies are proven to stay apart."""
+        """The time for which the bodies are proven to stay apart."""
         time = self._pair.apart(self.t, end).time
         if time > 0.0 and not self._outside and not self._pair.convex:
             self._outside = self._pair.found_at(self.t).exact_relation in FREE

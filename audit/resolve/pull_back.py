@@ -1,10 +1,9 @@
-"""Shortening translations that leave nothing overlapping, so that nothing overlaps on the way.
+"""Shortens the translations of bodies that are free of each other, and keeps them free.
 
-Walls are laid between the bodies where they are, the shortest translations that keep those are
-taken, and the bodies go there: all the way, or half of it, a quarter ... of it where bodies that
-are not convex meet. So the sum of squares falls with every step. It ends at a least motion among
-those nearby, which need not be the least there is. No body goes farther from home than allowed:
-on a line between two allowed places there are none but allowed ones.
+Each step puts walls between the bodies at their current places and computes the least motion that
+keeps all walls. The bodies go there, or half of the way, or a quarter, if concave bodies would
+meet. So every step decreases the sum of squares. The result is a local minimum. No body ends
+farther from home than allowed, because a straight line between two allowed places stays allowed.
 """
 
 from __future__ import annotations
@@ -24,10 +23,10 @@ from satcheck.core.tolerances import rounding_pad
 
 STEPS = 8
 HALVINGS = 2
-# A step that gains less of the sum of squares than this share is not worth it.
+# The steps end when one decreases the sum of squares by less than this share.
 LEAST_GAIN = 1e-3
-# The same where few bodies overlap. There bodies that touch are also asked which way they hold each
-# other, at this share of their way back.
+# The same if few bodies overlap. Then touching bodies get walls, too, from a trial step back home
+# by this share of the way.
 CAREFUL_STEPS, CAREFUL_HALVINGS, CAREFUL_GAIN = 24, 6, 1e-5
 STEP_BACK = 1e-2
 BISECTIONS = 30
@@ -36,7 +35,8 @@ Offsets = dict[int, Vector]
 
 
 def pull_back(layout: Layout, left: Collection[BodyPair], longest: float) -> None:
-    """Move the bodies closer to home, on the whole; none farther than `longest`, as they are.
+    """Decrease the sum of the squared translations. No translation is longer than `longest`, before
+    or after.
 
     left: pairs that may overlap; no others do.
     """
@@ -51,8 +51,8 @@ def pull_back(layout: Layout, left: Collection[BodyPair], longest: float) -> Non
 
 
 def walled(layout: Layout, pair: BodyPair) -> Wall | None:
-    """The wall between two bodies where they are, as far off as they may come closer or overlap;
-    None where no direction is known."""
+    """The wall between two bodies at their current places. It leaves them the room by which they
+    may approach or overlap. None: no direction is known."""
     placed = layout.pair(pair)
     apart = separation(placed)
     if apart is None:
@@ -63,8 +63,8 @@ def walled(layout: Layout, pair: BodyPair) -> Wall | None:
 
 
 def _wall_of_contact(layout: Layout, pair: BodyPair) -> Wall | None:
-    """Of bodies that touch, whose nearest points have no direction: what a small step back home is
-    stopped by, or how far apart they are there."""
+    """The wall between touching bodies, whose nearest points give no direction: from the overlap or
+    the gap after a small step back home."""
     there = layout.offset(pair)
     if not any(there):
         return None
@@ -82,7 +82,7 @@ def _wall_of_contact(layout: Layout, pair: BodyPair) -> Wall | None:
 
 
 def swept(start: Box, end: Box) -> Box:
-    """What holds both boxes, and every box on the way from one to the other."""
+    """The box around both boxes, and so around every box between them."""
     low = tuple(min(a, b) for a, b in zip(start[0], end[0], strict=True))
     high = tuple(max(a, b) for a, b in zip(start[1], end[1], strict=True))
     return low, high  # type: ignore[return-value]
@@ -126,7 +126,7 @@ def _between(start: Vector, end: Vector, share: float) -> Vector:
 
 
 def _groups(layout: Layout, left: Collection[BodyPair], longest: float) -> list[Offsets]:
-    """Where the bodies would go, those together that share walls, and that it is worth it for."""
+    """The goals of the bodies, in groups that share walls; only groups that gain enough."""
     walls, held = _walls(layout, left)
     free = layout.movable - held.keys()
     goals: list[Offsets] = []

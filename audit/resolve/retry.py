@@ -1,12 +1,13 @@
 """Attempts to shorten the result of the rounds: other starts, and a new search for each body alone.
 
-The rounds push from home, so they end at a least motion near there. Where one body has a short way
-out of everything, the sum of squares may be less when it goes first and the others only make room
-for what is left. And a body that was pushed about may have a shorter way to a place that is free
-now. Both ask for the shortest way of one body among others that stay (`way_alone`). These are taken
-as one mesh, and the translations of the body that free it of that are searched as those of a pair
-are (`core.search_depth`): from where the scene has the body, up to the width and the budget of the
-depth of a pair. A result is kept where it is shorter and proven free.
+The rounds start at home and end at a local minimum. Two things may shorten the result:
+
+- One body with a short way out goes first. The others then only resolve what remains.
+- A body that was pushed several times may have a shorter way to a place that is free now.
+
+Both need the shortest way of one body while the others stay (`way_alone`). The others become one
+mesh, and `core.search_depth` searches the translations that free the body from this mesh. Width and
+budget are those of the depth of a pair. A shorter result is kept only if it is proven free.
 """
 
 from __future__ import annotations
@@ -26,20 +27,21 @@ from satcheck.audit.resolve.rounds import Rounds
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
 from satcheck.core.conventions import Vector, axis_across
 
-# More triangles than this around a body, and it is not tried.
+# A body with more triangles around it is not tried.
 MOST_TRIANGLES = 500_000
-# So many bodies are tried as the first to go, and so many moved bodies by themselves, so often.
+# At most STARTS bodies are tried as the first; at most SINGLES moved bodies are tried alone, in
+# each of PASSES passes.
 STARTS = 16
 SINGLES = 32
 PASSES = 3
-# What gains less of the sum of squares than this share is no gain.
+# A smaller relative decrease of the sum of squares does not count.
 LEAST_GAIN = 1e-6
 
 
 def retry(layout: Layout, overlaps: Collection[BodyPair], longest: float, iterations: int) -> None:
-    """Shorten what the bodies of a scene were moved by, which are free of each other.
+    """Shorten the translations of bodies that no longer overlap.
 
-    overlaps: pairs that were not at home."""
+    overlaps: the pairs that overlapped at home."""
     tried = 0
     for group in _groups(layout, overlaps):
         first = sorted({i for pair in overlaps for i in pair if i in group})
@@ -53,8 +55,8 @@ def retry(layout: Layout, overlaps: Collection[BodyPair], longest: float, iterat
 
 
 def _groups(layout: Layout, overlaps: Iterable[BodyPair]) -> list[frozenset[int]]:
-    """The bodies that moved or overlapped, those together that have to do with each other; the
-    longest motions first."""
+    """The bodies that moved or overlapped, grouped by those that may meet; longest motions
+    first."""
     ways = [swept(a.bounds, b.bounds) for a, b in zip(layout.home, layout.placed, strict=True)]
     moved = {i for i, offset in enumerate(layout.offsets) if offset != ORIGIN}
     moved |= {i for pair in overlaps for i in pair} & layout.movable
@@ -70,8 +72,8 @@ def _groups(layout: Layout, overlaps: Iterable[BodyPair]) -> list[frozenset[int]
 def _start_with(
     layout: Layout, i: int, group: frozenset[int], longest: float, iterations: int
 ) -> None:
-    """One body goes by itself, the others of its group only as far as they then have to. Bodies
-    moved for other groups stay where they are."""
+    """Move one body first, then the others of its group as far as they still have to move. Moved
+    bodies of other groups stay."""
     before, movable = list(layout.offsets), layout.movable
     elsewhere = {j for j, offset in enumerate(before) if offset != ORIGIN and j not in group}
     squares = layout.squares()
@@ -90,7 +92,7 @@ def _start_with(
 
 
 def _each_alone(layout: Layout) -> bool:
-    """Give each moved body the shortest way that there is among the others; whether one gained."""
+    """Give each moved body its shortest way while the others stay; whether any way got shorter."""
     moved = [i for i, offset in enumerate(layout.offsets) if offset != ORIGIN]
     moved.sort(key=lambda i: -math.hypot(*layout.offsets[i]))
     return sum(_goes_alone(layout, i) for i in moved[:SINGLES]) > 0
@@ -110,9 +112,9 @@ def _goes_alone(layout: Layout, i: int) -> bool:
 
 
 def way_alone(layout: Layout, i: int, longest: float) -> Vector | None:
-    """A translation from home that leaves the body free of all others where these are, shorter than
-    `longest`, world units; None: none was found, or bodies around have no inside, are curved, or
-    may overlap it, or have to keep a clearance from it."""
+    """A translation from home, shorter than `longest`, that frees the body from all others. World
+    units. None: none was found, or a body nearby has no inside, is curved, may overlap the body, or
+    must keep a clearance from it."""
     home, around = layout.home[i], _around(layout, i, longest)
     if around is None or not math.isfinite(longest):
         return None
@@ -134,8 +136,8 @@ def way_alone(layout: Layout, i: int, longest: float) -> Vector | None:
 
 
 def _around(layout: Layout, i: int, longest: float) -> list[PlacedBody] | None:
-    """The bodies that it may meet within its longest way; None: not all of them are solid meshes
-    that it only has to leave."""
+    """The bodies that it may meet within `longest`; None: one of them is no solid mesh, may overlap
+    the body, or must keep a clearance."""
     home = layout.home[i]
     near = []
     for j, other in enumerate(layout.placed):

@@ -1,14 +1,15 @@
-"""Pushing bodies apart: walls where pairs overlap, the shortest translations that keep them, again.
+"""Pushing bodies apart, in rounds: walls where pairs overlap, then the least motion that keeps
+them.
 
-The frame is that of M. Müller et al., "Position based dynamics" (2007), without time and without
-velocities: constraints are found where the bodies are, satisfied by projections, and found again.
-Unlike there every projection starts at home and keeps the walls of earlier rounds, so that what
-comes out is a least motion and not the sum of many small ones.
+The method follows M. Müller et al., "Position based dynamics" (2007), without time and velocities:
+each round derives constraints from the current places and satisfies them by a projection. Where we
+deviate: every projection starts at home and keeps the walls of earlier rounds, so the result is one
+least motion and not the sum of many small ones.
 
-A wall is a half space of translations. The translations that free a pair usually do not form a half
-space, so walls may contradict each other. Of one pair a wall between the hulls then takes the place
-of both, or the bodies are locked to each other. Of several pairs one body is taken out to a free
-place, its walls are made anew there, and the rounds go on.
+A wall is a half space of translations. The translations that free a pair usually form no half
+space, so walls may contradict each other. If two walls of one pair do, a wall between the hulls
+replaces both, or the bodies are locked together. If walls of several pairs do, one body is moved to
+a free place and gets new walls there.
 """
 
 from __future__ import annotations
@@ -29,22 +30,23 @@ from satcheck.audit.vectors import added, dot, scaled, unit
 from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import rounding_pad
 
-# After so many rounds in which a pair overlaps, one wall between its hulls takes the place of all,
-# if the way out of these is not much longer. After so many, one of its bodies is taken out.
+# After LOCAL_WALLS rounds with an overlap, one wall between the hulls replaces all walls of a pair,
+# unless the way out of the hulls is MUCH_LONGER. After PATIENCE rounds one body is taken out.
 LOCAL_WALLS = 3
 MUCH_LONGER = 2.0
 PATIENCE = 8
-# How often in a round walls that exclude each other may cost a body its place, and how many of
-# those that are to blame name the bodies to choose from.
+# How often a round may take out a body because walls contradict each other, and how many of the
+# contradicting walls name the candidates.
 CONFLICTS = 12
 CANDIDATES = 2
-# An overlap below this share of the coordinates is a remainder: of rounding, or of a wall that is
-# nearly right. Each time the same pair has one it is made up for by more, so many times.
+# An overlap below REPAIR_SHARE of the coordinates is a remainder: rounding, or a wall that is
+# nearly right. Each repair of the same pair raises its walls REPAIR_GROWTH times more, at most
+# REPAIRS times.
 REPAIR_SHARE = 1e-5
 REPAIR_GROWTH = 4.0
 REPAIRS = 16
-# Up to this share of the coordinates a wall is kept. It is raised in so many steps, from rounding
-# on, each REPAIR_GROWTH times the last.
+# A wall that is missed by less than ROUNDING_SHARE of the coordinates counts as kept. It is raised
+# in ROUNDING_STEPS steps, each REPAIR_GROWTH times the last.
 ROUNDING_SHARE = 1e-9
 ROUNDING_STEPS = 8
 
@@ -54,9 +56,9 @@ Progress = Callable[[int, int], None]
 
 
 class Rounds:
-    """deepest_first: a round makes one wall for a body at most, of its deepest overlap: shallow
-    ones often end with the deep ones. left: pairs that are not to be resolved any more, with the
-    reason. count: rounds so far.
+    """deepest_first: each round makes at most one wall for a body, for its deepest overlap; shallow
+    overlaps often end with the deep ones. left: pairs that were given up, with the reason. count:
+    rounds so far.
     """
 
     def __init__(self, layout: Layout, longest: float, *, deepest_first: bool = False) -> None:
@@ -76,8 +78,8 @@ class Rounds:
         return [wall for pair in sorted(self._walls) for wall in self._walls[pair]]
 
     def run(self, most: int, progress: Progress | None = None) -> None:
-        """Push until nothing overlaps that is not left, or for `most` rounds; then take out what
-        still does."""
+        """Push until only pairs in `left` overlap, at most `most` rounds; then take out the bodies
+        that still overlap."""
         started = 0
         while overlaps := self.overlaps():
             started = max(started, len(overlaps))
@@ -90,7 +92,7 @@ class Rounds:
             self.count += 1
 
     def overlaps(self) -> dict[BodyPair, PairState]:
-        """Pairs of which one body at least can be moved, in a fixed order."""
+        """Pairs with at least one movable body, in a fixed order."""
         layout = self._layout
         states = layout.states(
             [
@@ -120,8 +122,8 @@ class Rounds:
         self._project()
 
     def _project(self) -> list[list[Wall]]:
-        """Move the bodies whose walls can be kept, all others stay; returns, of each group where
-        that cannot be, or not within the longest motion, the walls to blame, the worst first."""
+        """Move each group of bodies so that it keeps its walls. A group stays if no motion keeps
+        them, or only one that is too long: returns the walls to blame of each, worst first."""
         layout = self._layout
         offsets = dict.fromkeys(sorted(layout.movable), ORIGIN)
         conflicts = []
@@ -150,8 +152,8 @@ class Rounds:
         return sorted(own, key=lambda wall: -wall.multiplier)
 
     def _settle(self, blamed: list[Wall]) -> None:
-        """Ease the first of these walls: of several of one pair only the newest is kept; else one
-        of the bodies is taken out, and where there is no place for it the pair is given up."""
+        """Resolve a contradiction. If the pair of the first wall has several walls, keep only the
+        newest. Else take out one of the bodies; if no place is free, give up the pair."""
         pair = (blamed[0].a, blamed[0].b)
         if len(self._walls[pair]) > 1 and pair not in self._locked:
             self._walls[pair] = self._walls[pair][-1:]
@@ -162,11 +164,11 @@ class Rounds:
             self._give_up(pair)
 
     def _add_wall(self, pair: BodyPair, state: PairState) -> bool:
-        """Whether the pair has a wall that is worth a try.
+        """Give the pair a wall, or raise its walls; False: stop trying walls for this pair.
 
-        Between bodies that are not convex a wall holds nearby only. A remainder of an overlap
-        raises the walls that are there. Where walls contradict each other, or come too often, one
-        that holds everywhere takes their place, or the bodies are locked to each other."""
+        A wall between concave bodies is valid nearby only. A remainder of an overlap raises the
+        walls of the pair. If walls contradict each other, or become too many, a wall between the
+        hulls, which is valid everywhere, replaces them, or the bodies are locked together."""
         push, size = state.push, self._size(pair)
         if push is None or not any(push):
             return False
@@ -198,8 +200,8 @@ class Rounds:
         return self._seen[pair] <= PATIENCE
 
     def _raised(self, pair: BodyPair, walls: Sequence[Wall]) -> bool:
-        """Whether the overlap is one of rounding: the bodies keep their walls, and are free when
-        one of these is raised by very little, as it then is."""
+        """Raise one wall by very little if that frees the pair; whether it did. The pair then keeps
+        all its walls, and only rounding made it overlap."""
         layout, there, size = (
             self._layout,
             self._layout.offset(pair),
@@ -237,8 +239,8 @@ class Rounds:
         return largest_coordinate(*(self._layout.placed[i].bounds for i in pair))
 
     def _take_out(self, bodies: Sequence[int]) -> tuple[int, ...]:
-        """Put the one of these bodies that has the shortest way to a free place there; returns it,
-        or nothing where none has one."""
+        """Move one of these bodies to a free place: the body with the shortest way. Returns it, or
+        an empty tuple if no body has a free place."""
         ways = [(way, i) for i in bodies if (way := self._free_place(i)) is not None]
         if not ways:
             return ()

@@ -1,8 +1,8 @@
-"""Separate lines that join end to end, as closed outlines.
+"""Joins separate lines into closed outlines.
 
-The ends are the nodes of a graph. Dead ends are cut back; where each node that is left joins two
-lines, they go round in outlines. Where three or more meet, lines bound several areas at once, and
-which of them are parts is not said.
+The ends of the lines are the nodes of a graph. Dead ends are removed first. If every remaining node
+joins two lines, the lines form closed outlines. If three or more lines meet at a node, the drawing
+does not say which areas are parts.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ class Line(Struct, frozen=True):
 
 
 class Joined(Struct, frozen=True):
-    """Loops: closed, the last point next to the first. dead_ends: some lines lead nowhere.
-    repeated: some were drawn twice. branching: some meet three or more at a point."""
+    """loops: closed; the last point precedes the first. dead_ends: some lines lead nowhere.
+    repeated: some lines were drawn twice. branching: three or more lines meet at a point."""
 
     loops: tuple[Line, ...]
     dead_ends: bool
@@ -62,7 +62,8 @@ def join(lines: Sequence[Line]) -> Joined:
 
 
 def _without_dead_ends(edges: dict[int, tuple[int, int]]) -> dict[int, list[int]]:
-    """Takes lines off `edges` until each node has two or more; the lines at each node."""
+    """Removes lines from `edges` until each node has at least two. Returns the lines at each
+    node."""
     at: defaultdict[int, list[int]] = defaultdict(list)
     for number, ends in edges.items():
         for node in ends:
@@ -85,7 +86,7 @@ def _loops(
     at: dict[int, list[int]],
     branching: set[int],
 ) -> Iterable[Line]:
-    """Walks round from each line, unless that leads to a branch."""
+    """The loops without a branching node."""
     waiting = dict(edges)
     while waiting:
         first, (start, node) = next(iter(waiting.items()))
@@ -110,7 +111,7 @@ def _loops(
 
 
 class _Nodes:
-    """Numbers points, those within `gap` of each other as one, through a grid of such cells."""
+    """Numbers points; points within `gap` of each other get one number. Uses a grid of cells."""
 
     def __init__(self, gap: float) -> None:
         self._gap = gap

@@ -1,4 +1,4 @@
-// What is known of a mesh before it takes part in anything.
+// The first look at a mesh: it is welded, sorted, oriented on request, and measured.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@ namespace satcheck {
 
 struct Inspection {
   Mesh mesh;               // welded and sorted, then oriented if the caller wants that
-  bool turned = false;     // whether orienting it changed anything
-  std::size_t cracks = 0;  // closed (mesh/cracks.hpp)
-  Topology topology;       // welded and sorted
+  bool turned = false;     // orienting changed the mesh
+  std::size_t cracks = 0;  // number of closed cracks (mesh/cracks.hpp)
+  Topology topology;       // before the mesh was oriented and its cracks were closed
   Topology repaired;       // of `mesh`
   std::vector<Hole> holes; // of `mesh`, the largest first
 };
 
 Inspection inspect(MeshView mesh, bool orient_it);
 
-// The same with the cracks of the mesh closed. width: points within it may be the same point.
+// Closes the cracks of the mesh. width: points this close may be the same point.
 Inspection with_cracks_closed(Inspection inspection, bool orient_it, double width);
 
 }  // namespace satcheck

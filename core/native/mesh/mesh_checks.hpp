@@ -1,4 +1,4 @@
-// What a mesh must satisfy before any geometry runs, and what it may still be.
+// Checks of a mesh before any geometry runs.
 #pragma once
 
 #include "base/mesh.hpp"
@@ -8,10 +8,10 @@ namespace satcheck {
 // Throws std::invalid_argument on a coordinate (numeric_range.hpp) or an index out of range.
 void require_valid(MeshView mesh);
 
-// Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.
+// Whether all vertices lie in one plane, exactly. True if no triangle has an area.
 bool is_flat(const Mesh& mesh);
 
-// The same of some of its triangles.
+// The same for some of its triangles.
 bool is_flat(const Mesh& mesh, const std::vector<std::uint32_t>& triangles);
 
 }  // namespace satcheck

@@ -1,4 +1,4 @@
-// The topology of what most meshes are, for less than that of any mesh.
+// A fast path for the topology of closed manifold meshes, which most meshes are.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace satcheck {
 
-// measure_welded() of a mesh as weld_and_sort() leaves it, if every edge has two triangles, of different corners,
-// that run it in opposite directions; else nothing.
+// The result of measure_welded() for the output of weld_and_sort(). Empty unless every edge has two triangles, with
+// different corners, that run it in opposite directions.
 std::optional<Topology> measure_sorted_manifold(const Mesh& sorted);
 
 }  // namespace satcheck

@@ -1,5 +1,5 @@
-// What is made of the mesh of a body, in its file and in the world: each thing by the first thread that asks
-// for it, once.
+// The data derived from the mesh of a body, in file and in world coordinates. Each is made once, by the first thread
+// that needs it.
 #pragma once
 
 #include <array>
@@ -16,12 +16,12 @@ namespace satcheck {
 
 using Matrix = std::array<double, 16>;  // 4x4 by rows, for column vectors
 
-// What all bodies of one mesh share, in file coordinates.
+// The data that all bodies with one mesh share, in file coordinates.
 class Geometry {
  public:
-  // solid: the mesh is closed and consistently wound. Surfaces throw std::invalid_argument where it is not.
-  // plain: more than that, it is as inspect() left it and was found to be a plain solid; that is not proven again.
-  // open: how the open parts of its surface are read.
+  // solid: the mesh is closed and consistently wound. If that is false, surfaces throw std::invalid_argument.
+  // plain: the mesh is the output of inspect(), which proved that it is a plain solid. That is not proven again.
+  // open: what the open parts of its surface mean.
   Geometry(std::shared_ptr<Mesh> mesh, bool solid, bool plain = false, OpenParts open = OpenParts::filled)
       : mesh_(std::move(mesh)), solid_(solid), plain_(plain), open_(open) {}
 
@@ -30,13 +30,13 @@ class Geometry {
   bool plain() const { return plain_; }
   const Aabb& bounds();
 
-  // Closed, consistently outward, and exactly convex. An affine map keeps that, up to the one rounding of each
-  // world coordinate: the body is then taken as the hull of its world vertices.
+  // Closed, consistently outward, and exactly convex. An affine map keeps a mesh convex up to the rounding of each
+  // world coordinate, so the body in the world is the hull of its world vertices.
   bool convex();
   std::optional<bool> known_convex() const;
 
   std::shared_ptr<Surface> surface();
-  // Of a plain one, for queries about this region; not kept.
+  // The surface for queries about this region. The mesh must be plain. The result is not kept.
   std::shared_ptr<Surface> surface_near(const Aabb& region);
   std::shared_ptr<Polytope> hull();
   std::shared_ptr<Shape> hull_shape();
@@ -63,11 +63,11 @@ class Geometry {
   std::atomic<std::size_t> hierarchies_{0}, refits_{0};
 };
 
-// One of these bodies, in the world. What is made of it can be let go; it is made again should somebody ask.
+// One body in the world. Its data can be released and are made again on demand.
 class PlacedGeometry {
  public:
-  // transform: affine and not singular; nothing: as in the file. bounds: of the body. resolution: how finely its
-  // coordinates are known, world units.
+  // transform: affine and not singular; empty: the identity. bounds: of the body. resolution: the precision of its
+  // coordinates, world units.
   PlacedGeometry(std::shared_ptr<Geometry> shared, std::optional<Matrix> transform, Aabb bounds, double resolution)
       : shared_(std::move(shared)), transform_(transform), bounds_(bounds), resolution_(resolution) {}
 
@@ -80,7 +80,7 @@ class PlacedGeometry {
   std::shared_ptr<Surface> surface();
   std::shared_ptr<Polytope> hull();      // of all vertices, with its faces
   std::shared_ptr<Shape> hull_shape();   // the same as a shape, usually without faces
-  // The box of the file's mesh, carried by the transform; it holds every point within `pad` of the body.
+  // The box of the mesh in the file, moved by the transform. It contains every point within `pad` of the body.
   OrientedBox oriented_box(double pad);
 
   void release();
