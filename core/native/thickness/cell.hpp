@@ -1,0 +1,43 @@
+// A convex cell of space: an intersection of half spaces, with its corners.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/vec.hpp"
+
+namespace satcheck {
+
+// normal . p <= height, |normal| = 1 up to rounding.
+struct HalfSpace {
+  Vec3 normal;
+  double height;
+};
+
+// Exactly the intersection of its half spaces, in general position: each corner lies on three planes, and an edge joins
+// two corners that share two. A flat cell lies in its first plane.
+struct Cell {
+  struct Corner {
+    Vec3 at;               // rounded
+    std::uint64_t planes;  // bit i: on the plane of sides[i]
+  };
+  std::vector<HalfSpace> sides;
+  std::vector<Corner> corners;
+  double error = 0;  // no corner is farther than this from its exact place
+
+  Aabb box() const;
+};
+
+// A frame of three axes, perpendicular up to rounding, with an interval along each. scale: no coordinate is larger.
+// flat: an axis along which the interval is one point, or -1.
+Cell make_cell(const Mat3& axes, Vec3 low, Vec3 high, int flat, double scale);
+
+struct Halves {
+  Cell below, above;  // normal . p <= height, and >= height
+};
+
+// The two parts of a cell, with a height that differs from the given one by rounding so that no corner is too close to
+// the plane. Nothing where one part is empty, or where corners would not be known well.
+std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double scale);
+
+}  // namespace satcheck

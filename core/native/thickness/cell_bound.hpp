@@ -1,0 +1,30 @@
+// The largest depth of the points of a cell, from above.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "thickness/cell.hpp"
+#include "thickness/two_bodies.hpp"
+
+namespace satcheck {
+
+struct OpenCell {
+  double bound = INFINITY;  // of the depth of its points
+  Cell cell;
+  PatchLists near;                    // patches that can be nearest to a point of it
+  std::vector<Column> columns;        // that the bound of the cell it comes from rests on
+  std::array<bool, 2> inside{};       // all of it is inside the body
+  std::optional<HalfSpace> cut;       // where to split it
+  std::uint64_t number = 0;
+};
+
+// Called with a point whose distance from all triangles looks promising. Which body it is outside of: 0, 1, or -1.
+using Consider = std::function<int(Vec3 p)>;
+
+// Sets the bound of the cell, and where to split it if that is larger than `enough`. `bound`, `near` and `columns` are
+// those of the cell it comes from. best: points that are no deeper are not considered.
+void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider);
+
+}  // namespace satcheck

@@ -1,0 +1,142 @@
+#include "thickness/two_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/tolerances.hpp"
+#include "base/work.hpp"
+#include "exact/triangle_distance.hpp"
+#include "mesh/nearest_point.hpp"
+
+namespace satcheck {
+namespace {
+
+// Measured steps of a distance, and of a patch that is held against a plane.
+constexpr std::uint64_t kDistanceWork = 25, kSideWork = 5;
+
+// The distance from a point to a triangle, in float64: a point is placed with a rounded normal (16 roundoffs of the
+// distance) or on an edge (8), on a side of an edge that 9 roundoffs decide, of a distance below 4 times the largest
+// coordinate; a difference and a root add 4. Rounded up.
+constexpr double kDistanceRoundoffs = 256;
+
+Vec3 farthest_corner(const Aabb& box, Vec3 along) {
+  return {along.x > 0 ? box.max.x : box.min.x, along.y > 0 ? box.max.y : box.min.y, along.z > 0 ? box.max.z : box.min.z};
+}
+
+}  // namespace
+
+TwoBodies::TwoBodies(const Surface& a, const Surface& b, const ThicknessGoal& goal)
+    : surfaces_{&a, &b}, less_{goal.less_a, goal.less_b}, across_(goal.across) {
+  for (const Surface* surface : surfaces_) {
+    const Aabb& box = surface->bvh.nodes[0].box;
+    scale_ = std::fmax(scale_, std::fmax(max_abs(box.min), max_abs(box.max)));
+  }
+  rounding_ = kDistanceRoundoffs * kUnitRoundoff * scale_;
+}
+
+// In the plane, the ends of a prism do not count.
+bool TwoBodies::counts(int body, std::uint32_t triangle) const {
+  if (across_ < 0) return true;
+  const Aabb box = triangle_box(surface(body).mesh, triangle);
+  return box.min[across_] != box.max[across_];
+}
+
+PatchLists TwoBodies::find_patches(const Aabb& box, double reach, double flatness) {
+  PatchLists lists;
+  const Vec3 wide{reach, reach, reach};
+  for (int body = 0; body < 2; ++body) {
+    const Surface& from = surface(body);
+    std::vector<std::uint32_t> triangles;
+    visit_box(from.bvh, from.mesh, {box.min - wide, box.max + wide}, [&](std::uint32_t t) {
+      if (counts(body, t)) triangles.push_back(t);
+      return true;
+    });
+    std::sort(triangles.begin(), triangles.end());
+    work_done += 20 * kDistanceWork * triangles.size();
+    const auto side = static_cast<std::size_t>(body);
+    patches_[side] = convex_patches(from.mesh, triangles, flatness);
+    for (std::uint32_t i = 0; i < patches_[side].patches.size(); ++i) lists[side].push_back(i);
+  }
+  return lists;
+}
+
+double TwoBodies::value(const Column& column, Vec3 p) const {
+  const Patch& from = patch(column.body, column.patch);
+  const double depth = column.plane ? column.height - column.sign * dot(from.normal, p)
+                                    : patches(column.body).distance(from, p) + from.slack;
+  return depth - less(column.body);
+}
+
+bool TwoBodies::is_inside(int body, Vec3 p) const {
+  const auto winding = winding_number(surface(body), p);
+  return winding && *winding != 0;
+}
+
+bool TwoBodies::is_outside(int body, Vec3 p) const {
+  const auto winding = winding_number(surface(body), p);
+  return winding && *winding == 0;
+}
+
+double TwoBodies::clearance(int body, Vec3 p) const {
+  if (across_ < 0) return nearest_point(surface(body), p).distance - rounding_;
+  double least = INFINITY;
+  const Mesh& mesh = surface(body).mesh;
+  work_done += kDistanceWork * mesh.triangles.size();
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (counts(body, t)) least = smaller(least, norm(nearest_on_triangle(p, corners(mesh, t)) - p));
+  }
+  return least - rounding_;
+}
+
+// The largest normal . x of a patch's points in the box: the outline, cut by the six sides of the box.
+double TwoBodies::farthest_in(int body, std::uint32_t number, const Aabb& box, Vec3 normal) const {
+  const Patch& from = patch(body, number);
+  const Vec3* outline = patches(body).outlines.data() + from.first;
+  std::vector<Vec3> shape(outline, outline + from.count), cut;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      const double wall = sign > 0 ? box.max[axis] : -box.min[axis];
+      cut.clear();
+      for (std::size_t i = 0; i < shape.size(); ++i) {
+        const Vec3 p = shape[i], q = shape[(i + 1) % shape.size()];
+        const double s = sign * p[axis] - wall, t = sign * q[axis] - wall;
+        if (s <= 0) cut.push_back(p);
+        if ((s < 0 && t > 0) || (s > 0 && t < 0)) cut.push_back(p + (q - p) * (s / (s - t)));
+      }
+      std::swap(shape, cut);
+    }
+  }
+  double most = -INFINITY;
+  for (const Vec3 p : shape) most = larger(most, dot(normal, p));
+  return most;
+}
+
+std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, const Aabb& box, const PatchList& near,
+                                              double tolerance) const {
+  const Patch& from = patch(body, number);
+  if (norm_squared(from.normal) == 0) return std::nullopt;
+  for (const double sign : {1.0, -1.0}) {
+    const Vec3 normal = from.normal * sign;
+    const double plane = dot(normal, from.origin) + from.slack;
+    double height = plane;
+    for (const std::uint32_t other : near) {
+      work_done += kSideWork;
+      const Aabb& around = patch(body, other).box;
+      if (other == number || dot(normal, farthest_corner(around, normal)) <= height || !meet(around, box)) continue;
+      double farthest = -INFINITY;
+      const Vec3* outline = patches(body).outlines.data() + patch(body, other).first;
+      for (std::uint32_t i = 0; i < patch(body, other).count; ++i) farthest = larger(farthest, dot(normal, outline[i]));
+      if (farthest > plane + tolerance) farthest = farthest_in(body, other, box, normal);
+      height = larger(height, farthest);
+      if (height > plane + tolerance) break;
+    }
+    if (height > plane + tolerance) continue;
+    height += rounding_;
+    const Vec3 corner = farthest_corner(box, normal);
+    if (dot(normal, corner) > height && !is_outside(body, corner)) continue;
+    return Column{number, true, body, height, sign};
+  }
+  return std::nullopt;
+}
+
+}  // namespace satcheck

@@ -1,0 +1,66 @@
+// Two solids as the search for the thickness of their overlap sees them: flat convex patches, distances, insides.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "thickness/convex_patches.hpp"
+#include "thickness/thickness_search.hpp"
+
+namespace satcheck {
+
+using PatchList = std::vector<std::uint32_t>;
+using PatchLists = std::array<PatchList, 2>;  // of either body
+
+// A convex function that is no smaller than the depth of p in the body, for p of some region inside the body. Either the
+// distance from a patch; or the distance from its plane, where the body does not reach beyond that plane near the region.
+struct Column {
+  std::uint32_t patch;
+  bool plane;
+  int body;
+  double height;  // normal . p <= height holds for the body near the region
+  double sign;    // the plane's normal is that of the patch, times this
+};
+
+class TwoBodies {
+ public:
+  TwoBodies(const Surface& a, const Surface& b, const ThicknessGoal& goal);
+
+  // What is computed in float64 about points of the bodies is off by less.
+  double rounding() const { return rounding_; }
+  double scale() const { return scale_; }
+  double less(int body) const { return less_[static_cast<std::size_t>(body)]; }
+  const Surface& surface(int body) const { return *surfaces_[static_cast<std::size_t>(body)]; }
+  const ConvexPatches& patches(int body) const { return patches_[static_cast<std::size_t>(body)]; }
+  const Patch& patch(int body, std::uint32_t i) const { return patches(body).patches[i]; }
+
+  // Makes the patches of the triangles that are no farther than `reach` from the box. flatness: convex_patches.hpp.
+  PatchLists find_patches(const Aabb& box, double reach, double flatness);
+
+  // With less() of the body taken off.
+  double value(const Column& column, Vec3 p) const;
+
+  // Winding numbers, exact. Neither holds on the surface.
+  bool is_inside(int body, Vec3 p) const;
+  bool is_outside(int body, Vec3 p) const;
+
+  // The distance from p to the nearest triangle of the body, from below.
+  double clearance(int body, Vec3 p) const;
+
+  // The patch's plane as a column, where the body, of which `near` are the patches, has nothing beyond it in the box.
+  // tolerance: by how much it may reach beyond the patch's own plane.
+  std::optional<Column> plane_column(int body, std::uint32_t patch, const Aabb& box, const PatchList& near, double tolerance) const;
+
+ private:
+  bool counts(int body, std::uint32_t triangle) const;
+  double farthest_in(int body, std::uint32_t patch, const Aabb& box, Vec3 normal) const;
+
+  std::array<const Surface*, 2> surfaces_;
+  std::array<double, 2> less_;
+  std::array<ConvexPatches, 2> patches_;
+  int across_;
+  double scale_ = 0, rounding_ = 0;
+};
+
+}  // namespace satcheck
