@@ -163,8 +163,8 @@ def _agreeing(sagittas: Floats, pairs: Indices) -> Flags:
 def _of_triangles(
     facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indices, most_turn: float
 ) -> tuple[Floats, Floats, Floats]:
-    """(c,): the sagittas of these triangles, the radius of the surface over the edge with the
-    highest rise, and how far it turns there. The sagitta is 0 where that is too far, even for the
+    """(c,): the sagittas of these triangles, the radius of the surface over an edge across
+    them, and how far it turns there. The sagitta is 0 where that is too far, even for the
     diagonal of a quadrilateral."""
     facet = facets.of_triangle[chosen]
     corners = facets.points[facets.triangles[chosen]]
@@ -180,10 +180,13 @@ def _of_triangles(
     turns = 2 * np.arcsin(np.minimum(np.linalg.norm(change, axis=2) / 2, 1.0))
     at_edges = (edges * change).sum(axis=2) / (8 * np.cos(turns / 4) ** 2)
     rises = np.abs(at_edges)
-    top = np.arange(len(rises)), rises.argmax(axis=1)
-    rise, turn, square = rises[top], turns[top], (edges[top] ** 2).sum(axis=1)
-    radius = np.divide(square, 8 * rise, out=np.full_like(rise, np.inf), where=rise > 0)
-    even = turn <= math.sqrt(2) * most_turn
+    squares = (edges**2).sum(axis=2)
+    # Of the edges over which it rises, by half of the most, the one that turns least: no diagonal.
+    rising = rises >= rises.max(axis=1, keepdims=True) / 2
+    across = np.arange(len(rises)), np.where(rising, turns, np.inf).argmin(axis=1)
+    rise, turn = rises[across], turns[across]
+    radius = np.divide(squares[across], 8 * rise, out=np.full_like(rise, np.inf), where=rise > 0)
+    even = turns.max(axis=1) <= math.sqrt(2) * most_turn
     return np.where(even, _highest(at_edges), 0.0), radius + rise / 2, turn
 
 
