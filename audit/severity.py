@@ -21,6 +21,8 @@ from satcheck.report.report import OVERLAPS, SEVERITIES, Severity, Undecided
 
 if TYPE_CHECKING:
     from satcheck.audit.answer import Answer
+    from satcheck.audit.request.settings import FailOn
+    from satcheck.report.report import Finding
 
 CLEARANCE_RULE = "clearance"
 
@@ -79,6 +81,12 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
             return _warned(by_rule(close, pair.request), "relation")
         return _warned(replace(judgement, severity="warning"), "relation")
     return _warned(judgement, "relation") if judgement.passes else judgement
+
+
+def fails(finding: Finding, fail_on: FailOn) -> bool:
+    """Whether the finding is decided and as grave as that. Errors are decided as far as matters."""
+    decided = finding.undecided is None or finding.severity == "error"
+    return decided and SEVERITIES.index(finding.severity) <= SEVERITIES.index(fail_on)
 
 
 def by_rule(judgement: Judgement, request: Request) -> Judgement:

@@ -12,13 +12,13 @@ from msgspec import convert, to_builtins
 from satcheck._version import __version__
 from satcheck.audit.bodies.placed_bodies import PlacedBodies, UnusableBody
 from satcheck.audit.bodies.placed_body import PlacedBody
+from satcheck.audit.severity import fails
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import values_of
 from satcheck.report.bodies import Health, StatedShape
 from satcheck.report.report import (
     NOTHING_TO_CHECK,
     RELATIONS,
-    SEVERITIES,
     BodyReport,
     Exempt,
     Finding,
@@ -26,6 +26,7 @@ from satcheck.report.report import (
     PairCounts,
     PartError,
     Relation,
+    Report,
     RuleReport,
     Summary,
     Tool,
@@ -85,11 +86,17 @@ def summarise(
     )
 
 
+def verdict_of(report: Report) -> Verdict:
+    """Of the findings as they are now."""
+    alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
+    summary = report.summary
+    return "pass" if alone else _verdict(summary.pairs, report.findings, report.settings.fail_on)
+
+
 def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:
-    """What was found stands whatever else is unknown; a check of nothing never passes."""
-    grave = SEVERITIES[: SEVERITIES.index(fail_on) + 1]
-    decided = (f for f in findings if f.undecided is None or f.severity == "error")
-    if any(finding.severity in grave for finding in decided):
+    """What was found stands whatever else is unknown; a check of nothing never passes. A finding
+    that a baseline holds, unchanged, does not fail."""
+    if any(fails(f, fail_on) for f in findings if f.baseline_state != "unchanged"):
         return "fail"
     unchecked = any(finding.undecided is not None for finding in findings)
     return "incomplete" if unchecked or not counts.asked else "pass"

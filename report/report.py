@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from msgspec import Meta, to_builtins
 
+from satcheck.report.baseline import BaselineState, StatedBaseline
 from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
@@ -91,6 +92,7 @@ class Summary(Value, frozen=True):
     keeps its clearance, at rest or on the way.
     sweeps_undecided: the pairs of which it could not be decided whether they hit while they move.
     disputed: the pairs on which another library contradicts the answer (Settings.cross_check).
+    accepted: failing findings that the baseline holds, unchanged: they do not make the check fail.
     """
 
     verdict: Verdict
@@ -100,6 +102,7 @@ class Summary(Value, frozen=True):
     limits_undecided: Count = 0
     sweeps_undecided: Count = 0
     disputed: Count = 0
+    accepted: Count = 0
 
 
 class Truncated(Value, frozen=True):
@@ -150,7 +153,8 @@ class Finding(Value, frozen=True, kw_only=True):
     as it had to be for the moved mesh to be verified free. motion: None where neither body moves
     against the other, or their boxes stay apart; relation, severity and undecided count it, figures
     are as placed. certificate: what `satcheck verify` checks; None: not asked for, or nothing is
-    proven, and the last stage of the plan says why.
+    proven, and the last stage of the plan says why. baseline_state: of a failing finding, in a
+    check that has a baseline.
     """
 
     id: str
@@ -180,7 +184,7 @@ class Finding(Value, frozen=True, kw_only=True):
     certificate: Certificate | None = None
     reason: str | None = None
     plan: tuple[Stage, ...]
-    baseline_state: None = None
+    baseline_state: BaselineState | None = None
 
     def __post_init__(self) -> None:
         lengths = (self.tolerance, self.distance, self.depth, self.volume, self.volume_error)
@@ -270,6 +274,7 @@ class Report(Value, frozen=True, kw_only=True):
     of several about a pair, the last one that sets a key decides it. findings: every pair that is
     asked about, but for those that `truncated` counts, in the order of the bodies. truncated: pairs
     that are asked about and apart by their boxes, where there are more than 60 pairs; None: none.
+    baseline: which the check was held against; None: none.
     """
 
     schema: Literal["satcheck.report/1"] = SCHEMA
@@ -286,6 +291,7 @@ class Report(Value, frozen=True, kw_only=True):
     findings: tuple[Finding, ...]
     issues: tuple[Issue, ...]
     truncated: Truncated | None = None
+    baseline: StatedBaseline | None = None
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""

@@ -98,7 +98,7 @@ COVERAGE: dict[str, Cover] = {
     "findings[].certificate": PROVEN,
     "findings[].reason": _not("reasons"),
     "findings[].plan": _not("plans"),
-    "findings[].baseline_state": FOLLOWS,  # always null
+    "findings[].baseline_state": _not("which findings a baseline accepts"),
     "issues[].code": _not("issues"),
     "issues[].severity": _not("issues"),
     "issues[].body": FOLLOWS,
@@ -106,6 +106,8 @@ COVERAGE: dict[str, Cover] = {
     "issues[].message": _not("issues"),
     "truncated.pairs": FOLLOWS,
     "truncated.reason": _not("reasons"),
+    "baseline.file": _not("which findings a baseline accepts"),
+    "baseline.absent": _not("which findings a baseline accepts"),
 }
 
 

@@ -39,7 +39,9 @@ def check_summary(
     if (0 if truncated is None else truncated.pairs) != pruned:
         raise Rejected(f"the findings leave out {pruned} pairs")
     least = SEVERITIES.index(report.settings.fail_on)
-    failed = any(_fails(finding, least) for finding in findings)
+    _check_baseline(report, findings, least)
+    new = (finding for finding in findings if finding.baseline_state != "unchanged")
+    failed = any(_fails(finding, least) for finding in new)
     alone = len(report.bodies) == 1 and report.bodies[0].triangles is not None
     left_open = undecided.total() > undecided[None] or (total == allowed and not alone)
     verdict = "fail" if failed else "incomplete" if left_open else "pass"
@@ -75,6 +77,17 @@ def _check_effects(report: Report, total: int) -> None:
     for effect in report.effects:
         if effect.pairs + sum(effect.not_run.values()) != total:
             raise Rejected(f"the pairs of the effect {effect.effect} are not all pairs")
+
+
+def _check_baseline(report: Report, findings: Sequence[Finding], least: int) -> None:
+    """Failing findings have a state if there is a baseline, and no others do."""
+    for finding in findings:
+        has_state = report.baseline is not None and _fails(finding, least)
+        if (finding.baseline_state is not None) != has_state:
+            raise Rejected(f"{finding.a} and {finding.b}: the baseline_state is out of place")
+    accepted = sum(finding.baseline_state == "unchanged" for finding in findings)
+    if report.summary.accepted != accepted:
+        raise Rejected(f"the baseline accepts {accepted} findings")
 
 
 def _fails(finding: Finding, least: int) -> bool:

@@ -15,10 +15,11 @@ from satcheck.audit.finding import examine
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.request.settings import FailOn
 from satcheck.audit.request.trace import Trace
+from satcheck.audit.severity import fails
 from satcheck.audit.vectors import scaled, unit
 from satcheck.core.conventions import Vector
 from satcheck.core.tolerances import rounding_pad
-from satcheck.report.report import OVERLAPS, SEVERITIES, Finding
+from satcheck.report.report import OVERLAPS, Finding
 
 
 class PairState(Struct, frozen=True):
@@ -40,8 +41,7 @@ def is_objected(finding: Finding, fail_on: FailOn) -> bool:
     within its limits."""
     if finding.undecided == "limit" and finding.at_rest in OVERLAPS:
         return True
-    grave = SEVERITIES[: SEVERITIES.index(fail_on) + 1]
-    return finding.severity in grave and (finding.undecided is None or finding.severity == "error")
+    return fails(finding, fail_on)
 
 
 def state_of(pair: Pair, finding: Finding) -> PairState:

@@ -12,9 +12,11 @@ from msgspec.structs import replace
 
 from satcheck._version import __version__
 from satcheck.audit import Report, Settings, check
+from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.samples import Samples, check_poses
 from satcheck.cli import exit_codes
+from satcheck.cli.baseline_file import read_baseline
 from satcheck.cli.commands import COMMANDS
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
@@ -172,6 +174,12 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="The least severity of a finding that makes the check fail. Overlaps and gaps below the "
     "clearance are errors, unless a rule of the scene says otherwise; a touch is a note.",
 )
+@click.option(
+    "--baseline",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Fail only on findings that are new, or worse than in this baseline (satcheck baseline).",
+)
 @open_option
 @click.option(
     "--cross-check",
@@ -213,6 +221,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 def command(
     form: str | None,
     output: Path | None,
+    baseline: Path | None,
     explain: bool,
     quiet: bool,
     exit_zero: bool,
@@ -236,6 +245,7 @@ def command(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
     refuse_early(inputs, output)
+    known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed=form == "json")
     _collect_garbage(scene)
@@ -246,8 +256,10 @@ def command(
     result: Report | Samples
     if poses is None:
         result = _check(scene, settings_of(options, scene))
+        if known is not None:
+            result = beside_baseline(result, known, str(baseline))
     else:
-        _refuse_of_poses(form, explain=explain, **options)
+        _refuse_of_poses(form, explain=explain, baseline=baseline, **options)
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
     if output is not None or not quiet:
         document.deliver(
@@ -293,7 +305,7 @@ def _refuse_of_poses(form: str, **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
     if form in CI_FORMATS:
         raise click.UsageError(f"--format {form} takes one pose, and several are given")
-    for name in ("certificate", "explain", "cross_check"):
+    for name in ("baseline", "certificate", "explain", "cross_check"):
         if options[name]:
             option = name.replace("_", "-")
             raise click.UsageError(f"--{option} takes one pose, and several are given")

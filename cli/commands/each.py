@@ -11,8 +11,10 @@ import click
 from msgspec import to_builtins
 
 from satcheck.audit.assets import check_asset
+from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.summary import tool
 from satcheck.cli import exit_codes
+from satcheck.cli.baseline_file import asset_key, read_baseline
 from satcheck.cli.commands.check import command as check_command
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
@@ -30,7 +32,8 @@ from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import render as render_for_ci
 from satcheck.cli.report.json import document as json_document
 from satcheck.core import keep_freed_memory
-from satcheck.report.assets import AssetsReport, AssetVerdict, assets_report
+from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, asset, assets_report
+from satcheck.report.baseline import Baseline
 from satcheck.report.report import without_timings
 from satcheck.scene import Scene, load_scene
 from satcheck.scene.asset_files import asset_files, changed_since
@@ -62,6 +65,7 @@ def command(
     exit_zero: bool,
     timings: bool,
     changed_since: str | None,
+    baseline: Path | None,
     **options: Any,
 ) -> int:
     """Check each asset of a folder as a scene of its own.
@@ -78,12 +82,16 @@ def command(
     inputs = Inputs.taken_from(options)
     form = form_of(form, output, REPORT_FORMATS)
     refuse_early(inputs, output)
+    known = None if baseline is None else read_baseline(baseline)
     document = Document()
     files = _files(inputs.paths, changed_since, planar=options["planar"] is not None)
     if not files:
         talk(f"satcheck: no asset changed since {changed_since}")
         return exit_codes.CLEAN
-    report = _check(files, inputs, options, hashed=form == "json")
+    assets = _check(files, inputs, options, hashed=form == "json")
+    if known is not None and baseline is not None:
+        assets = [_beside(each, known, baseline) for each in assets]
+    report = assets_report(tool(), assets)
     if output is not None or not quiet:
         document.deliver(
             lambda page: _render(report, form, page, timings=timings),
@@ -105,7 +113,7 @@ def _files(given: Sequence[str], revision: str | None, *, planar: bool) -> list[
 
 def _check(
     files: Sequence[str], inputs: Inputs, options: Mapping[str, Any], *, hashed: bool
-) -> AssetsReport:
+) -> list[Asset]:
     keep_freed_memory()
 
     def load(file: str) -> Scene:
@@ -124,7 +132,12 @@ def _check(
             assets.append(check_asset(file, load, lambda scene: settings_of(options, scene)))
             if bar is not None:
                 bar(number + 1, len(files))
-    return assets_report(tool(), assets)
+    return assets
+
+
+def _beside(each: Asset, known: Baseline, path: Path) -> Asset:
+    report = beside_baseline(each.report, known, str(path), asset_key(each.file, path))
+    return asset(each.file, report)
 
 
 def _render(report: AssetsReport, form: str, page: Page, *, timings: bool) -> str:

@@ -10,7 +10,7 @@ from rich.text import Text
 
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.ci.problems import problems
-from satcheck.cli.report.words import counted
+from satcheck.cli.report.words import absent_words, counted
 from satcheck.report.assets import ASSET_VERDICTS
 
 if TYPE_CHECKING:
@@ -55,7 +55,18 @@ def summary_line(report: AssetsReport) -> str:
         )
         if count
     ]
-    return f"{report.verdict.upper()}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
+    line = f"{report.verdict.upper()}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
+    return " ".join([line, *_beside_baseline(report)])
+
+
+def _beside_baseline(report: AssetsReport) -> list[str]:
+    """`Baseline: 2 known findings; 1 more passes now: satcheck baseline prune.`"""
+    stated = [asset.report.baseline for asset in report.assets if asset.report.baseline]
+    if not stated:
+        return []
+    accepted = sum(asset.report.summary.accepted for asset in report.assets)
+    absent = sum(len(baseline.absent) for baseline in stated)
+    return [f"Baseline: {counted(accepted, 'known finding')}{absent_words(absent)}."]
 
 
 def _table(assets: list[Asset], *, unicode: bool) -> Table:

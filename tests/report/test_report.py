@@ -85,6 +85,7 @@ def test_keys_come_in_the_order_of_the_schema():
             "findings",
             "issues",
             "truncated",
+            "baseline",
         ]
     )
     assert list(plain["findings"][0]) == FINDING_KEYS

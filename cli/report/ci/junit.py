@@ -1,7 +1,8 @@
 """JUnit XML, as CI servers read it: a test suite for each report, a test case for each finding.
 
-A finding that fails is a failure, an undecided question an error; a finding that passes passes. The
-pairs that the report does not list are one test case together, and so is an asset without pairs.
+A finding that fails is a failure, an undecided question an error, a finding that a baseline holds
+is skipped; others pass. The pairs that the report does not list are one test case together, and so
+is an asset without pairs.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ import re
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from satcheck.audit.severity import fails
 from satcheck.cli.report.ci.problems import kind_of, sentence
 from satcheck.cli.report.summary import summary_line
 from satcheck.cli.report.words import counted, issue_line
-from satcheck.report.report import SEVERITIES
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
@@ -49,8 +50,8 @@ def _suite(name: str, report: Report) -> ElementTree.Element:
     if not len(suite):
         _case(suite, name, "no pair")
     ElementTree.SubElement(suite, "system-out").text = _clean(summary_line(report))
-    for kind in ("failure", "error"):
-        suite.set(f"{kind}s", str(len(suite.findall(f"testcase/{kind}"))))
+    for name, kind in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
+        suite.set(name, str(len(suite.findall(f"testcase/{kind}"))))
     suite.set("tests", str(len(suite.findall("testcase"))))
     return suite
 
@@ -64,7 +65,9 @@ def _judge(case: ElementTree.Element, finding: Finding, report: Report) -> None:
     text = sentence(finding, unit_of(report.units))
     if finding.undecided is not None:
         _say(case, "error", "undecided", text)
-    elif SEVERITIES.index(finding.severity) <= SEVERITIES.index(report.settings.fail_on):
+    elif finding.baseline_state == "unchanged":
+        ElementTree.SubElement(case, "skipped", message=_clean(text))
+    elif fails(finding, report.settings.fail_on):
         _say(case, "failure", kind_of(finding), text)
 
 

@@ -16,6 +16,7 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from satcheck.report.baseline import BaselineState
     from satcheck.report.report import Finding, Issue, Report
 
 Level = Literal["error", "warning", "note"]
@@ -41,6 +42,7 @@ class Problem(NamedTuple):
     bodies: tuple[str, ...]
     id: str
     depth: float = 0.0
+    state: BaselineState | None = None
 
 
 def problems(reports: Mapping[str, Report]) -> list[Problem]:
@@ -71,6 +73,8 @@ def sentence(finding: Finding, unit: str | None) -> str:
     text = ", ".join(parts)
     if finding.mtv is not None and finding.mtv_verified:
         text += f"; moving {finding.a} by {vector(finding.mtv)} ends the overlap"
+    if finding.baseline_state is not None:
+        text += f" [baseline: {finding.baseline_state}]"
     if finding.reason is not None:
         text += f" ({finding.reason})"
     return f"{text}."
@@ -97,6 +101,9 @@ def uri(file: str) -> str:
 
 
 def _level(finding: Finding) -> Level | None:
+    """None: no problem. A finding that a baseline holds, unchanged, is a note."""
+    if finding.baseline_state == "unchanged":
+        return "note"
     severity = finding.severity
     return severity if severity in ("error", "warning", "note") else None
 
@@ -111,6 +118,7 @@ def _of_finding(finding: Finding, level: Level, files: dict[str, str], unit: str
         bodies,
         finding.id,
         finding.depth or 0.0,
+        finding.baseline_state,
     )
 
 

@@ -62,9 +62,19 @@ def _invocation(reports: Mapping[str, Report], left_out: int) -> dict[str, Any]:
     }
 
 
+_BASELINE_STATES = {
+    "new": "new",
+    "unchanged": "unchanged",
+    "worse": "updated",
+    "unmeasured": "updated",
+}
+
+
 def _result(problem: Problem, rule: int) -> dict[str, Any]:
     locations = [_location(problem, number) for number in range(len(problem.files))]
+    state = {} if problem.state is None else {"baselineState": _BASELINE_STATES[problem.state]}
     return {
+        **state,
         "ruleId": problem.kind,
         "ruleIndex": rule,
         "level": problem.level,

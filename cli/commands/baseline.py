@@ -1,0 +1,120 @@
+"""`satcheck baseline`: the findings that a team accepts for now."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import click
+import msgspec
+
+from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
+from satcheck.cli.baseline_file import asset_key, read_baseline
+from satcheck.cli.options import HELP_NAMES, Group
+from satcheck.cli.output import Document, write_file
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.words import counted
+from satcheck.core.errors import SatcheckError
+from satcheck.report.assets import AssetsReport
+from satcheck.report.baseline import Baseline
+from satcheck.report.report import Report
+
+file_argument = click.argument("file", metavar="BASELINE", type=click.Path(path_type=Path))
+reports_argument = click.argument(
+    "reports",
+    metavar="REPORT ...",
+    nargs=-1,
+    required=True,
+    type=click.Path(dir_okay=False, path_type=Path),
+)
+reason_option = click.option(
+    "--reason", default="", metavar="TEXT", help="Why these findings are accepted."
+)
+
+
+@click.group("baseline", cls=Group, context_settings=HELP_NAMES)
+def command() -> None:
+    """Known findings that do not fail a check: write, update, prune.
+
+    REPORT is a JSON report of a check or of `satcheck each`, with the options that the check in CI
+    has. `satcheck --baseline BASELINE ...` then fails only on findings that are new or worse.
+    """
+
+
+@command.command("write", context_settings=HELP_NAMES)
+@file_argument
+@reports_argument
+@reason_option
+def write(file: Path, reports: Sequence[Path], reason: str) -> None:
+    """Write a new baseline with the failing findings of reports."""
+    if file.exists():
+        raise click.UsageError(f"{file} exists: `satcheck baseline update` changes it")
+    _update(file, Baseline(), reports, reason)
+
+
+@command.command("update", context_settings=HELP_NAMES)
+@file_argument
+@reports_argument
+@reason_option
+def update(file: Path, reports: Sequence[Path], reason: str) -> None:
+    """Add new findings of reports and take over worse figures. Reasons are kept."""
+    _update(file, read_baseline(file), reports, reason)
+
+
+@command.command("prune", context_settings=HELP_NAMES)
+@file_argument
+@reports_argument
+def prune(file: Path, reports: Sequence[Path]) -> None:
+    """Remove findings of pairs that the reports checked again, and that pass now."""
+    baseline = read_baseline(file)
+    absent = [
+        known
+        for asset, report in _named_reports(reports, file)
+        for known in absent_from(report, baseline, asset)
+    ]
+    _write(file, baseline, pruned(baseline, absent))
+
+
+def _update(file: Path, baseline: Baseline, reports: Sequence[Path], reason: str) -> None:
+    known = [
+        finding
+        for asset, report in _named_reports(reports, file)
+        for finding in known_findings(report, asset, reason)
+    ]
+    _write(file, baseline, updated(baseline, known))
+
+
+def _write(file: Path, before: Baseline, after: Baseline) -> None:
+    old, new = ({each.key for each in baseline.findings} for baseline in (before, after))
+    write_file(file, json_document(after))
+    Document().write(
+        f"{file}: {counted(len(new), 'finding')}, {len(new - old):,} added, "
+        f"{len(old - new):,} removed\n"
+    )
+
+
+def _named_reports(paths: Sequence[Path], file: Path) -> Iterator[tuple[str, Report]]:
+    """The reports, under the names that a baseline gives to assets."""
+    for path in paths:
+        document = _read(path)
+        if isinstance(document, Report):
+            yield "", document
+        else:
+            for asset in document.assets:
+                yield asset_key(asset.file, file), asset.report
+
+
+def _read(path: Path) -> Report | AssetsReport:
+    """Raises SatcheckError: `unreadable-file`, `bad-report`."""
+    try:
+        data = path.read_bytes()
+        head = msgspec.json.decode(data)
+        if isinstance(head, dict) and "assets" in head:
+            return msgspec.convert(head, AssetsReport)
+        return msgspec.convert(head, Report)
+    except OSError as error:
+        reason = f"cannot be read: {error.strerror}"
+        raise SatcheckError("unreadable-file", reason, file=str(path)) from None
+    except msgspec.MsgspecError as error:
+        reason = f"no JSON report of this version of satcheck: {error}"
+        raise SatcheckError("bad-report", reason, file=str(path)) from None
