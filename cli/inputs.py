@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Self
 
@@ -114,5 +113,7 @@ def _hint(first: str) -> None:
     if first == "check":
         talk("satcheck: leave out the word `check`: satcheck A B checks two files")
         return
+    from difflib import get_close_matches
+
     for name in get_close_matches(first, COMMANDS, n=1):
         talk(f"satcheck: did you mean the command `satcheck {name}`?")

@@ -15,6 +15,8 @@ from satcheck.report.report import Report, without_timings
 INDENT = 2
 _INDENTATION = re.compile("\n *")
 _IN_A_PIECE = 500  # elements of a list
+# At the end of a line. No string has a line end in it, so this is a number.
+_NEGATIVE_ZERO = re.compile(rb"-0\.0(?=,?$)", re.MULTILINE)
 # How MessagePack marks a float64, and the bits of a NaN or an infinity. Other bytes may look so.
 _NOT_FINITE = re.compile(rb"\xcb[\x7f\xff][\xf0-\xff]")
 
@@ -60,11 +62,10 @@ def _member(key: str, value: Any, timings: bool) -> Iterable[str]:
 def _text(value: Any) -> str:
     try:
         _require_finite(value)
-        text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT).decode()
+        text = msgspec_json.format(msgspec_json.encode(value), indent=INDENT)
     except UnicodeEncodeError:  # bytes of a file name that are not UTF-8
-        text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False)
-    # No string has a line end in it, so these are numbers.
-    return f"{text}\n".replace("-0.0\n", "0.0\n").replace("-0.0,\n", "0.0,\n")[:-1]
+        text = json.dumps(to_builtins(value), indent=INDENT, allow_nan=False).encode()
+    return _NEGATIVE_ZERO.sub(b"0.0", text).decode()
 
 
 def _require_finite(value: Any) -> None:
