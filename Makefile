@@ -17,6 +17,7 @@ ROOMS := api cli studies audit verify report scene decompose core
 LEVELS := $(foreach room,$(ROOMS),$(room)/* $(room)/*/* $(room)/*/*/*)
 SOURCES := pyproject.toml CMakeLists.txt \
 	$(wildcard $(foreach kind,.py .pyi .json .cpp .hpp /CMakeLists.txt,$(addsuffix $(kind),$(LEVELS))))
+CXX_TESTS := $(wildcard core/native/tests/*/*.cpp tests/one_definition/*)
 
 .PHONY: demo test golden install clean
 
@@ -45,9 +46,10 @@ $(VENV)/installed: $(VENV)/created $(SOURCES)
 	$(BIN)/python -m pip install --quiet .
 	@touch $@
 
-$(VENV)/installed-test: $(VENV)/created $(SOURCES)
+# One build for the package and the C++ tests: both need the same library.
+$(VENV)/installed-test: $(VENV)/created $(SOURCES) $(CXX_TESTS)
 	@echo "Fetching what the tests need and compiling the core: a minute or three, once."
-	$(BIN)/python -m pip install --quiet ".[test]"
+	$(BIN)/python -m pip install --quiet --config-settings=cmake.define.SATCHECK_CXX_TESTS=ON ".[test]"
 	@touch $(VENV)/installed $@
 
 clean:

@@ -47,7 +47,11 @@ def arrows() -> Outcome:
 
 
 def native() -> Outcome:
-    return native_tests(BUILD / "cxx", "-DCMAKE_BUILD_TYPE=Release")
+    """The tests of the library in the installed package: `make test` builds both in one folder."""
+    folder = BUILD / str(sys.implementation.cache_tag)
+    if not (folder / "CTestTestfile.cmake").exists():
+        return Outcome(FAILED, "the C++ tests are not built: make test builds them")
+    return ctest(folder)
 
 
 def sanitized() -> Outcome:
@@ -89,10 +93,12 @@ def native_tests(folder: Path, *options: str) -> Outcome:
         return Outcome(FAILED, "cmake could not configure")
     jobs = str(os.cpu_count() or 1)
     built = run("cmake", "--build", str(folder), "--parallel", jobs, "--config", "Release")
-    if built.state == FAILED:
-        return built
-    ctest = ["ctest", "--test-dir", str(folder), "-C", "Release", "--parallel", jobs]
-    return run(*ctest, "--output-on-failure", "--no-tests=error")
+    return built if built.state == FAILED else ctest(folder)
+
+
+def ctest(folder: Path) -> Outcome:
+    tests = ["--test-dir", str(folder), "-C", "Release", "--parallel", str(os.cpu_count() or 1)]
+    return run("ctest", *tests, "--output-on-failure", "--no-tests=error")
 
 
 def generator(folder: Path) -> list[str]:

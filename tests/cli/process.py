@@ -1,4 +1,4 @@
-"""Run the command as a whole process, as a user or a script would."""
+"""Run the command in a process of its own, as a user or a script would."""
 
 from __future__ import annotations
 
@@ -63,13 +63,22 @@ def satcheck(
     python: tuple[str, ...] = (),
     stdin: str | None = None,
 ) -> Ran:
-    done = subprocess.run(
-        command(*arguments, python=python),
-        input=None if stdin is None else stdin.encode(),
-        cwd=cwd,
-        env=environment(env),
-        capture_output=True,
-        timeout=SECONDS,
-        check=False,
-    )
-    return Ran(done.returncode, done.stdout.decode("utf-8"), done.stderr.decode("utf-8", "replace"))
+    """In a fork (forked.py), unless the interpreter itself is told something as it starts."""
+    variables = environment(env)
+    told = stdin is not None or python or any(name.startswith("PYTHON") for name in env or ())
+    if told or os.name != "posix":
+        done = subprocess.run(
+            command(*arguments, python=python),
+            input=None if stdin is None else stdin.encode(),
+            cwd=cwd,
+            env=variables,
+            capture_output=True,
+            timeout=SECONDS,
+            check=False,
+        )
+        code, out, err = done.returncode, done.stdout, done.stderr
+    else:
+        from tests.cli.forked import run_forked
+
+        code, out, err = run_forked(arguments, cwd, variables, SECONDS)
+    return Ran(code, out.decode("utf-8"), err.decode("utf-8", "replace"))
