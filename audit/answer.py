@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 
 class Answer(Struct, frozen=True):
-    """relation: with the touch band; exact_relation: without it, None where it is not shown.
+    """relation: with the touch band. exact_relation: without it; None: not proven.
 
-    quality: of the weakest figure. gap: of bodies without a common interior. band: of an overlap;
-    depth, volume, contacts: None, too, where they are not asked for.
+    quality: of the weakest figure. gap: of bodies without a common interior. band: of an overlap.
+    depth, volume and contacts are None if they were not requested.
     """
 
     relation: Relation

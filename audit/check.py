@@ -61,11 +61,13 @@ def check(
     """Check every pair of bodies that the scene does not exempt.
 
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
-    this thread as pairs are settled. Findings come in the order of the bodies, whatever the threads
-    do: every pair that was neither pruned nor allowed, and the pruned ones too where there are few
-    pairs (Settings.list_pruned); Report.truncated says how many are left out. cache: what
-    earlier checks of the same bodies elsewhere, with the same settings, computed; this one adds to
-    it. least: how many bodies there must be; one usable body alone passes.
+    this thread as pairs are settled. cache: data from earlier checks of the same bodies in other
+    places, with the same settings; this check adds to it. least: the least number of bodies; a
+    single usable body passes.
+
+    Findings come in the order of the bodies. There is one for every pair that was neither pruned
+    nor allowed, and, in a scene of few pairs, for pruned pairs too (Settings.list_pruned).
+    Report.truncated counts those left out.
 
     Raises SatcheckError (`too-few-bodies`; from loading: what the scene
     room raises). A file that cannot be used and a pair that fails are results, not errors.
@@ -86,8 +88,8 @@ def check(
 def _check_scaled(
     scene: Scene, settings: Settings, progress: Progress | None, placed: int
 ) -> Report | None:
-    """Of a scene with bodies beyond the number range of the core; None where no other unit has
-    room for more bodies than the `placed` ones."""
+    """The check of a scene with bodies beyond the number range of the core. None: scaling would not
+    bring more bodies than the `placed` ones into the range."""
     from satcheck.audit.scaled_check import Scaling
     from satcheck.scene.scaled_scene import exponent_for, scaled_scene
 
@@ -109,7 +111,7 @@ def _check(
     bodies: PlacedBodies,
     keep: bool = False,
 ) -> Report:
-    """keep: what is made of the bodies is wanted again."""
+    """keep: later checks need the data of the bodies again."""
     movers = _movers(scene)
     planner = Planner(settings, bodies.book, scene.composed, moving=movers is not None)
     close = close_pairs(bodies, planner, None if movers is None else movers.bounds)
@@ -222,7 +224,7 @@ def _peers(settings: Settings) -> Peers:
 
 
 def _examine(pair: Pair, climb: Climb | None = None) -> CheckedPair:
-    """One pair, come what may: a failure here must not take the other pairs with it."""
+    """One pair. A failure becomes a finding, so that the other pairs are still checked."""
     trace = Trace()
     try:
         examined = examine(pair, trace, climb)

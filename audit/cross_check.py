@@ -28,8 +28,8 @@ Standing = Literal["agrees", "disagrees", "no answer"]
 
 
 class Opinion(Struct, frozen=True):
-    """theirs: what the peer answered, or why it gave no answer that counts. ours: the same, proven;
-    empty where there is nothing to compare."""
+    """theirs: the answer of the peer, or why it has none. ours: the proven answer to the same
+    question; empty if there is nothing to compare."""
 
     peer: str
     standing: Standing
@@ -38,7 +38,8 @@ class Opinion(Struct, frozen=True):
 
 
 def say(pair: Pair, verdict: Verdict, peers: Peers, trace: Trace) -> str | None:
-    """Records one stage a peer. A disagreement is a warning, and is returned in words."""
+    """Records one stage for each peer. Returns a disagreement, which becomes a warning, in
+    words."""
     if not verdict.proven:
         trace.record(CROSS_CHECK, NO_ANSWER, "the relation is not proven: nothing to hold against")
         return None

@@ -1,4 +1,4 @@
-"""Warnings about sizes that make an answer doubtful, as when a unit of length is wrong."""
+"""Warnings about sizes that make an answer doubtful, for example after a wrong unit of length."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ _SHOWN = 5  # bodies in one message
 def doubtful_sizes(
     bodies: PlacedBodies, findings: Sequence[Finding], plane: Plane | None
 ) -> Iterator[Issue]:
-    """Bodies smaller than the tolerance of one of their pairs, and bodies of very unlike sizes."""
+    """Bodies smaller than the tolerance of one of their pairs, and bodies of very different
+    sizes."""
     sizes = {bodies.ids[k]: _size(body, plane) for k, body in bodies.placed.items()}
     yield from _tolerances(sizes, findings)
     for unit in dict.fromkeys(bodies.units.values()):

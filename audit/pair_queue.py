@@ -27,17 +27,17 @@ T = TypeVar("T")
 
 # Below this many pairs, starting threads costs more than they save.
 PARALLEL_PAIRS = 8
-# The most pairs of a batch, two of which are under way: no more results wait for their turn, and
-# nobody waits longer to be heard with Ctrl-C. And the most triangles of its pairs for each thread,
-# about as many seconds and gigabytes as there are tens of millions.
+# The most pairs of a batch. Two batches are under way at a time. A larger batch would hold more
+# results in memory and delay Ctrl-C. BATCH_TRIANGLES: the most triangles of a batch for each
+# thread; ten million take about a second and a gigabyte.
 BATCH_PAIRS = 256
 BATCH_TRIANGLES = 250_000
 
 
 class Steps(Struct, Generic[C, T], frozen=True):
-    """What is done about pairs. start_climbs(pairs, threads): about a batch at once; the call that
-    it returns waits for what was found. examine(pair, climb): one by one. leaves_work(pair, climb):
-    whether that takes time."""
+    """The steps of a check. start_climbs(pairs, threads) starts a batch; the function that it
+    returns waits for the results. examine(pair, climb) makes one result. leaves_work(pair, climb):
+    whether examine takes long."""
 
     start_climbs: Callable[[Sequence[Pair], int], Callable[[], Sequence[C]]]
     examine: Callable[[Pair, C], T]
@@ -45,13 +45,14 @@ class Steps(Struct, Generic[C, T], frozen=True):
 
 
 class PairQueue(Struct, frozen=True):
-    """jobs: threads, 0 for one a core. keep: what is made of the bodies, for another check."""
+    """jobs: threads, 0 for one a core. keep: do not release the data of the bodies, because another
+    check needs them."""
 
     jobs: int
     keep: bool = False
 
     def each(self, pairs: Sequence[Pair], steps: Steps[C, T]) -> Iterator[tuple[int, T]]:
-        """(k, examine(pairs[k])) of every pair, near ones after each other."""
+        """(k, examine(pairs[k])) for every pair, in an order that keeps near pairs together."""
         order = _along_curve(pairs)
         leaving = {} if self.keep else _leaving(pairs, order)
         threads = self._threads(len(pairs))
@@ -84,7 +85,7 @@ def _along_curve(pairs: Sequence[Pair]) -> list[int]:
 
 
 def _leaving(pairs: Sequence[Pair], order: Sequence[int]) -> dict[int, list[PlacedBody]]:
-    """The number of a pair -> the bodies of which it is the last."""
+    """The number of a pair -> the bodies that no later pair needs."""
     leaving: dict[int, list[PlacedBody]] = {}
     seen = set()
     for k in reversed(order):

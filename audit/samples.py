@@ -48,11 +48,11 @@ class Sample(Struct, frozen=True):
 
 
 class PairTally(Struct):
-    """One asked pair over all samples, in how many of which it is what, at rest or on the way: the
-    first of overlaps, touches, near, undecided that applies.
+    """One pair over all samples. Each sample counts once, at rest or in motion, as the first of
+    overlaps, touches, near, undecided that applies.
 
-    undecided: how they relate, or whether they hit on the way. first_overlap: number of the first
-    sample with an overlap. Where none of the counts applies the pair is separated.
+    undecided: the relation, or whether the bodies hit in motion. first_overlap: number of the first
+    sample with an overlap. In all other samples the pair is separated.
     """
 
     a: str
@@ -65,12 +65,12 @@ class PairTally(Struct):
 
     @property
     def contacts(self) -> int:
-        """In how many samples the two overlap or touch."""
+        """The number of samples in which the two bodies overlap or touch."""
         return self.overlaps + self.touches
 
     @property
     def settled(self) -> bool:
-        """Whether the pair is separated in all samples, and known to be."""
+        """Whether the pair is proven separated in all samples."""
         return not (self.contacts or self.near or self.undecided)
 
     def count(self, finding: Finding, number: int) -> None:
@@ -87,12 +87,12 @@ class PairTally(Struct):
 
 
 class Samples(Struct, frozen=True):
-    """What `check_poses` found.
+    """The result of `check_poses`.
 
-    pairs: of every asked pair, in the order of the bodies, those that never met included. counts:
-    of the last sample; how many are allowed or exempt is the same in all. bodies, exempt and rules:
-    as in a report; the transforms are those of the last sample. issues: those that are not about
-    one pose. seed: of the random poses; None where they are not random.
+    pairs: every checked pair, in the order of the bodies, including pairs that never met. counts:
+    of the last sample; the numbers of allowed and exempt pairs are the same in all samples. bodies,
+    exempt and rules: as in a report; the transforms are those of the last sample. issues: those
+    that are not about a single pose. seed: of the random poses; None: not random.
     """
 
     tool: Tool
@@ -156,18 +156,18 @@ def check_poses(
     settings: Settings = DEFAULT_SETTINGS,
     progress: Callable[[int, int], None] | None = None,
 ) -> Samples:
-    """Check the scene in each of these poses of its robots, one at least.
+    """Check the scene in each of these poses of its robots. At least one pose is needed.
 
     scene: loaded, with `robots`. poses: joint -> values, for instance from `scene.robot`'s
     `joint_samples([robot.robot for robot in scene.robots], count, seed)`, or read by `read_poses`.
-    progress(done, total) counts poses. Meshes were read once, and what depends on a mesh alone
-    (whether it is convex, its parts) is found once for all poses.
+    progress(done, total) counts poses. Facts that depend on a mesh alone (convexity, parts) are
+    computed once for all poses.
 
-    For yes or no without depths, and much faster: Settings(depth=False). A pair of
-    `Samples.pairs` that is always in contact has `contacts == len(samples)`, one that is
-    separated throughout is `settled`.
+    Settings(depth=False) is much faster and decides only whether bodies meet. A pair in
+    `Samples.pairs` that is always in contact has `contacts == len(samples)`; a pair that is always
+    separated is `settled`.
 
-    Raises SatcheckError for a pose that names what the robots do not have, and what `check` raises.
+    Raises SatcheckError for a pose with unknown joints, and what `check` raises.
     """
     from satcheck.scene.robot import posed
 
@@ -216,7 +216,7 @@ def _sample(number: int, report: Report, posture: Posture | None) -> tuple[Sampl
 
 
 def _is_plain(finding: Finding) -> bool:
-    """Separated, at rest and on the way, with nothing to be said about it."""
+    """Separated at rest and in motion, without a remark."""
     return finding.relation == "separated" and finding.severity == "none"
 
 
@@ -234,7 +234,7 @@ def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
 def _all_pairs(
     report: Report, book: RuleBook, tallies: dict[tuple[str, str], PairTally]
 ) -> tuple[PairTally, ...]:
-    """Of every asked pair, in the order of the bodies."""
+    """Every checked pair, in the order of the bodies."""
     ids = [body.id for body in report.bodies]
     asked = ((ids[i], ids[j]) for i, j in book.asked_pairs())
     return tuple(tallies.get(pair) or PairTally(*pair) for pair in asked)

@@ -1,8 +1,8 @@
 """The severity of a finding, the rule that decided it, and what it leaves undecided.
 
-An overlap is an error unless rules limit it, and then where it exceeds a limit; so is a gap below
-the clearance. Rules may call the errors of a pair something else. What could not be decided stays a
-warning at least, whatever they say.
+An overlap is an error, unless rules allow it within limits; then it is an error if it exceeds a
+limit. A gap below the clearance is an error. Rules may set another severity for the errors of a
+pair. An undecided question is at least a warning, whatever the rules say.
 """
 
 from __future__ import annotations
@@ -40,15 +40,16 @@ class Judgement(Struct, frozen=True):
         return self.severity in ("note", "silenced", "none") and self.undecided is None
 
 
-# As a matter of course: an overlap, a touch, and what is no finding.
+# Without rules: of an overlap, a touch, and no finding.
 _OVERLAP, _TOUCH, _NOTHING = Judgement("error"), Judgement("note"), Judgement("none")
 
 
 def clearance_judgement(
     request: Request, least: float, most: float, kept: bool | None = None
 ) -> Judgement | None:
-    """Of a gap between these bounds; None: it keeps the clearance, or there is none. kept:
-    whether it does, where that is known better than by the bounds."""
+    """The judgement of a gap between these bounds; None: the gap keeps the clearance, or there is
+    no clearance. kept: whether the gap keeps it, if that is known more exactly than by the
+    bounds."""
     if not request.clearance:
         return None
     rule = request.rule("clearance") or CLEARANCE_RULE
@@ -63,9 +64,9 @@ def clearance_judgement(
 
 
 def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
-    """overlaps: an overlap is proven, even if the relation is not. A relation that is not
-    proven does not pass, and an overlap that is not proven does not fail, unless --accuracy or
-    --allow-open asks for less.
+    """overlaps: an overlap is proven, even if the relation is not. An unproven relation does not
+    pass, and an unproven overlap does not fail, unless --accuracy or --allow-open accepts
+    estimates.
     """
     judgement = by_rule(_judged(answer, pair), pair.request)
     settings = pair.settings
@@ -111,7 +112,7 @@ def _judged(answer: Answer, pair: Pair) -> Judgement:
 
 
 def disputed(judgement: Judgement, reason: str) -> Judgement:
-    """The same where another library contradicts the answer."""
+    """The judgement if another library contradicts the answer."""
     warned = _warned(judgement, judgement.undecided or "cross-check")
     return replace(warned, reason=judgement.reason or reason)
 
@@ -126,7 +127,7 @@ def _is_at_least(judgement: Judgement, severity: Severity) -> bool:
 
 
 def _limited(answer: Answer, request: Request) -> Judgement:
-    """Within all limits, beyond one, or undecided."""
+    """Whether the overlap is within all limits, beyond one, or undecided."""
     limits = list(_limits(answer, request))
     for limit in limits:
         if limit.kept is False:
@@ -138,7 +139,7 @@ def _limited(answer: Answer, request: Request) -> Judgement:
 
 
 class _Limit(Struct, frozen=True):
-    """What the pair has is between least and greatest (None: not known), and may have at most
+    """The figure of the pair lies between least and greatest (None: unknown). It may be at most
     `most`."""
 
     rule: str

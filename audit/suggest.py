@@ -1,5 +1,5 @@
-"""Pairs that a scene may want to allow, each with its evidence. Whether to allow them is a person's
-to say: a contact that is meant and one that is a fault look the same.
+"""Suggests pairs that a scene may allow, with the evidence for each. A person must decide, because
+an intended contact and a fault look the same.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class Undecided(Struct, frozen=True):
-    """A pair, and the first reason why something about it was not decided."""
+    """A pair, and the first reason why it is undecided."""
 
     a: str
     b: str
@@ -38,11 +38,11 @@ class Undecided(Struct, frozen=True):
 
 
 class Suggestions(Struct, frozen=True):
-    """poses: how many others were checked; seed: of random ones. held: joints that did not move
-    among them. undecided: pairs of which something was not decided, and why. may_meet: links of
-    which some bodies met in some of the poses, or may have.
+    """poses: the number of poses checked besides the placement. seed: of random poses. held: joints
+    that did not move. undecided: undecided pairs, with the reason. may_meet: pairs of links with
+    bodies that met in a pose, or may have met.
 
-    "never" is said of the poses that were checked, and proves nothing about the others.
+    "never" is about the checked poses only. It proves nothing about others.
     """
 
     tool: Tool
@@ -77,10 +77,9 @@ def suggest(
     progress: Callable[[int, int], None] | None = None,
     held: Sequence[str] = (),
 ) -> Suggestions:
-    """What is in contact where the scene places it, with its depth; links with a joint between
-    them; and in these poses of its robots what always or never meets. seed: that they were drawn
-    with; None: they are not random. held: the joints that stand still in them. A pair that could
-    not be checked as placed is not suggested, whatever else is known of it.
+    """Suggests pairs in contact as placed, with their depth; links with a joint between them; and
+    pairs that always or never meet in these poses. seed: of random poses; None: not random. held:
+    the joints that stand still. A pair that could not be checked as placed is not suggested.
 
     Raises what `check` and `check_poses` raise.
     """
@@ -152,7 +151,7 @@ def _suggestions(
     asked: list[Names],
     left_out: set[Names],
 ) -> tuple[list[Suggestion], frozenset[frozenset[str]]]:
-    """The pairs, and the links of which other pairs than those that never met."""
+    """The suggested pairs, and the pairs of links that met or may have met."""
     suggested: list[Suggestion] = []
     may_meet = set()
     findings = {(f.a, f.b): f for f in report.findings}
@@ -196,14 +195,14 @@ def _why(
 
 
 def _meets(finding: Finding) -> bool:
-    """As placed, whatever rules say of it, or on the way from there."""
+    """Whether the bodies meet, as placed or in motion. Rules do not matter."""
     swept = finding.motion
     on_the_way = swept is not None and swept.relation in ("penetrating", "touching")
     return finding.at_rest in OVERLAPS or on_the_way
 
 
 def _in_contact(finding: Finding) -> bool:
-    """An overlap that no rule limits or excuses, or a touch."""
+    """Whether the pair touches, or overlaps and no rule limits or allows the overlap."""
     if finding.at_rest in OVERLAPS:
         return finding.severity == "error"
     return finding.at_rest == "touching"
@@ -218,7 +217,7 @@ def _carriers(links: dict[str, str], a: str, b: str) -> Names | None:
 
 
 def _links(scene: Scene) -> dict[str, str]:
-    """body -> link, where the scene has one robot: two may call their links the same."""
+    """body -> link, if the scene has one robot. Two robots may use the same names."""
     if len(scene.robots) != 1:
         return {}
     return {body.id: body.link for body in scene.robots[0].bodies}

@@ -1,4 +1,4 @@
-"""The summary of a report, and everything else in it that is not about one pair."""
+"""The summary of a report, and its other parts that are not about one pair."""
 
 from __future__ import annotations
 
@@ -49,7 +49,8 @@ def tool() -> Tool:
 
 
 def count(bodies: PlacedBodies, close: int, findings: Sequence[Finding]) -> PairCounts:
-    """close: how many pairs the broad phase left over. Raises RuntimeError if a pair is lost."""
+    """close: the number of pairs that the broad phase kept. Raises RuntimeError if a pair is
+    missing."""
     unreadable = sum(1 for _ in bodies.undecidable_pairs())
     indeterminate = sum(finding.relation == "indeterminate" for finding in findings)
     total, allowed = bodies.book.count()
@@ -94,8 +95,8 @@ def verdict_of(report: Report) -> Verdict:
 
 
 def _verdict(counts: PairCounts, findings: Sequence[Finding], fail_on: FailOn) -> Verdict:
-    """What was found stands whatever else is unknown; a check of nothing never passes. A finding
-    that a baseline holds, unchanged, does not fail."""
+    """A failure stays a failure even if other pairs are undecided. A check without pairs never
+    passes. A finding that a baseline contains, unchanged, does not fail."""
     if any(fails(f, fail_on) for f in findings if f.baseline_state != "unchanged"):
         return "fail"
     unchecked = any(finding.undecided is not None for finding in findings)
@@ -114,7 +115,7 @@ def body_reports(bodies: PlacedBodies) -> tuple[BodyReport, ...]:
 
 
 def stated_health(health: MeshHealth) -> Health:
-    """A volume that overflowed is not known."""
+    """A volume that overflowed is unknown."""
     volume = health.volume if math.isfinite(health.volume) else None
     return Health(**{**to_builtins(health), "volume": volume})
 
@@ -197,7 +198,7 @@ def exempt_of(scene: Scene) -> Exempt:
 
 
 def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated | None:
-    """What `findings` leaves out."""
+    """The findings that the report leaves out."""
     left_out = counts.total - counts.allowed - len(findings)
     return Truncated(left_out, "their boxes are apart") if left_out else None
 
@@ -205,7 +206,7 @@ def truncated_of(counts: PairCounts, findings: Sequence[Finding]) -> Truncated |
 def issues_of(
     scene: Scene, bodies: PlacedBodies, counts: PairCounts, of_pairs: Iterable[Issue]
 ) -> tuple[Issue, ...]:
-    """The input's issues first, then those of the run; each once."""
+    """The issues of the input, then those of the run; each once."""
     issues = [
         Issue(issue.code, issue.severity, issue.body, issue.file, issue.message)
         for issue in scene.issues
@@ -215,7 +216,7 @@ def issues_of(
 
 
 def _nothing_to_check(scene: Scene, counts: PairCounts) -> Issue:
-    """Why no pair is asked about."""
+    """Why no pair was checked."""
     in_link = sum(robot.pairs_within_links for robot in scene.robots)
     static_bodies = 0 if scene.check_static else sum(body.static for body in scene.in_order())
     static, in_group = exempt_by(counts, static_bodies)
@@ -230,7 +231,7 @@ def _nothing_to_check(scene: Scene, counts: PairCounts) -> Issue:
 
 
 def exempt_by(counts: PairCounts, static_bodies: int) -> tuple[int, int]:
-    """Exempt pairs of static bodies, and the others, which are within ignored groups.
-    static_bodies: 0 where pairs of such bodies are checked."""
+    """The numbers of exempt pairs of static bodies, and of exempt pairs within ignored groups.
+    static_bodies: 0 if pairs of static bodies are checked."""
     static = static_bodies * (static_bodies - 1) // 2
     return static, counts.exempt - static

@@ -1,1 +1,1 @@
-"""Bodies in the world, and what is derived from each once; a pair of them."""
+"""Bodies in the world, the data derived from each, and pairs of bodies."""

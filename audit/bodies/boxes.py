@@ -26,8 +26,9 @@ def diagonal(box: Box, axes: tuple[int, ...] = (0, 1, 2)) -> float:
 def box_escape(a: Box, b: Box) -> tuple[float, Vector]:
     """The shortest translation of A after which the boxes have no common interior.
 
-    Returns its length (rounded outward; 0.0 when they have none now) and the unit normal from A to
-    B, so that the translation is -length * normal. Ties go to the first axis, negative side first.
+    Returns its length and the unit normal from A to B; the translation is -length * normal. The
+    length is rounded outward, and 0.0 if the boxes do not overlap. Ties go to the first axis,
+    negative side first.
     """
     best, normal = math.inf, (1.0, 0.0, 0.0)
     for axis in range(3):

@@ -31,16 +31,15 @@ class Paths(Struct, frozen=True):
 
 
 class Pair(Struct, frozen=True):
-    """tolerance: half width of the touch band, world units. asked_gap: a gap beyond this needs no
-    figure, it is neither near nor in the touch band.
+    """tolerance: half width of the touch band, world units. asked_gap: a larger gap needs no
+    figure, because it is neither near nor in the touch band.
 
-    By default either surface may be off by its own input precision, so the sum of both; but
-    coordinates without decimals, far from the origin, must not swallow a whole body. Never less
-    than what polygons may be off the curves that they stand for.
-    closer, farther: how much closer (or deeper), and how much farther apart, the bodies may be than
-    the polygons that stand for them in a check in a plane; 0.0 of other bodies.
-    paths: how the bodies move against each other; None: they do not. alone: no other pair, of this
-    check or another, asks for anything of these bodies.
+    By default the tolerance is the sum of the input precisions of both bodies. It is limited, so
+    that coarse coordinates far from the origin do not hide a whole body. It is at least the
+    deviation of polygons from the curves that they replace. closer, farther: with --planar, how
+    much closer (or deeper) and how much farther apart the bodies may be than their polygons; else
+    0.0. paths: the relative motion of the bodies; None: they do not move. alone: no other pair
+    needs these bodies.
     """
 
     a: PlacedBody
@@ -81,7 +80,7 @@ class Pair(Struct, frozen=True):
 
     @property
     def wants_distance(self) -> bool:
-        """The figure is needed, not only whether it is within the touch band."""
+        """The size of the gap is needed, not only whether it is within the touch band."""
         return self.request.wants("distance") or self.closer > self.tolerance
 
     def may(self, rung: Accuracy) -> bool:
@@ -94,7 +93,7 @@ class Pair(Struct, frozen=True):
 
     @property
     def curved(self) -> bool:
-        """One body at least is a curved shape, of which the mesh is only within it."""
+        """At least one body is a curved shape. Its mesh is inscribed and does not stand for it."""
         return self.a.curved is not None or self.b.curved is not None
 
     @property

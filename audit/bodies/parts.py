@@ -24,8 +24,8 @@ class Part(Struct, frozen=True):
 
 
 class Covering(Struct, frozen=True):
-    """Convex parts that stand for a mesh: they stick out of it by at most `outside`, and it out of
-    them by at most `missing`; world units."""
+    """Convex parts that replace a mesh. They stick out of the mesh by at most `outside`, and the
+    mesh sticks out of them by at most `missing`. World units."""
 
     parts: list[Part]
     outside: float
@@ -44,9 +44,8 @@ def decomposition(body: PlacedBody, trace: Trace) -> Decomposition | None:
 
 
 def split_together(pair: Pair) -> None:
-    """Decomposes both bodies side by side: each is a process of its own that takes seconds.
-
-    What is found, or that nothing was, is remembered by the bodies' files.
+    """Decomposes both bodies in parallel, each in a process of its own. The bodies' files keep the
+    result or the failure.
     """
     waiting = [body.shared for body in (pair.a, pair.b) if not body.convex]
     if len(waiting) < 2 or waiting[0] is waiting[1] or pair.settings.jobs == 1:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class UnusableBody(Struct, frozen=True):
-    """A body that takes part in pairs, none of which can be decided."""
+    """A body whose pairs cannot be decided."""
 
     id: str
     file: str
@@ -38,9 +38,9 @@ class UnusableBody(Struct, frozen=True):
 
 
 class PlacedBodies(Struct, frozen=True):
-    """Bodies by index, in the order given: each is either placed or unusable. ids follow it, and
-    so does the book of rules. units: of the placed ones, None where nobody states any; bodies of
-    different ones have no common frame."""
+    """Bodies by index, in the order given: each is placed or unusable. ids and the book of rules
+    have the same order. units: of the placed bodies; None: not stated. Bodies with different units
+    have no common frame."""
 
     placed: dict[int, PlacedBody]
     unusable: dict[int, UnusableBody]
@@ -50,12 +50,13 @@ class PlacedBodies(Struct, frozen=True):
     units: dict[int, str | None]
 
     def undecidable_pairs(self) -> Iterator[tuple[int, int, str]]:
-        """Asked pairs of which one body is unusable, or in unknown units, with the reason."""
+        """Pairs that cannot be decided because a body is unusable or in unknown units, with the
+        reason."""
         yield from self._pairs_of_unusable_bodies()
         yield from self.pairs_of_several_units()
 
     def is_comparable(self, i: int, j: int) -> bool:
-        """Of two placed bodies: whether their lengths are in one unit, as far as is cache."""
+        """Whether two placed bodies may have the same unit of length."""
         return self.units.get(i) == self.units.get(j)
 
     def _pairs_of_unusable_bodies(self) -> Iterator[tuple[int, int, str]]:
@@ -67,7 +68,7 @@ class PlacedBodies(Struct, frozen=True):
                     yield min(k, other), max(k, other), body.reason
 
     def pairs_of_several_units(self) -> Iterator[tuple[int, int, str]]:
-        """Those of the undecidable ones that nothing else is wrong with."""
+        """Undecidable pairs whose only problem is the units."""
         alike: dict[str | None, list[int]] = {}
         for k in self.placed:
             alike.setdefault(self.units.get(k), []).append(k)
@@ -83,10 +84,11 @@ class PlacedBodies(Struct, frozen=True):
 
 
 class BodyCache:
-    """What a check leaves for others with the same settings, of the same bodies elsewhere.
+    """Data that a check leaves for checks of the same bodies in other places, with the same
+    settings.
 
-    meshes: what depends on a mesh alone. placed: by their ids, those that stayed where they are
-    need nothing new. book: what the scene says of its pairs; None: not yet.
+    meshes: data that depend on a mesh alone. placed: bodies by id; a body that did not move is
+    reused. book: the rules of the scene; None: not compiled yet.
     """
 
     __slots__ = ("book", "meshes", "placed")

@@ -1,4 +1,4 @@
-"""A body in the world, and everything derived from it: built once, when it is needed."""
+"""A body in the world, and the data derived from it. Each is made once, when it is needed."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 MeshKey = tuple[str, str | int, str | None]
 
-# Held while a body gets its geometry, which makes nothing yet.
+# Held while a body gets its (still empty) geometry.
 _MAKING = allocate_lock()
 
 
 class Once(Generic[T]):
-    """A value made by the first thread that asks; `known` is None until then."""
+    """A value made by the first thread that needs it; `known` is None until then."""
 
     __slots__ = ("_lock", "_make", "known")
 
@@ -48,15 +48,15 @@ class Once(Generic[T]):
 
 
 def mesh_key(file: MeshFile) -> MeshKey:
-    """The same for the same mesh, while that exists. Not the sha256 alone: files of the same bytes
-    can refer to neighbours that differ."""
+    """The same key for the same mesh, while the mesh exists. The SHA-256 is not enough, because
+    equal files may refer to different neighbour files."""
     return file.path, file.sha256 or id(file.mesh), file.part
 
 
 class Work(Struct, frozen=True):
-    """What was done for the bodies of one file, counted.
+    """Counts of the work done for the bodies of one file.
 
-    hierarchies: built; refits: fitted again to placed vertices; decompositions: asked for.
+    hierarchies: trees built. refits: trees fitted to placed vertices. decompositions: requested.
     """
 
     hierarchies: int
@@ -65,11 +65,11 @@ class Work(Struct, frozen=True):
 
 
 class SharedMesh:
-    """What all bodies made of one mesh share, in file coordinates.
+    """The data that all bodies with one mesh share, in file coordinates.
 
-    geometry: its tree, its hull, whether it is convex. largest: coordinate, in size. covers_once():
-    a solid that covers no point twice, so that its volume is that of its mesh. has_sheets(): of a
-    solid, whether parts of its surface have no inside on either side.
+    geometry: tree, hull and convexity. largest: the largest absolute coordinate. covers_once(): the
+    solid covers no point twice, so its volume is that of its mesh. has_sheets(): parts of the
+    surface of the solid have no inside on either side.
     """
 
     __slots__ = (
@@ -110,7 +110,7 @@ class SharedMesh:
         return shape_of(self.file, allow_open=allow_open)
 
     def _decomposition(self, settings: Settings) -> Decomposition | DecompositionError:
-        """A failure is an answer too: it is not tried again for the next pair."""
+        """A failure is kept, too, and not tried again for the next pair."""
         from satcheck.decompose import Cache, DecompositionError, decompose
 
         self._decompositions += 1
@@ -130,7 +130,7 @@ class SharedMesh:
 
 
 def _curved(body: Body) -> CurvedShape | None:
-    """ValueError when the transform makes no such shape of it."""
+    """ValueError if the transform does not give a shape of this kind."""
     if body.shape is None or not is_curved(body.shape):
         return None
     return curved_shape(body.shape, body.transform)
@@ -149,9 +149,9 @@ class PlacedBody:
     """World frame. bounds: ((x, y, z), (x, y, z)), and their diagonal; resolution: the input
     precision, world units.
 
-    curved: the shape, where the body is one; its mesh is then only within it, its bounds around it.
-    A scene has many bodies and most are far from each other: what is more than this is made when it
-    is asked for, and can be let go again.
+    curved: the shape of a curved body; its mesh is then only inscribed, and its bounds enclose the
+    shape. Most bodies of a large scene are far from all others, so all other data are made on
+    demand and can be released.
     """
 
     __slots__ = (
@@ -184,7 +184,7 @@ class PlacedBody:
 
     @property
     def geometry(self) -> core.PlacedGeometry:
-        """What the core makes of the body in the world, once a pair asks for it."""
+        """The geometry of the body in the world, made on demand."""
         geometry = self._geometry
         if geometry is None:
             with _MAKING:
@@ -194,7 +194,7 @@ class PlacedBody:
         return geometry
 
     def release(self) -> None:
-        """Forget what was made; it is made again should somebody ask."""
+        """Releases the data; they are made again on demand."""
         self._geometry = self._checked = None
 
     @property
@@ -223,8 +223,8 @@ class PlacedBody:
 
     @property
     def largest_stretch(self) -> float:
-        """An upper bound of how much longer the transform makes a length, tight for rigid ones:
-        the largest singular value of M squared is at most the largest row sum of |M^T M|."""
+        """An upper bound of how much the transform stretches a length, tight for rigid transforms:
+        the square of the largest singular value of M is at most the largest row sum of |M^T M|."""
         transform = self.body.transform
         if transform is None:
             return 1.0
@@ -237,7 +237,7 @@ class PlacedBody:
 
 
 def world_bounds(bodies: Sequence[Body], threads: int) -> list[Box | None]:
-    """Of all bodies at once, without placing a mesh; None for one that cannot be placed."""
+    """The bounds of all bodies at once, without placing a mesh; None: the body cannot be placed."""
     moved = [(body.file.mesh, body.transform) for body in bodies if body.transform is not None]
     meshes, matrices = [mesh for mesh, _ in moved], [matrix for _, matrix in moved]
     placed = iter(core.placed_bounds(meshes, matrices, threads))

@@ -17,13 +17,12 @@ if TYPE_CHECKING:
 class Verdict(Struct, frozen=True):
     """How two bodies relate, without a touch band.
 
-    proven: False where a capped ladder or a degenerate contact leaves it open. overlaps: an overlap
-    is proven although the relation is not: it is open whether one body holds the other.
-    gap_lower: a proven lower bound of their distance, 0.0 where none is known.
-    signed_distance: of two convex bodies, where it says everything about them.
-    crossing: indices of one triangle of each body that meet; point: a common point, rounded.
-    reason: why it is not proven, where --accuracy is not why. climb: what the core found, where
-    the core settled the pair.
+    proven: False if --accuracy or a degenerate contact leaves the relation open. overlaps: an
+    overlap is proven, but it is open whether one body contains the other. gap_lower: a proven lower
+    bound of the distance; 0.0: none is known. signed_distance: of two convex bodies, if it decides
+    everything about them. crossing: indices of one triangle of each body that meet; point: a common
+    point, rounded. reason: why the relation is not proven, unless --accuracy is the reason. climb:
+    of the core, if the core settled the pair.
     """
 
     relation: Relation

@@ -1,1 +1,1 @@
-"""The ladder: from boxes to triangles, each rung settles what it can prove."""
+"""The ladder, from boxes to triangles: each rung settles the pairs that it can decide."""

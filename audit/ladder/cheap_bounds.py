@@ -22,7 +22,8 @@ class WayOut(Struct, frozen=True):
 
 
 def way_out_of_hulls(pair: Pair) -> WayOut:
-    """What frees A for certain: out of B's hull, or out of its box where the ladder ends there."""
+    """A translation that frees A for certain: out of B's hull, or of B's box if the ladder ends
+    there."""
     length, normal = box_escape(pair.a.bounds, pair.b.bounds)
     boxes = WayOut(length, length, normal, "world boxes")
     if not pair.may("hull"):
@@ -38,8 +39,8 @@ def way_out_of_hulls(pair: Pair) -> WayOut:
 
 
 def gap_around(pair: Pair, verdict: Verdict) -> float:
-    """A lower bound of the depth of nested bodies: the inner one stays inside at least until the
-    surfaces meet. 0.0 for other pairs."""
+    """A lower bound of the depth of nested bodies: the inner body is not free before the surfaces
+    meet. 0.0 for other pairs."""
     if verdict.relation not in ("contains", "inside"):
         return 0.0
     climb = verdict.climb

@@ -19,7 +19,7 @@ IndexPair = tuple[int, int]
 def close_pairs(
     bodies: PlacedBodies, planner: Planner, swept: Callable[[str, Bounds], Bounds] | None = None
 ) -> list[IndexPair]:
-    """Asked pairs of placed bodies, sorted, no further apart by their boxes than is asked about.
+    """Pairs of placed bodies to check, sorted, whose boxes are close enough to matter.
 
     swept: the world box of a body over its whole motion, from its id and its box as placed.
     """
@@ -53,7 +53,7 @@ def _among(pairs: Iterable[IndexPair], place: dict[int, int]) -> list[IndexPair]
 def _within_own_gaps(
     bodies: PlacedBodies, boxes: Mapping[int, Bounds], planner: Planner, pairs: list[IndexPair]
 ) -> list[IndexPair]:
-    """A body reaches as far as the furthest that any rule asks of it; each pair is asked less."""
+    """Drops pairs beyond their own gap. The broad phase used the largest gap of each body."""
     placed = bodies.placed
     return [
         (i, j)

@@ -31,8 +31,8 @@ _EXTRAS: frozenset[Effect] = frozenset(
 
 
 def climb_pair(pair: Pair, first: Rung = "aabb", last: Rung | None = None) -> core.Climb:
-    """One pair, from this rung on, up to `last` or as far as its settings go. Raises what making
-    its bodies raises."""
+    """Climbs with one pair from `first` to `last`, by default as far as the settings allow. Raises
+    what making its bodies raises."""
     last = last or LAST[pair.settings.accuracy]
     if pair.curved:
         last = "aabb"
@@ -42,9 +42,11 @@ def climb_pair(pair: Pair, first: Rung = "aabb", last: Rung | None = None) -> co
 
 
 def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.Climb | None]]:
-    """Many pairs with the same settings, on `threads` threads, 0: one a core. The call waits.
+    """Starts the climbs of pairs with the same settings on `threads` threads; 0: one a core. The
+    returned function waits for the results.
 
-    None for a pair that has to climb by itself: its climb failed, or has steps of its own.
+    A result is None if the climb failed, or if the pair has other steps; settle() then climbs
+    again.
     """
     plain = [k for k, pair in enumerate(pairs) if not (pair.curved or pair.outlined)]
     last = LAST[pairs[0].settings.accuracy]
@@ -63,7 +65,7 @@ def start_climbs(pairs: Sequence[Pair], threads: int) -> Callable[[], list[core.
 
 
 def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
-    """Whether more than words is left to do after the climb."""
+    """Whether the pair needs computation after the climb."""
     if climb is None or pair.settings.accuracy == "parts" or pair.paths is not None:
         return True
     if climb.band in ("open", "hidden") or not _EXTRAS.isdisjoint(pair.request.by):

@@ -37,7 +37,7 @@ _PROVES = {
 
 
 def settle_curved(pair: Pair, trace: Trace) -> Verdict:
-    """The relation, once the boxes of the bodies were found too close to settle it."""
+    """The relation of bodies whose boxes do not settle it."""
     if is_convex(pair.a) and is_convex(pair.b):
         return _settle_convex(pair, trace)
     return _settle_mesh(pair, trace)
@@ -66,7 +66,7 @@ def _words(proof: Proof | None) -> str:
 
 
 def _nested(pair: Pair, signed: Signed, trace: Trace) -> Verdict:
-    """Of convex bodies that overlap: whether one holds the other."""
+    """Whether one of two overlapping convex bodies contains the other."""
     nested = nesting(pair.a, pair.b)
     if nested.exact:
         trace.record(PROOF, "known" if nested.known else "undecided", "which holds which")

@@ -1,7 +1,7 @@
-"""Open pieces around a body: each is a sheet, but together they may be the wall of a solid.
+"""Open pieces around a body. Each is a sheet, but together they may be the wall of a solid.
 
-A box whose faces miss each other by more than the precision of the file is six flat open parts, and
-so six sheets without an inside. Whether it is meant to be a solid is unknown.
+Example: a box whose faces miss each other by more than the precision of the file has six open
+parts. They count as six sheets, but the box may be meant as a solid.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def open_pieces_around(pair: Pair) -> str | None:
-    """Why bodies that do not meet may still lie in each other; None: they do not."""
+    """Why one of two bodies that do not meet may still lie in the other; None: neither does."""
     if pair.settings.allow_open:
         return None
     for outer, inner in ((pair.a, pair.b), (pair.b, pair.a)):

@@ -1,4 +1,4 @@
-"""Checks in a plane: each body is a prism that is taller than any body is wide."""
+"""Checks in a plane: each body is a prism whose height exceeds the width of every body."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 
 def refine_nesting(pair: Pair, verdict: Verdict, plane: Plane, trace: Trace) -> Verdict:
-    """`contains`, `inside` and `coincident` as the outlines are.
+    """Decides `contains`, `inside` and `coincident` by the outlines.
 
-    The prisms themselves end at different heights, which no outline has: one made to reach beyond
-    the other says whether it holds it, two of one height whether they are the same.
+    The prisms have different heights, which mean nothing. A prism that is made taller shows whether
+    its outline contains the other. Two prisms of one height show whether the outlines coincide.
     """
     if verdict.relation not in OVERLAPS:
         return verdict
@@ -49,7 +49,7 @@ def _related(a: PlacedBody, height_a: float, b: PlacedBody, height_b: float, pla
 
 
 def wall_gap(outer: PlacedBody, inner: PlacedBody, plane: Plane) -> float:
-    """How far the outline of a body is from that of one that it holds."""
+    """The distance of a body's outline from an outline that it contains."""
     height = max(body.bounds[1][axis_across(plane)] for body in (outer, inner))
     around, within = _reaching(outer, 2 * height, plane), _reaching(inner, height, plane)
     return core.mesh_distance(around, within).distance
@@ -63,7 +63,7 @@ def _holds(outer: Box, inner: Box, plane: Plane) -> bool:
 
 
 def _reaching(body: PlacedBody, height: float, plane: Plane) -> core.Surface:
-    """The prism of another height."""
+    """The same prism with another height."""
     import numpy as np
 
     vertices, axis = np.array(body.mesh.vertices), axis_across(plane)

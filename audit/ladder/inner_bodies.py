@@ -1,8 +1,8 @@
 """The lower bound of a depth from convex parts, for `--accuracy parts`.
 
-Any translation that frees A also frees every convex body inside A from every one inside B, so the
-deepest such pair is a proven lower bound of the depth. The bodies are the shrunken copies of the
-convex parts of the meshes (satcheck.decompose), each proven to lie inside its mesh.
+A translation that frees A also frees every convex body inside A from every convex body inside B. So
+the depth of the deepest such pair is a proven lower bound of the depth. The bodies are shrunken
+copies of convex parts (satcheck.decompose), each proven to lie inside its mesh.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ def depth_of_parts(pair: Pair, trace: Trace) -> float:
 
 
 def deepest_pair(parts_a: list[Part], parts_b: list[Part]) -> float:
-    """A lower bound of the depth of the deepest pair, a rounding below it; 0.0 where a body has no
-    inner part, or none overlap.
+    """A lower bound of the depth of the deepest pair, rounded down; 0.0: a body has no inner part,
+    or no inner parts overlap.
 
-    Pairs are tried by how deep their boxes overlap, which bounds their depth from above; the rest
-    is skipped as soon as that bound falls below the deepest pair found.
+    Pairs are tried in the order of the overlap of their boxes, which is an upper bound of the
+    depth. The search ends when that bound is below the deepest pair so far.
     """
     bounds = [
         (box_escape(part_a.bounds, part_b.bounds)[0], i, j)

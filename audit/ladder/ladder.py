@@ -1,11 +1,12 @@
-"""The ladder: each rung settles what it can prove and leaves the rest to the next.
+"""The ladder: each rung settles the pairs that it can decide and leaves the others to the next
+rung.
 
-aabb -> obb -> hull -> triangles, or -> parts where --accuracy stops there. A rung that proves the
-bodies apart by more than was asked about ends the climb. The highest allowed rung answers in any
-case: what it could not prove is then an estimate, and it can only err towards "penetrating".
+aabb -> obb -> hull -> triangles, or hull -> parts at --accuracy parts. The climb ends at a rung
+that proves a gap beyond `asked_gap`. The highest allowed rung always answers. An answer that it
+cannot prove is an estimate, and can only err towards "penetrating".
 
-The core climbs and draws the verdict (`core/native/scene/verdict.hpp`). Here are the rungs that it
-does not have: curved shapes, outlines in a plane, convex parts.
+The core climbs and derives the verdict (`core/native/scene/verdict.hpp`). This module adds the
+rungs that the core does not have: curved shapes, outlines in a plane, convex parts.
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ from satcheck.core.tolerances import rounding_pad
 
 
 def settle(pair: Pair, trace: Trace, climb: core.Climb | None = None) -> Verdict:
-    """The relation of the pair by the lowest rung that settles the question.
+    """The verdict on the pair by the lowest rung that settles it.
 
-    climb: that of the pair, where the core has made it.
+    climb: of the pair, if the core has made it already.
     """
     verdict = _settled(pair, trace, climb_pair(pair) if climb is None else climb)
     plane = pair.settings.planar
@@ -67,21 +68,21 @@ def _verdict_of(pair: Pair, climb: core.Climb) -> Verdict:
 
 
 def boxes_verdict(pair: Pair, trace: Trace) -> Verdict | None:
-    """By the world boxes alone; None: they are not apart by more than was asked about."""
+    """The verdict by the world boxes alone; None: their gap does not exceed `asked_gap`."""
     climb = climb_pair(pair, last="aabb")
     trace.climbed(climb)
     return _verdict_of(pair, climb) if climb.settled else None
 
 
 def _outlines_apart(pair: Pair, trace: Trace) -> bool:
-    """In a check in a plane: whether an edge of two convex outlines settles the question."""
+    """With --planar: whether an edge of two convex outlines settles the pair."""
     a, b = pair.a.body.file.outline, pair.b.body.file.outline
     if a is None or b is None:
         return False
     import numpy as np
 
     result = core.sat_polygons(np.array(a), np.array(b))
-    # The widest gap along an edge normal, less what its rounding can make of it.
+    # The widest gap along an edge normal, less its rounding error.
     gap = -result.penetration - rounding_pad(pair.largest_coordinate)
     trace.record("sat", result.outcome, _edge_of(result))
     return result.outcome == "separated" and gap > pair.asked_gap

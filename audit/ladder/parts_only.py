@@ -20,8 +20,8 @@ from satcheck.report.report import Relation
 
 
 def settle_by_parts(pair: Pair, trace: Trace) -> Verdict:
-    """Proven where the measured error of the parts allows it; else "penetrating" or "separated",
-    as the parts say, unproven."""
+    """The verdict by the parts. It is proven if the measured error of the parts allows it; else it
+    is an estimate."""
     if not pair.both_solid:
         trace.record("parts", "not asked", "a mesh that is not solid has no inside to fill")
         return Verdict("penetrating", False)
@@ -48,7 +48,7 @@ def settle_by_parts(pair: Pair, trace: Trace) -> Verdict:
 
 
 def _gap(a: Covering, b: Covering) -> float:
-    """A lower bound of the distance of the nearest two parts, a rounding below it."""
+    """A lower bound of the distance of the nearest two parts, rounded down."""
     bounds = sorted(
         (core.box_gap(part_a.bounds, part_b.bounds), i, j)
         for i, part_a in enumerate(a.parts)
