@@ -25,7 +25,7 @@ from satcheck.verify.exact import Floats, Rejected
 from satcheck.verify.open_parts import bounds_nothing, with_backs
 from satcheck.verify.world import Indices, World, is_balanced, is_convex, placed
 
-# What a report says of a mesh that it could read.
+# What a report states about a readable mesh.
 _OF_A_MESH = ("health", "triangles", "resolution", "convex", "parts", "part_error")
 SAME = 1e-12  # relative, of a length that was computed twice
 
@@ -33,9 +33,9 @@ SAME = 1e-12  # relative, of a length that was computed twice
 @dataclass(frozen=True, slots=True)
 class Shape:
     """A mesh file, or a primitive. triangles: of the file, then the reverse of those of the sheets
-    of a solid. solid: balanced, and bounds something. convex: exactly, in its own coordinates.
-    holed: it has holes. pieces: the sheets of an open mesh, unless it is meant to be open. curved:
-    what the mesh is only within."""
+    of a solid. solid: balanced, with an inside. convex: exactly, in its own coordinates. holed: it
+    has holes. pieces: the sheets of an open mesh, unless it is meant to be open. curved: the shape
+    in which the mesh is inscribed."""
 
     file: MeshFile
     vertices: Floats
@@ -49,7 +49,7 @@ class Shape:
 
 @dataclass(frozen=True, slots=True)
 class Missing:
-    """A file that is not there, as the report names it."""
+    """A file that does not exist, as the report names it."""
 
     file: str
 
@@ -59,9 +59,9 @@ class Placed:
     """A body of the report, a mesh in the world or a curved shape, or why it cannot be read.
 
     resolution: world units, recomputed. convex: also of every curved shape. holed: the mesh has
-    holes, and nobody knows what fills them. pieces: as of its `Shape`. missing: the file that is
-    not there, as the report names it. deviation: in a check in a plane, how far the boundary may be
-    off the polygon that stands for it; inscribed: which lies within it.
+    holes with unknown fills. pieces: as in `Shape`. missing: the file that does not exist, as the
+    report names it. deviation: with --planar, the largest distance of the boundary from its
+    polygon. inscribed: the polygon lies within the boundary.
     """
 
     id: str
@@ -73,7 +73,7 @@ class Placed:
     resolution: float = 0.0
     static: bool = False
     reason: str | None = None
-    claims: bool = True  # False: the report calls it unreadable
+    claims: bool = True  # False: the report states that it is unreadable
     curved: Curved | None = None
     missing: str | None = None
     deviation: float = 0.0
@@ -102,8 +102,8 @@ class Bodies:
         self._shapes: dict[tuple[str, str | None, str], Shape | str] = {}
 
     def place_all(self, entries: Sequence[BodyReport], plane: Plane | None) -> list[Placed]:
-        """The report's bodies; in a check in a plane the prisms over their outlines, each as the
-        bodies stand together. A file that is gone or has changed is a reason."""
+        """The report's bodies; with --planar, the prisms over their outlines. If a file is missing
+        or has changed, the body has a reason instead of a mesh."""
         read = [self._find(entry) for entry in entries]
         prisms: dict[str, MeshFile] = {}
         if plane is not None:
@@ -167,7 +167,7 @@ class Bodies:
         return self._shapes[key]
 
     def _primitive(self, file: str, values: Any) -> Shape | str:
-        """As the report states it; `file`, the scene that stated it, is not read again."""
+        """A primitive as the report states it; the scene file that stated it is not read again."""
         key = (file, None, json.dumps(values))
         if key not in self._shapes:
             try:
@@ -204,7 +204,7 @@ def _place(body: Body, shape: Shape, pose: tuple[float, ...] | None, entry: Body
 
 
 def _check_figures(entry: BodyReport, shape: Shape, resolution: float) -> None:
-    """What the report says of the mesh, against the file."""
+    """Compares what the report states about the mesh with the file."""
     file, health = shape.file, entry.health
     if health is None:
         raise Rejected("the report says nothing of its health")
@@ -246,7 +246,7 @@ def shape_of(file: MeshFile, *, allow_open: bool = False) -> Shape:
 
 
 def curved_of(file: MeshFile, primitive: Primitive) -> Shape:
-    """file: of the mesh within the shape, of which nothing is asked."""
+    """file: of the inscribed mesh, which needs no check."""
     vertices, triangles = np.empty((0, 3)), np.empty((0, 3), dtype=np.int64)
     return Shape(file, vertices, triangles, True, True, curved=primitive)
 

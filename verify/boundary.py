@@ -1,10 +1,10 @@
-"""Where a body ends: the parts of its surface with no material on at least one side.
+"""The boundary of a body: the parts of its surface without material on at least one side.
 
-The solid part of a body is the points that its surface runs around, with a winding number other
-than 0. A wall of no thickness (outside on both sides) is a sheet, and belongs to the boundary; a
-face within the material (inside on both) does not. Cut along all that it shares with others of its
-surface, a triangle falls into cells that are boundary all over or nowhere. Of a surface that is not
-solid all points count.
+The material of a body is the set of points with a winding number other than 0. A wall without
+thickness (outside on both sides) is a sheet and belongs to the boundary. A face inside the material
+(inside on both sides) does not. A triangle is cut along everything it shares with other triangles
+of its surface. Each cell then belongs to the boundary as a whole or not at all. All points of a
+surface that is not solid belong to the boundary.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ Piece = tuple[Any, Any, Any]  # the corners of a triangle, rational
 
 
 class Boundary:
-    """By triangles, each looked at once."""
+    """The boundary by triangles; each triangle is cut once."""
 
     def __init__(self, body: Exact) -> None:
         self.body = body
         self._pieces: dict[int, list[Piece]] = {}
 
     def pieces(self, t: int) -> list[Piece]:
-        """Closed triangles, that together are what of triangle t is boundary."""
+        """Closed triangles that make up the boundary part of triangle t."""
         if t not in self._pieces:
             self._pieces[t] = self._cut(t)
         return self._pieces[t]
@@ -66,7 +66,7 @@ class Boundary:
 
 
 def boundary_point(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
-    """The point of the evidence: of a convex body any, of another one where the body ends."""
+    """The point of the evidence: any point of a convex body, a boundary point of another body."""
     p = on_body(point, body, of_hull=of_hull)
     if not of_hull and not Boundary(body).holds(p):
         raise Rejected("a point lies within the material")
@@ -76,8 +76,8 @@ def boundary_point(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
 def contacts_if_apart(
     a: Exact, b: Exact, beyond: Fraction, least: Fraction
 ) -> list[tuple[int, int]]:
-    """The pairs of triangles that meet. Rejects bodies whose boundaries meet, or are not over
-    `beyond` and at least `least` apart."""
+    """The pairs of triangles that meet. Rejects bodies whose boundaries meet, or whose gap is not
+    greater than `beyond` and at least `least`."""
     scale = 1 << a.k
     low, high = (beyond * scale) ** 2, (least * scale) ** 2
     of_a, of_b = Boundary(a), Boundary(b)

@@ -1,4 +1,4 @@
-"""Whether the boxes of two bodies are apart by more than is asked about."""
+"""Whether the boxes of two bodies are too far apart to matter."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from satcheck.verify.figures import default_tolerance
 from satcheck.verify.in_plane import curve_error
 from satcheck.verify.rules import Request
 
-CERTAINLY = 1 + 1e-12  # far more than a difference of two numbers can be off by
+CERTAINLY = 1 + 1e-12  # far more than the rounding of a difference
 
 
 def boxes_apart(a: Placed, b: Placed, request: Request) -> bool:

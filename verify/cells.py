@@ -92,7 +92,8 @@ def _winding(solid: Exact, p: Point) -> int:
 
 
 def _regions(a: Exact, without: set[int]) -> Iterator[tuple[list[int], int]]:
-    """The triangles that are left, by regions connected through vertices, with a vertex of each."""
+    """The remaining triangles, by regions connected through vertices, with a vertex of each
+    region."""
     left = np.ones(len(a.world.triangles), dtype=bool)
     left[list(without)] = False
     index = np.flatnonzero(left)
@@ -183,7 +184,7 @@ def _in_plane(corners: Corners, normal: IntVector, p: Point) -> Plane:
 
 
 def _inside(edge: Segment) -> bool:
-    """Whether it runs through the open triangle, in which it lies."""
+    """Whether the edge, which lies in the triangle, runs through its open interior."""
     s, r = edge[0][0] + edge[1][0], edge[0][1] + edge[1][1]
     return s > 0 and r > 0 and s + r < 2
 
@@ -252,9 +253,9 @@ def in_space(corners: Corners, p: Plane) -> Point:
 def look(
     corners: Corners, normal: IntVector, cell: list[Plane], bodies: Sequence[Exact]
 ) -> tuple[Point, list[tuple[bool, bool]]]:
-    """A point of the open cell and whether in front of it and behind it each body is.
+    """A point of the open cell, and for each body whether it lies in front of and behind the point.
 
-    Its middle, or else a point next to it: none that lies on a triangle of another plane.
+    The point is the middle, or a point near it that lies on no triangle of another plane.
     """
     for attempt in range(ATTEMPTS):
         weights = [1 + (k * attempt) % 7 for k in range(1, len(cell) + 1)]

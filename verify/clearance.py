@@ -21,8 +21,8 @@ NO_ERROR = CurveError(Fraction(0), Fraction(0))
 
 
 def least_gap(finding: Finding, request: Request) -> Fraction:
-    """The least gap of a finding that says that it keeps its clearance. A figure that equals the
-    clearance up to rounding keeps it."""
+    """The least gap that a finding may have if it claims to keep its clearance. A gap that equals
+    the clearance up to rounding keeps it."""
     if finding.relation != "separated" or finding.undecided == "limit":
         return Fraction(0)
     return Fraction(request.clearance or 0.0) * (1 - EXACT_WIDTH)
@@ -35,9 +35,9 @@ def keeps_clearance(
     prove_apart: Callable[[Fraction], None],
     error: CurveError = NO_ERROR,
 ) -> bool | None:
-    """Whether the gap keeps the clearance, independent of the touch band; None: not shown either
+    """Whether the gap keeps the clearance, independent of the touch band; None: not proven either
     way. squared: of the gap between two points. prove_apart: rejects a narrower gap. error: of the
-    polygons that stand for the bodies."""
+    polygons that replace curves."""
     if finding.exact_relation != "separated":
         return False
     if finding.relation == "separated":  # then that is a part of what was proven
@@ -54,7 +54,7 @@ def keeps_clearance(
 def prove_apart(
     certificate: Certificate, pair: Pair, bodies: tuple[Placed, Placed], least: Fraction
 ) -> None:
-    """Rejects separated bodies with a gap narrower than that."""
+    """Rejects separated bodies with a narrower gap."""
     if not pair.convex:
         check_holes(*bodies, least)
         contacts_if_apart(pair.a, pair.b, Fraction(0), least)

@@ -1,10 +1,11 @@
-"""The least depth of two solids: a cover of all shorter translations, each shown to overlap.
+"""A lower bound of the depth of two solids: a cover of all shorter translations, each proven to
+leave an overlap.
 
-Moved by t, a triangle S of A passes through a triangle U of B where t lies inside U - S, a convex
-polytope. Where the planes of the two are not parallel, and beside every inner point of either is
-its solid on one side and nothing of it on the other, the solids then have a common interior. Cubes
-inside such polytopes cover the ball: an octree around the origin, with a pair of triangles for each
-leaf. Cubes outside of the ball need none, and of the others what lies outside of it does not count.
+A triangle S of A, moved by t, passes through a triangle U of B if t lies inside U - S, a convex
+polytope. The solids then have a common interior if the planes of S and U are not parallel, and if
+every inner point of either triangle has its solid on exactly one side. Cubes inside such polytopes
+cover the ball of shorter translations: an octree around the origin with a pair of triangles for
+each leaf. Cubes outside the ball need no proof.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from satcheck.verify.exact import IntVector, Rejected, cross, dot, sub
 from satcheck.verify.surfaces import common
 from satcheck.verify.world import Corners, Exact
 
-LEVELS = 12  # a cube is halved so often at most
+LEVELS = 12  # the most halvings of a cube
 MOST_CUBES = 50_000
 SPLIT = -1
 HalfSpace = tuple[IntVector, int]  # n . t < h, on the lattice
@@ -27,8 +28,8 @@ Cube = tuple[IntVector, int]  # its middle and half its edge, in 2**-LEVELS of t
 
 
 def depth_is_at_least(cover: Cover, a: Exact, b: Exact, depth: Fraction) -> None:
-    """Rejects a cover that does not show that every translation of A shorter than this, world
-    units, leaves a common interior.
+    """Rejects a cover that does not prove that every translation of A shorter than this (world
+    units) leaves a common interior.
     """
     if not (a.world.solid and b.world.solid):
         raise Rejected("a cover proves something about solids only")
@@ -79,7 +80,7 @@ def children(cube: Cube) -> list[Cube]:
 
 
 def is_outside(cube: Cube, squared: int) -> bool:
-    """Whether no point of it is closer to the origin than the root of that."""
+    """Whether no point of the cube is closer to the origin than the root of `squared`."""
     middle, size = cube
     steps = [max(abs(c) - size, 0) for c in middle]
     return dot(steps, steps) >= squared  # type: ignore[no-any-return]
@@ -112,8 +113,8 @@ def half_spaces(s: Corners, t: Corners) -> list[HalfSpace]:
 
 
 def not_plain(body: Exact, triangles: list[int]) -> list[int]:
-    """The triangles without area, those that another triangle of the surface passes through, and
-    those with the solid on both sides or on none."""
+    """Triangles that a cover must not use: without area, crossed by another triangle of the
+    surface, or with the solid on both sides or on none."""
     partners = own_partners(body, triangles)
     return [t for t in triangles if not _is_plain(body, t, partners.get(t, []))]
 

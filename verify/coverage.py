@@ -1,8 +1,8 @@
 """Whether each field of a report is proven, follows from what is proven, or is not covered.
 
-One table for the checker, its output and the docs. A path names a field of the published schema
-(`[]`: of each member of a list); an entry speaks for all below it. What is not covered is listed by
-`satcheck verify` where a report says something there.
+The checker, its output and the docs share this table. A path names a field of the published schema
+(`[]`: each member of a list) and includes all fields below it. `satcheck verify` lists fields that
+are not covered if the report has values for them.
 """
 
 from __future__ import annotations
@@ -133,7 +133,7 @@ def _says_something(value: Any) -> bool:
 
 
 def _values(value: Any, path: str) -> Iterator[bool]:
-    """Whether the report says something there, place by place."""
+    """Whether the report has a value, for each place of the field."""
     if not path:
         yield _says_something(value)
         return

@@ -13,13 +13,13 @@ from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, ShapeImage,
 from satcheck.verify.exact import Floats, Point, Rejected, cross, dot, sign
 from satcheck.verify.roots import Reach, root
 
-# Bits of a root that a float64 bound is rounded from.
+# Bits of a root before it is rounded to a float64 bound.
 _BITS = 128
 
 
 @dataclass(frozen=True)
 class Curved:
-    """Closed, convex, with an inside. Raises Rejected where the matrix flattens the shape."""
+    """A closed convex shape with an inside. Raises Rejected if the matrix flattens it."""
 
     image: ShapeImage
 

@@ -26,7 +26,8 @@ def check_curved(
     request: Request,
     tolerance: Fraction,
 ) -> ProvenFields:
-    """Of two solids, so that neither can hide in the other; their depth is not certified."""
+    """Checks a finding of two solids with at least one curved shape. Their depth is not
+    certified."""
     pair = curved_pair_of(a, b)
     relation, exact = finding.relation, finding.exact_relation
     clearance = Fraction(request.clearance or 0.0)
@@ -61,7 +62,7 @@ def check_curved(
 
 
 def _in_band(certificate: Certificate, pair: CurvedPair, band: Fraction) -> bool:
-    """Whether an overlap is no deeper than that, along the axis of the certificate."""
+    """Whether the overlap along the axis of the certificate is within the tolerance."""
     proof = given(certificate.band, "band")
     if pair.gap(axis(given(proof.axis, "axis")), -band) < 0:
         raise Rejected("the bodies overlap by more than the tolerance")

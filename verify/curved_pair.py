@@ -1,4 +1,4 @@
-"""What certificates prove of two convex bodies of which one at least is a curved shape."""
+"""The proofs about two convex bodies, at least one of them a curved shape."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from satcheck.verify.world import Exact
 
 @dataclass(frozen=True, slots=True)
 class CurvedPair:
-    """A mesh that is exactly convex in its file is taken as the hull of its world vertices."""
+    """Two convex bodies. A mesh that is exactly convex in its file counts as the hull of its world
+    vertices."""
 
     a: Curved | Exact
     b: Curved | Exact
@@ -25,7 +26,7 @@ class CurvedPair:
     def prove(
         self, relation: Relation | None, proof: Proof, beyond: Fraction, least: Fraction
     ) -> None:
-        """Rejects a proof that does not prove the exact relation. A separation has to be over
+        """Rejects a proof that does not prove the exact relation. A gap must be greater than
         `beyond` and at least `least`, world units."""
         match relation, proof:
             case "separated", AxisProof() as separation:
@@ -62,12 +63,12 @@ class CurvedPair:
         return sign_of(-forth.q - back.q, less, [square] if length < 0 else ())
 
     def squared_gap(self, ends: Ends) -> Fraction:
-        """Of two points, one of each."""
+        """The squared gap of two points, one of each body."""
         step = self._step(ends)
         return Fraction(dot(step, step))
 
     def prove_apart(self, ends: Ends, least: Fraction) -> None:
-        """Rejects a gap along these two points that is narrower than that."""
+        """Rejects a narrower gap along these two points."""
         n = self._step(ends)
         if not any(n) or self.gap(n, least) < 0:
             raise Rejected("the gap is not shown to be as wide")
@@ -80,15 +81,16 @@ class CurvedPair:
         return b[0] - a[0], b[1] - a[1], b[2] - a[2]
 
     def _overlap(self, proof: PointProof) -> None:
-        """A point inside one of them, and of the other, which has an inside: next to it are points
-        inside both."""
+        """A point in the interior of one body and in the other, closed body. The other has an
+        interior, so points nearby lie inside both."""
         a, b = self._points(proof.both)
         inner = (isinstance(x, Curved) and x.side(a) > 0 for x in (self.a, self.b))
         if a != b or not any(inner):
             raise Rejected("the point does not lie inside both")
 
     def _neither_holds(self, proof: PointProof) -> None:
-        """Each reaches as far as the other along some axis, one of them farther."""
+        """Proves that neither contains the other: each reaches at least as far as the other along
+        some axis, and one farther."""
         leads = []
         for n, x, y in ((proof.a_reaches, self.a, self.b), (proof.b_reaches, self.b, self.a)):
             mine, other = reach(x, axis(n)), reach(y, axis(n))

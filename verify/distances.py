@@ -1,8 +1,8 @@
-"""The proof that two bodies are exactly as far apart as a finding says.
+"""The proof of the distance of two bodies.
 
-Of convex bodies, curved ones among them, the planes across the normal show that nothing is nearer,
-and the witness points that something is as near. Of other meshes a certificate names a point of
-either boundary, and all triangles that could be nearer than these are looked at.
+For convex bodies, curved shapes included, the planes normal to the axis prove that nothing is
+nearer, and the witness points prove that the gap is no larger. For other meshes the certificate
+names a point of each boundary, and every triangle that could be nearer is checked.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ def squared_gap(ends: Ends, pair: Pair) -> Fraction:
 def spanned(
     finding: Finding, rounding: Rounding, is_apart: Callable[[Point, Fraction], bool]
 ) -> bool:
-    """Whether a convex pair is as far apart, or overlaps as far, as the finding says along its
-    normal. Rejects one that is closer. is_apart: whether the gap along an axis is at least a
-    length, world units, which may be below 0.
+    """Whether the gap or the overlap of a convex pair along the normal is what the finding states.
+    Rejects a closer pair. is_apart: whether the gap along an axis is at least a length, world
+    units; the length may be negative.
     """
     figure = finding.distance if finding.depth is None else -finding.depth
     if finding.normal is None or figure is None:
@@ -60,7 +60,7 @@ def hulls_are_apart(pair: Pair) -> Callable[[Point, Fraction], bool]:
 
 
 def check_distance(distance: float, ends: Ends, pair: Pair, rounding: Rounding) -> None:
-    """Of meshes. ends: points of them that are as far apart."""
+    """Checks the distance of meshes. ends: points of them with that distance."""
     length = Fraction(distance)
     slack = rounding.of(length)
     if squared_gap(ends, pair) > (length + slack) ** 2:

@@ -50,7 +50,7 @@ class Verification:
 
     @property
     def rejected(self) -> bool:
-        """Whether something that was checked is false."""
+        """Whether a checked claim is false."""
         return bool(self.faults) or any(f.outcome == "rejected" for f in self.findings)
 
     @property
@@ -73,8 +73,8 @@ def verify(
 ) -> Verification:
     """Re-check a report, parsed from JSON, from the mesh files. Their paths start at root.
 
-    allow_outside: the buffers of a glTF file may lie outside of its folder. Raises Rejected where
-    it is no report. Everything else that is wrong is a result.
+    allow_outside: the buffers of a glTF file may lie outside of its folder. Raises Rejected if the
+    document is no report. Every other fault is part of the result.
     """
     report = _Report(document, root, allow_outside=allow_outside)
     count = len(report.findings)
@@ -108,7 +108,7 @@ def _asks_for_certificates(report: Report) -> bool:
 
 
 class _NoFile(Exception):
-    """What is claimed may be true: the file of a body is not there."""
+    """The claim may be true, but the file of a body is missing."""
 
 
 class _NotCertified(Exception):
@@ -208,7 +208,7 @@ class _Report:
         return replace(request, clearance=None) if request.limited else request
 
     def check_unlisted(self, faults: list[str]) -> tuple[int, int]:
-        """How many pairs that are not listed are apart by their boxes, and how many are exempt."""
+        """The number of unlisted pairs whose boxes are apart, and of exempt ones."""
         pruned = exempted = 0
         for a, b in _unlisted(list(self.bodies.values()), self.listed):
             if self.rules.is_exempt(a, b):
@@ -222,7 +222,8 @@ class _Report:
         return pruned, exempted
 
     def check_summary(self, pruned: int) -> None:
-        """Of a report with an ill-formed finding, which is rejected, nothing follows."""
+        """Checks the summary, unless a finding is ill-formed; then nothing follows from the
+        findings."""
         findings = [finding for finding in self.findings if isinstance(finding, Finding)]
         if len(findings) == len(self.findings):
             check_summary(self.report, findings, self.rules, pruned, self.listed_apart)

@@ -14,7 +14,7 @@ from satcheck.report.certificate import OnBody
 from satcheck.verify.exact import Point, Rejected, dot
 from satcheck.verify.world import Exact
 
-# A number of any length would take any time.
+# Longer numbers would take unbounded time.
 NUMBER = re.compile(r"-?[0-9]{1,4000}(/[0-9]{1,4000})?")
 Part = TypeVar("Part")
 
@@ -54,8 +54,8 @@ def index(number: int, count: int) -> int:
 
 
 def on_body(point: OnBody, body: Exact, *, of_hull: bool) -> Point:
-    """A convex combination of corners of one triangle, or of any vertices where the body is its own
-    hull. On the lattice of the pair."""
+    """A convex combination of the corners of one triangle, or of any vertices if the body is
+    convex. On the lattice of the pair."""
     vertices, weights = given(point.vertices, "vertices"), given(point.weights, "weights")
     if not 1 <= len(vertices) == len(weights) <= 4:
         raise Rejected("a point on a body has one to four vertices, each with a weight")

@@ -75,7 +75,7 @@ def homogeneous(p: Point) -> tuple[int, int, int, int]:
 
 
 def nearest_to_origin(points: Sequence[IntVector]) -> tuple[Point, dict[int, Fraction]]:
-    """The point of the hull of a few points next to the origin, and its weights on them.
+    """The point of the hull of a few points nearest to the origin, with its weights.
 
     By trying every subset of up to four: the nearest point x is a convex combination of one of
     them, and the one for which no point v has v.x < x.x.

@@ -24,14 +24,14 @@ from satcheck.verify.exact import Point, Rejected, dot, nearest_to_origin, sub
 from satcheck.verify.rules import Request
 from satcheck.verify.world import World
 
-# An interval this narrow, relatively, comes from rounding alone.
+# An interval of this relative width comes from rounding alone.
 EXACT_WIDTH = Fraction(1, 10**9)
 # Figures of polytopes are at most 6e-12 of the size off, as the tables of hard cases show.
 POLYTOPE_ERROR = Fraction(1, 1 << 37)
 # Those of curved shapes are known as far as their bounds close, which is 1e-9 of the size.
 CURVED_ERROR = EXACT_WIDTH
 UNIT_ERROR = 1e-12  # of the length of a unit vector
-# A direction is checked where rounding turns it by no more than this, in radians.
+# A direction is checked only if rounding turns it by at most this angle, in radians.
 DIRECTION_ERROR = Fraction(1, 1000)
 ID_DIGITS = 12
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most

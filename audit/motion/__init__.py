@@ -1,3 +1,3 @@
-"""Do bodies hit while they move? The sweep of a pair; see docs/motion.md."""
+"""The sweep of a pair: whether moving bodies hit each other; see docs/motion.md."""
 
 from satcheck.audit.motion.sweep import sweep as sweep

@@ -1,6 +1,6 @@
-"""Contact of bodies that are not both convex: a translation of A, shorter than the touch band,
-after which they stay apart for a while. They then overlap by no more than its length meanwhile,
-for moving A by it ends the overlap: that is what depth means.
+"""Contact of bodies that are not both convex. The proof is a translation of A, shorter than the
+touch band, after which the bodies stay apart for a while. During that time the translation ends
+every overlap, so no overlap is deeper than its length.
 """
 
 from __future__ import annotations
@@ -23,19 +23,20 @@ from satcheck.core.conventions import Vector
 WALLS = 3
 # Directions that are tried, alone and two or three at once.
 MOST_WAYS = 8
-# Pairs of triangles that touch, of which the directions are taken; of more than that, of one.
+# If at most this many pairs of triangles touch, all their directions are tried; else those of one
+# pair.
 MOST_MEETING = 100_000
-# Touch bands of motion after which what is about to meet has met.
+# Motion, in touch bands, after which triangles that are about to meet have met.
 AHEAD = 16
 # Decimals to which normals are told apart.
 DIGITS = 6
-# Of the touch band: an offset that leaves room for rounding, and a shorter one. What stands on the
-# other side is less likely to stop the shorter one.
+# Shares of the touch band: an offset that leaves room for rounding, and a shorter one, which an
+# obstacle on the other side is less likely to stop.
 SHARES = (0.9, 0.3)
 
 
 class ContactOffsets:
-    """Keeps the offset that served last: a contact usually goes on as it was."""
+    """Finds offsets. The last successful one is tried first, because a contact usually lasts."""
 
     def __init__(self, pair: MovingPair) -> None:
         self._pair = pair
@@ -43,7 +44,7 @@ class ContactOffsets:
         self._proven_until = -1.0
 
     def safe_time(self, t: float, end: float) -> float:
-        """For how long after t the bodies have no common point once A is moved by an offset.
+        """The time after t for which the bodies have no common point if A is moved by an offset.
 
         0.0: no offset helps."""
         if self._last is not None:
@@ -77,8 +78,8 @@ class ContactOffsets:
                     yield scaled((x, y, z), length / walls)
 
     def _ways_off(self, t: float, end: float, placed: Pair) -> list[Vector]:
-        """Unit directions in which A may leave B: the most frequent normals of what touches, now
-        or a few bands of motion later, where what has not quite met yet crosses."""
+        """Unit directions in which A may leave B: the most frequent normals of triangles that
+        touch, now or a few bands of motion later, when near triangles cross."""
         nearest = self._pair.apart(t, end).triangles
         normals = _normals(placed, [] if nearest is None else [nearest])
         speed = self._pair.fastest(t)
@@ -93,7 +94,7 @@ class ContactOffsets:
 
 
 def _normals(placed: Pair, pairs: Iterable[tuple[int, int]]) -> Counter[Vector]:
-    """Unit normals of these triangles, those of A turned round, and how often they occur."""
+    """Unit normals of these triangles and how often they occur. Those of A are reversed."""
     normals: Counter[Vector] = Counter()
     for triangles in pairs:
         for body, triangle, way in zip((placed.a, placed.b), triangles, (-1, 1), strict=True):

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-# A step shorter than this share of the motion is no progress: the bodies are in contact, as far as
-# can be told from there. The first overlap is searched down to the same share.
+# If a step is shorter than this share of the motion, the bodies count as in contact. The first
+# overlap is searched down to the same share.
 SHORTEST_STEP = 2.0**-30
-# So many touch bands moved in contact are a contact that went on; less is the way into an overlap.
+# A contact that lasts for more touch bands of motion than this is a contact of its own; a shorter
+# one is the start of an overlap.
 SLID = 64
-# Questions about one pair: how long it stays free, how large its gap is.
+# Queries about one pair: how long it stays free, how large its gap is.
 STEPS = 4096
-# Pairs of boxes and triangles that all these questions may visit: seconds.
+# Pairs of boxes and triangles that all these queries may visit: a few seconds.
 VISITS = 10_000_000
-# Poses beyond a contact that nothing could be proven about, in which an overlap is looked for.
+# Poses after an unproven contact in which an overlap is searched.
 PROBES = 64
-# Narrower than this share of the figure, an interval of the deepest or nearest pose is done.
+# The search for the worst pose ends when the interval is narrower than this share of the figure.
 WORST_WIDTH = 0.01
-# Intervals of t that the search for the worst pose may look at, and poses of two bodies that are
-# not both convex whose depth it measures, coarsely, and as narrowly as the depth of a pair is.
+# For the worst pose: the most intervals of t. For bodies that are not both convex, the most poses
+# whose depth is measured coarsely, and the most measured as narrowly as the depth of a pair.
 WORST_INTERVALS = 512
 WORST_DEPTHS = 24
 WORST_REFINED = 2
-# A pose is known to rounding only: so many times that is the least touch band of a sweep.
+# The least touch band of a sweep, in units of the rounding of a pose.
 PADS_IN_BAND = 8

@@ -25,7 +25,7 @@ class Movers:
         self._tracks = {id(motion): track_of(motion.path) for motion in motions}
 
     def paths(self, a: str, b: str) -> Paths | None:
-        """None where neither moves against the other: both stand, or move as one."""
+        """The paths of a pair; None: the bodies do not move relative to each other."""
         motion_a, motion_b = self._motion.get(a), self._motion.get(b)
         if motion_a is motion_b:
             return None
@@ -53,7 +53,7 @@ class Movers:
         )
 
     def issues(self, bodies: Sequence[str]) -> list[Issue]:
-        """Warnings about motions of bodies that are not there."""
+        """Warnings about motions of bodies that do not exist."""
         lost = self._motion.keys() - set(bodies)
         return [
             Issue(

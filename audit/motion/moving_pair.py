@@ -1,4 +1,4 @@
-"""Two bodies on their tracks, and what can be proven about them from one moment on."""
+"""Two bodies on their tracks, and the bounds that can be proven from one moment on."""
 
 from __future__ import annotations
 
@@ -29,29 +29,28 @@ if TYPE_CHECKING:
 
 
 class Unanswerable(Exception):
-    """Why a question about a moving pair has no answer: in words for its report."""
+    """A query about a moving pair has no answer. The message is for the report."""
 
 
 class BudgetSpent(Unanswerable):
-    """More questions were asked about a pair than a sweep may ask."""
+    """The queries about a pair exceed the budget of a sweep."""
 
     def __init__(self) -> None:
         super().__init__("the budget of the sweep was spent")
 
 
 class Obstacle(Struct, frozen=True):
-    """time: nothing is in the way for so long, in t. triangles: of A and B, what then is; None
-    where nothing is, or where only the hulls were asked."""
+    """time: how long the way is free, in t. triangles: of A and B, the obstacle then; None: there
+    is none, or only the hulls were tested."""
 
     time: float
     triangles: tuple[int, int] | None = None
 
 
 class MovingPair:
-    """World frame. tolerance: half width of the touch band; poses are known to rounding, so it is
-    never less than what that amounts to. pad: that rounding, of a gap. hulls_apart: whether the
-    hulls alone answered what was asked so far. Raises Unanswerable where a band that rounding makes
-    would be wide for bodies of this size.
+    """World frame. tolerance: half width of the touch band, at least the rounding of poses. pad:
+    the rounding of a gap. hulls_apart: whether the hulls alone have answered all queries so far.
+    Raises Unanswerable if the rounding would make the band wide for bodies of this size.
     """
 
     def __init__(self, pair: Pair, track_a: Track, track_b: Track) -> None:
@@ -75,18 +74,19 @@ class MovingPair:
         self.visits = 0
 
     def end_of_piece(self, t: float) -> float:
-        """Up to there both bodies go on as they do at t < 1."""
+        """The end of the piece of steady motion that contains t < 1."""
         return next(time for time in self.times if time > t)
 
     def fastest(self, t: float) -> float:
-        """Per unit of t: no point of A moves faster against one of B in the piece of t."""
+        """An upper bound of the speed of a point of A relative to B, in the piece of t, per unit of
+        t."""
         return self.track_a.fastest(t, self.pair.a.bounds) + self.track_b.fastest(
             t, self.pair.b.bounds
         )
 
     def apart(self, t: float, end: float, offset: Vector = ORIGIN) -> Obstacle:
-        """For how long after t, up to `end`, the surfaces have no common point, A being moved by
-        `offset`. end: in the same pieces as t."""
+        """The time after t, up to `end`, for which the surfaces have no common point if A is moved
+        by `offset`. end: in the same pieces as t."""
         hulls = self._shapes(core.safe_time, t, offset=offset, level=0.0, limit=end - t)
         if self.convex or hulls.value >= end - t or not self.pair.may("exact"):
             return Obstacle(hulls.value)
@@ -96,14 +96,15 @@ class MovingPair:
         return Obstacle(max(hulls.value, result.value), triangles)
 
     def shallow(self, t: float, end: float) -> float:
-        """For how long the hulls overlap by no more than the tolerance, and so the bodies."""
+        """The time for which the hulls, and so the bodies, overlap by no more than the
+        tolerance."""
         level = -self.tolerance
         return self._shapes(core.safe_time, t, level=level, limit=end - t).value
 
     def least_gap(self, start: float, end: float, floor: float = 0.0) -> tuple[float, float]:
-        """Proven bounds of the signed distance of two convex bodies, of the distance of the
-        surfaces of others: at least the first at all times from start to end, which lie in the same
-        pieces; at most the second in the middle. floor: below it the first may be anything >= 0."""
+        """(lower, upper) of the signed distance of two convex bodies, or of the distance of other
+        surfaces. lower holds at all times from start to end, which lie in the same pieces; upper
+        holds in the middle. floor: if the distance is below it, lower may be any bound >= 0."""
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
         if self.convex:
@@ -113,14 +114,15 @@ class MovingPair:
         return max(result.value, 0.0), result.upper + self.pad
 
     def least_hull_gap(self, start: float, end: float) -> float:
-        """A lower bound of the signed distance of the hulls; minus it is one of the depth."""
+        """A lower bound of the signed distance of the hulls. Its negative is an upper bound of
+        their depth."""
         middle = 0.5 * (start + end)
         window = max(middle - start, end - middle)
         return self._shapes(core.least_gap, middle, window=window).value
 
     def placed(self, t: float) -> Pair:
-        """The pair as it stands at t, with the touch band of the sweep and no question but how the
-        bodies relate."""
+        """The pair as placed at t, with the touch band of the sweep, and only its relation
+        requested."""
         try:
             a, b = _placed(self.pair.a, self.track_a, t), _placed(self.pair.b, self.track_b, t)
         except (ValueError, OverflowError) as error:
@@ -136,7 +138,7 @@ class MovingPair:
         )
 
     def found_at(self, t: float) -> Finding:
-        """How the bodies relate at t: exactly, for their poses rounded to float64."""
+        """The finding at t, exact for the poses rounded to float64."""
         return examine(self.placed(t), Trace()).finding
 
     def _shapes(
@@ -193,7 +195,7 @@ class MovingPair:
 
 
 def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
-    """The hull of a body, or the curved shape that it is, with the frame that places it."""
+    """The hull of a body, or its curved shape, with its frame."""
     if body.curved is None:
         return body.hull_shape(), WORLD
     x, y, z = rows_of(body.curved.turn)
@@ -201,8 +203,8 @@ def _shape_of(body: PlacedBody) -> tuple[core.Shape, Frame]:
 
 
 def _placing(body: PlacedBody, track: Track) -> float:
-    """World units: what rounding the matrix that poses the file may do to a point of the body. It
-    goes by the coordinates of the file, which may be far larger than those of the world."""
+    """How far the rounding of a placement matrix may move a point of the body, world units. It
+    depends on the coordinates in the file, which may be far larger than those in the world."""
     transform = body.body.transform
     if transform is None or not track.moves:
         return 0.0

@@ -21,8 +21,8 @@ from satcheck.scene.motion import Path, Rotation, Translation
 
 
 def sweep(pair: Pair, path_a: Path | None, path_b: Path | None) -> Sweep:
-    """path_a, path_b: how the bodies move; None: not at all. A path that both share moves neither
-    against the other: that is no question for a sweep.
+    """path_a, path_b: the motions of the bodies; None: at rest. The bodies must not share a path,
+    because then they do not move relative to each other.
     """
     tracks = [STANDS if path is None else track_of(path) for path in (path_a, path_b)]
     try:
@@ -65,7 +65,7 @@ class _Answer:
         return self._hit(self._impact.upper) if self._impact.upper is not None else self._free()
 
     def possible_hit(self, upper: float) -> Sweep:
-        """As at rest, an overlap of what stands for the bodies, which is no proof."""
+        """An overlap of boxes, hulls or parts instead of the bodies; no proof."""
         return Sweep(
             relation="penetrating",
             tolerance=self._pair.tolerance,
@@ -119,7 +119,7 @@ class _Answer:
             return unknown
 
     def _with_fills(self, worst: Worst) -> Worst:
-        """What fills a hole may be nearer than the surfaces, yet no nearer than the hulls."""
+        """The fill of a hole may be nearer than the surfaces, but not nearer than the hulls."""
         clearance = self._pair.pair.request.clearance
         if not clearance or not self._holed():
             return worst
@@ -127,21 +127,22 @@ class _Answer:
         return replace(worst, lower=min(worst.lower, hulls))
 
     def _relation(self, worst: Worst) -> SweptRelation:
-        """Of bodies that the scan has shown to be apart, or within the touch band, all the way."""
+        """The relation of bodies that stay apart, or within the touch band, during the whole
+        motion."""
         if self._impact.contact is not None or worst.upper <= self._pair.tolerance:
             return "touching"
         return "near" if worst.upper < (self._pair.pair.request.clearance or 0.0) else "separated"
 
     def _holed(self) -> list[str]:
-        """The bodies of which a fill may matter. Sheets have no inside, and --allow-open reads all
-        that is open as sheets."""
+        """The bodies with holes whose fill may matter. Sheets have no inside, and with --allow-open
+        every open part is a sheet."""
         pair = self._pair.pair
         if pair.settings.allow_open:
             return []
         return [b.id for b in (pair.a, pair.b) if b.body.file.health.holes]
 
     def _unfilled(self) -> str | None:
-        """Which holes leave open whether a body came to lie in the other: no fill is swept."""
+        """Which holes leave open whether a body entered the other one: fills are not swept."""
         holed = self._holed()
         if not holed or self._pair.hulls_apart:
             return None

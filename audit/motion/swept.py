@@ -8,14 +8,14 @@ from satcheck.audit.bodies.boxes import Box, corners
 from satcheck.audit.motion.track import Piece, Track
 from satcheck.audit.motion.turn import applied
 
-# Radians that a body turns between two poses of which the boxes are taken: 15 degrees.
+# Radians that a body turns between two boxed poses: 15 degrees.
 STEP = math.pi / 12
-# A motion of more turns than this makes is boxed as what turns on for ever.
+# A motion with more steps gets the box of an endless rotation.
 MOST_POSES = 96
 
 
 def swept_box(bounds: Box, track: Track) -> Box:
-    """Holds the body, which `bounds` holds as placed, at every t, and as placed."""
+    """Contains the body at every t, and as placed. bounds: of the body as placed."""
     boxes = [bounds]
     for piece in track.pieces:
         boxes += _boxes(bounds, piece)

@@ -49,7 +49,7 @@ def _quality(finding: Finding, swept: Sweep, *, undecided: bool) -> Quality | No
 
 
 def _worse(placed: Relation, on_the_way: Relation) -> Relation:
-    """The relation over all: an overlap, else what is not known, else the closest."""
+    """The worse relation: an overlap, else an undecided one, else the closest."""
     if placed in OVERLAPS:
         return placed
     order: tuple[Relation, ...] = ("penetrating", "indeterminate", "touching", "near", "separated")
@@ -73,14 +73,15 @@ def _judged(swept: Sweep, pair: Pair) -> Judgement:
 
 
 def _clearance(swept: Sweep, request: Request) -> Judgement | None:
-    """None where the clearance is kept all the way, or there is none."""
+    """The judgement of the clearance; None: the motion keeps it, or there is no clearance."""
     worst = swept.worst
     gap = (0.0, math.inf) if worst is None else worst.distance or (0.0, 0.0)
     return clearance_judgement(request, *gap)
 
 
 def _limited(swept: Sweep, pair: Pair) -> Judgement:
-    """Of a pair that may overlap within limits. The volume on the way is not measured."""
+    """The judgement of a pair that may overlap within limits. Volumes in motion are not
+    measured."""
     request = pair.request
     depth = None if swept.worst is None else swept.worst.depth
     rule = request.rule("max_depth") or request.rule("max_volume")

@@ -1,8 +1,8 @@
-"""A motion as pieces of steady movement, the form that the bounds of motion in the core need.
+"""A motion as pieces of steady motion, as the bounds of the core need it.
 
 On every piece M(t) x = centre(t) + turn(t) (x - pivot): the centre moves with one velocity, and the
-body turns about one axis through it with one angular velocity. Translations, rotations and each leg
-of a path of poses are of this kind.
+body turns about one axis through it with one angular velocity. Every translation, every rotation,
+and every leg of a path of poses is one piece.
 """
 
 from __future__ import annotations
@@ -53,13 +53,14 @@ PLACING_ROUNDOFFS = 16
 # radians: below 32 roundoffs of the reach, of which a body that needs no pose has 128 to spare. The
 # second takes no difference of large terms: it is off by some roundoffs of what the gap loses.
 RATE_ROUNDOFFS = 128
-# The turn between two orientations is known to so many roundoffs, however small it is.
+# The turn between two orientations has this error in roundoffs, however small it is.
 LEG_ROUNDOFFS = 16
 
 
 class Piece(Struct, frozen=True):
-    """start <= t <= end. centre, velocity: at start, per unit of t. turn: at start; axis, degrees:
-    what the body turns by until the end, about the centre, world. pivot: comes to lie there."""
+    """start <= t <= end. centre: at start; velocity: per unit of t. turn: at start. axis, degrees:
+    the rotation until the end, about the centre, world. pivot: the point of the body at the
+    centre."""
 
     start: float
     end: float
@@ -88,7 +89,7 @@ class Piece(Struct, frozen=True):
 
 
 class Track(Struct, frozen=True):
-    """The pieces of a motion, from t = 0 to t = 1 without a hole."""
+    """The pieces of a motion, without gaps from t = 0 to t = 1."""
 
     pieces: tuple[Piece, ...]
 
@@ -116,8 +117,8 @@ class Track(Struct, frozen=True):
         return (*rows[0], *rows[1], *rows[2], 0.0, 0.0, 0.0, 1.0)
 
     def moving_at(self, t: float, offset: Vector = ORIGIN, frame: Frame = WORLD) -> core.Moving:
-        """Where the body is and how it goes on, moved by `offset`. frame: rotation and translation
-        that place it before it moves."""
+        """The place and the motion of the body at t, moved by `offset`. frame: the rotation and
+        translation that place it before the motion."""
         piece = self.piece_at(t)
         turn, shift = _pose(piece, t)
         if frame != WORLD:
@@ -128,17 +129,19 @@ class Track(Struct, frozen=True):
         )
 
     def reach(self, bounds: Box) -> float:
-        """World units: no coordinate of the body, of its pivot or its centre exceeds it, nor does
-        their sum. bounds: of the body as placed."""
+        """A bound of the coordinates of the body, its pivot and its centre, and of their sum, world
+        units. bounds: of the body as placed."""
         return max(_reach(piece, bounds) for piece in self.pieces)
 
     def pad(self, bounds: Box) -> float:
-        """World units: what rounding may do to a point of the body, and to a gap at that point."""
+        """The largest effect of rounding on a point of the body, and on a gap there, world
+        units."""
         turned = math.radians(max(abs(piece.degrees) for piece in self.pieces))
         return (POSE_ROUNDOFFS + 4 * turned) * UNIT_ROUNDOFF * self.reach(bounds)
 
     def slack(self, piece: Piece, bounds: Box) -> float:
-        """World units per unit of t: what rounding may do to the rate at which a gap closes."""
+        """The largest effect of rounding on the rate at which a gap closes, world units per unit of
+        t."""
         leg = LEG_ROUNDOFFS * _reach(piece, bounds) / (piece.end - piece.start)
         return (RATE_ROUNDOFFS * _fastest(piece, bounds) + leg) * UNIT_ROUNDOFF
 

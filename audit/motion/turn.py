@@ -1,4 +1,4 @@
-"""Rotations: about an axis by degrees, and what takes one orientation to another.
+"""Rotations: about an axis by degrees, and between two orientations.
 
 Rotations are 3x3 matrices in rows, right-handed; quaternions are (x, y, z, w) of any length but 0.
 Quarter turns about a coordinate axis are exact.
@@ -25,7 +25,7 @@ def rotation(axis: Vector, degrees: float) -> Matrix:
 
 
 def unit(v: Vector) -> Vector:
-    """Along v, which is not zero; neither its size nor its smallness spoils the direction."""
+    """The unit vector along v, which is not zero; safe for very large and very small v."""
     largest = max(abs(c) for c in v)
     small = (v[0] / largest, v[1] / largest, v[2] / largest)
     length = math.hypot(*small)
@@ -55,7 +55,7 @@ def quaternion_matrix(q: Quaternion) -> Matrix:
 
 def between(start: Quaternion, end: Quaternion) -> tuple[Vector, float]:
     """Unit axis (world) and degrees, 0 to 180, of the shortest turn from one orientation to the
-    other. Where they are half a turn apart, the one of the quaternions as given."""
+    other. For half a turn the signs of the quaternions choose the axis."""
     p, q = _unit_quaternion(start), _unit_quaternion(end)
     if math.fsum(a * b for a, b in zip(p, q, strict=True)) < 0:
         q = (-q[0], -q[1], -q[2], -q[3])

@@ -1,9 +1,9 @@
-"""The worst pose of a motion: where bodies overlap most, or come nearest.
+"""The worst pose of a motion: the deepest overlap or the smallest gap.
 
 Branch and bound on t: S. A. Piyavskii, "An Algorithm for Finding the Absolute Extremum of a
 Function" (1972); Bruno O. Shubert, "A Sequential Method Seeking the Global Maximum of a Function"
-(1972). Where we deviate: the bound of an interval is not one constant for the whole motion but what
-the bodies can do within it, along the axis between them.
+(1972). Where we deviate: each interval has its own bound, from the motion of the bodies in it along
+the axis between them, instead of one constant for the whole motion.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from satcheck.audit.tolerances import keeps
 from satcheck.report.report import OVERLAPS
 
 Bounds = Callable[[float, float, float], tuple[float, float]]
-# An interval whose least bound is below this share of the best figure is halved in any case.
+# An interval with a bound below this share of the best figure is always halved.
 WORTHLESS = 0.5
 
 
 class Worst(Struct, frozen=True):
-    """lower <= least signed distance over the motion <= upper, which is that at `time`."""
+    """lower <= least signed distance over the motion <= upper, the distance at `time`."""
 
     time: float
     lower: float
@@ -38,26 +38,27 @@ class Worst(Struct, frozen=True):
 
 
 def least_distance(pair: MovingPair, enough: float | None = None) -> Worst | None:
-    """Of two convex bodies the least signed distance, of others the least distance of surfaces.
+    """The least signed distance of two convex bodies, or the least distance of other surfaces.
 
-    enough: the search goes on until it is known whether the least keeps that clearance. None:
-    nothing was found before the budget of the pair was spent.
+    enough: the search goes on until this clearance is proven kept or broken. None: the budget was
+    spent before any figure was proven.
     """
     return _least(pair, pair.least_gap, enough)
 
 
 def least_hull_distance(pair: MovingPair, most: float, enough: float) -> float:
-    """A lower bound of the least distance of the hulls. most: an upper one of the distance that is
-    asked about; the search goes on until it is known whether that keeps the clearance `enough`."""
+    """A lower bound of the least distance of the hulls. most: an upper bound of the distance. The
+    search goes on until the clearance `enough` is proven kept or broken."""
     gap = _least(pair, lambda s, e, _: (pair.least_hull_gap(s, e), most), enough)
     return 0.0 if gap is None else max(gap.lower, 0.0)
 
 
 def deepest_pose(pair: MovingPair, impact: float) -> Worst | None:
-    """Minus the depth of bodies that are not both convex and overlap at t = impact.
+    """The negative depth of bodies that are not both convex and overlap at t = impact.
 
-    The depth of such a pair is no steady function of t: it is measured at a number of poses, and
-    where a way out is longest, more narrowly. The lower end is that of the hulls, over the motion.
+    The depth of such a pair is not continuous in t. It is measured at several poses, and more
+    narrowly at the pose with the longest way out. The lower bound is that of the hulls over the
+    motion.
     """
     budget = pair.pair.settings.depth_budget
     step = (1.0 - impact) / (WORST_DEPTHS - 1)
@@ -95,7 +96,7 @@ class _Search:
         return self.best - self.least <= max(WORST_WIDTH * abs(self.best), 4 * self._pair.pad)
 
     def halve(self) -> None:
-        """Looks closer at the interval of the least bound."""
+        """Halves the interval with the least bound."""
         _, start, end = self._queue[0]
         middle = 0.5 * (start + end)
         halves = [self._look(start, middle), self._look(middle, end)]
@@ -126,7 +127,7 @@ def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | No
 
 
 def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
-    """Proven bounds of the depth; 0.0 where they do not overlap."""
+    """Proven bounds of the depth; 0.0 if the bodies do not overlap."""
     placed = pair.placed(t)
     request = replace(placed.request, by={**placed.request.by, "depth": ALWAYS})
     settings = replace(placed.settings, depth_budget=budget)
