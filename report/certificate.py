@@ -6,11 +6,11 @@ triangles of a mesh are numbered from 0. A key that is not needed is left out.
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from msgspec import UNSET, Meta, UnsetType
 
-from satcheck.report.values import Count, Value
+from satcheck.report.values import Count, Length, Value, Vector
 
 Exact = float | Annotated[str, Meta(pattern="^-?[0-9]+(/[0-9]+)?$")]
 ExactVector = tuple[Exact, Exact, Exact]
@@ -134,6 +134,46 @@ class Cover(Value, frozen=True):
 
     pairs: tuple[Indices, ...]
     cubes: tuple[Annotated[int, Meta(ge=-1)], ...]
+
+
+class Face(Value, frozen=True, tag_field="kind", tag="face"):
+    """A triangle, or more that lie in one plane, about, and together are a convex polygon."""
+
+    body: Literal["a", "b"]
+    triangles: tuple[Count, ...]
+
+
+class Plane(Value, frozen=True, tag_field="kind", tag="plane"):
+    """normal . x = height: within `reach` of each cell that it bounds, nothing of the body lies
+    beyond it; where there is no reach, nowhere. Coordinates are those of the cells."""
+
+    body: Literal["a", "b"]
+    normal: Vector
+    height: float
+    reach: Length | UnsetType = UNSET
+
+
+# Numbers of patches, each with its weight; the weights stand for their shares.
+Weighted = tuple[tuple[Count, Length], ...]
+
+
+class Cells(Value, frozen=True):
+    """Of solids: a partition of the box that holds all that they can share, a tree from its root
+    on. Coordinates are those of the world less the origin.
+
+    cells: 0, 1, 2: halved across that axis, at the next number of `at`. 3: cut by the next of
+    `cuts`, a normal and a height; the side with normal . x <= height comes first. 4: outside of A.
+    5: outside of B. 6: bounded by the next of `sums`: a weighted sum of distances from patches.
+    """
+
+    origin: Vector
+    low: Vector
+    high: Vector
+    patches: tuple[Face | Plane, ...]
+    cells: tuple[Annotated[int, Meta(ge=0, le=6)], ...]
+    at: tuple[float, ...]
+    cuts: tuple[tuple[Vector, float], ...]
+    sums: tuple[Weighted, ...]
 
 
 class Band(Value, frozen=True):

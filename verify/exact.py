@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import combinations
-from math import lcm
+from math import isqrt, lcm
 from typing import Any
 
 import numpy as np
@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 IntVector = tuple[int, int, int]
 Point = tuple[Fraction, Fraction, Fraction]
+Pair = tuple[Any, Any]  # coordinates in a plane
 
 SIGNIFICANT_BITS = 53
+ROOT_BITS = 128
 
 
 class Rejected(Exception):
@@ -109,3 +111,43 @@ def _foot(points: Sequence[IntVector]) -> list[Fraction] | None:
                 gram[i] = [x - factor * y for x, y in zip(gram[i], gram[k], strict=True)]
     rest = [gram[k][n] / gram[k][k] for k in range(n)]
     return [1 - sum(rest, Fraction()), *rest]
+
+
+def planar_hull(points: Iterable[Pair]) -> list[Pair]:
+    """The corners of the convex hull of points of a plane, counterclockwise, each once; fewer than
+    three where it has no inside. A. M. Andrew, "Another efficient algorithm for convex hulls in two
+    dimensions" (1979)."""
+    chains = []
+    ordered = sorted(set(points))
+    for run in (ordered, ordered[::-1]):
+        chain: list[Pair] = []
+        for p in run:
+            while len(chain) > 1 and turn(chain[-2], chain[-1], p) <= 0:
+                chain.pop()
+            chain.append(p)
+        chains += chain[:-1]
+    return chains
+
+
+def turn(p: Pair, q: Pair, x: Pair) -> Any:
+    """Over 0 where x is on the left of the way from p to q."""
+    return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
+
+
+def root_above(value: Fraction) -> Fraction:
+    """The square root if it is a multiple of 2**-ROOT_BITS, else a little more, by less than 2**-60
+    of it."""
+    shift = _root_shift(value)
+    scaled = -(-(value.numerator << 2 * shift) // value.denominator)
+    root = isqrt(scaled)
+    return Fraction(root + (root * root < scaled), 1 << shift)
+
+
+def root_below(value: Fraction) -> Fraction:
+    """The square root if it is a multiple of 2**-ROOT_BITS, else a little less."""
+    shift = _root_shift(value)
+    return Fraction(isqrt((value.numerator << 2 * shift) // value.denominator), 1 << shift)
+
+
+def _root_shift(value: Fraction) -> int:
+    return ROOT_BITS + max(0, value.denominator.bit_length() - value.numerator.bit_length())

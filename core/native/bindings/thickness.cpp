@@ -1,13 +1,16 @@
 // The Python face of the thickness of overlaps. Nothing but conversions.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <cmath>
 #include <stdexcept>
 
 #include "bindings/interrupts.hpp"
 #include "bindings/tuples.hpp"
+#include "thickness/thickness_proof.hpp"
 #include "thickness/thickness_search.hpp"
 
 namespace nb = nanobind;
@@ -21,18 +24,38 @@ const char* name_of(ThicknessStop stop) {
 }
 
 ThicknessInterval checked_search(const Surface& a, const Surface& b, double width, std::uint64_t work, double less_a,
-                                 double less_b, std::optional<double> limit, int across) {
+                                 double less_b, std::optional<double> limit, int across, bool prove) {
   if (!(width >= 0 && width < 1)) throw std::invalid_argument("width must lie in 0 <= width < 1");
   if (!(less_a >= 0 && std::isfinite(less_a))) throw std::invalid_argument("less_a must be a finite length >= 0");
   if (!(less_b >= 0 && std::isfinite(less_b))) throw std::invalid_argument("less_b must be a finite length >= 0");
   if (limit && !std::isfinite(*limit)) throw std::invalid_argument("limit must be finite");
   if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
-  return search_thickness(a, b, {width, work, less_a, less_b, limit, across, raise_interrupts});
+  return search_thickness(a, b, {width, work, less_a, less_b, limit, across, prove, raise_interrupts});
 }
 
 }  // namespace
 
 void bind_thickness(nb::module_& m) {
+  nb::class_<DepthBound>(m, "DepthBound", "Of the depth in body 0 or 1: the distance from triangles, or from a plane where there are none.")
+      .def_ro("body", &DepthBound::body)
+      .def_ro("triangles", &DepthBound::triangles)
+      .def_prop_ro("normal", [](const DepthBound& bound) { return to_tuple(bound.plane.normal); })
+      .def_prop_ro("height", [](const DepthBound& bound) { return bound.plane.height; })
+      .def_ro("reach", &DepthBound::reach);
+  nb::class_<ThicknessProof>(m, "ThicknessProof", "Cells that hold all that two bodies share, as a tree, and what bounds the depth in each.")
+      .def_prop_ro("origin", [](const ThicknessProof& proof) { return to_tuple(proof.origin); })
+      .def_prop_ro("low", [](const ThicknessProof& proof) { return to_tuple(proof.low); })
+      .def_prop_ro("high", [](const ThicknessProof& proof) { return to_tuple(proof.high); })
+      .def_ro("bounds", &ThicknessProof::bounds)
+      .def_ro("cells", &ThicknessProof::cells)
+      .def_ro("at", &ThicknessProof::at)
+      .def_prop_ro("cuts",
+                   [](const ThicknessProof& proof) {
+                     nb::list cuts;
+                     for (const HalfSpace& cut : proof.cuts) cuts.append(nb::make_tuple(to_tuple(cut.normal), cut.height));
+                     return cuts;
+                   })
+      .def_ro("sums", &ThicknessProof::sums);
   nb::class_<ThicknessInterval>(m, "ThicknessInterval", R"(lower <= 2 max over p inside both of min(d_A(p) - less_a, d_B(p) - less_b) <= upper, rounding included. centre: a point
 that is that deep, world frame; None where no common inner point is known. radius: no triangle of either surface is nearer to it.
 stop: "narrow", "decided" (the interval lies on one side of the limit) or "work spent"; boxes of space that were bounded.)")
@@ -45,13 +68,15 @@ stop: "narrow", "decided" (the interval lies on one side of the limit) or "work 
       .def_ro("radius", &ThicknessInterval::radius)
       .def_prop_ro("stop", [](const ThicknessInterval& t) { return name_of(t.stop); })
       .def_ro("work", &ThicknessInterval::work)
-      .def_ro("boxes", &ThicknessInterval::boxes);
+      .def_ro("boxes", &ThicknessInterval::boxes)
+      .def_prop_ro("proof", [](const ThicknessInterval& t) { return t.proof ? std::optional(*t.proof) : std::nullopt; });
   m.def("search_thickness", &checked_search, "a"_a, "b"_a, nb::kw_only(), "width"_a, "work"_a, "less_a"_a = 0.0,
-        "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, nb::call_guard<nb::gil_scoped_release>(),
+        "less_b"_a = 0.0, "limit"_a = nb::none(), "across"_a = -1, "prove"_a = false, nb::call_guard<nb::gil_scoped_release>(),
         R"(The diameter of the largest ball inside both of two solids as a proven interval, at most `width` wide relative to its
 upper end unless `work` steps, each about a nanosecond, are spent first. less_a, less_b: taken from the distance to the surface
 of a and of b. limit: the search ends as soon as the interval lies on one side of this length. across: an axis of the world along
-which both solids are prisms: triangles across it do not count; -1: none. The same input gives the same result on every machine.
+which both solids are prisms: triangles across it do not count; -1: none. prove: write down why `upper` holds, not with an axis.
+The same input gives the same result on every machine.
 Swapping a and b changes nothing. In the main thread a signal handler may raise, KeyboardInterrupt for one.
 ValueError for a length that is negative or not finite, or for a surface that is not a solid.)");
 }

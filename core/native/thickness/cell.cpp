@@ -146,7 +146,7 @@ std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double sca
     auto low = part(cell, tried, beyond, 1, scale);
     auto high = part(cell, tried, beyond, -1, scale);
     if (!low || !high) return std::nullopt;
-    return Halves{std::move(*low), std::move(*high)};
+    return Halves{std::move(*low), std::move(*high), tried};
   }
   return std::nullopt;
 }

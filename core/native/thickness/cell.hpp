@@ -34,6 +34,7 @@ Cell make_cell(const Mat3& axes, Vec3 low, Vec3 high, int flat, double scale);
 
 struct Halves {
   Cell below, above;  // normal . p <= height, and >= height
+  HalfSpace plane;
 };
 
 // The two parts of a cell, with a height that differs from the given one by rounding so that no corner is too close to

@@ -39,19 +39,24 @@ struct Nearest {
 
 class CellBound {
  public:
-  CellBound(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider)
-      : bodies_(bodies), axes_(axes), open_(open), cell_(open.cell), best_(best), enough_(enough), consider_(consider), box_(cell_.box()) {}
+  CellBound(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider,
+            ThicknessRecord* record)
+      : bodies_(bodies), axes_(axes), open_(open), cell_(open.cell), best_(best), enough_(enough), consider_(consider), record_(record), box_(cell_.box()) {}
 
   void run() {
     floor_ = -std::fmax(bodies_.less(0), bodies_.less(1));
     for (int body = 0; body < 2; ++body) {
       if (is_outside(body)) {
         open_.bound = floor_;
+        if (record_ != nullptr) record_->set_outside(open_.node, body);
         return;
       }
     }
-    const double bound = solve();
-    open_.bound = std::fmin(open_.bound, bound + kSumRounding * bodies_.rounding() + cell_.error);
+    const double bound = solve() + kSumRounding * bodies_.rounding() + cell_.error;
+    if (bound < open_.bound) {
+      if (record_ != nullptr) record_->set_bound(open_.node, std::move(terms_));
+      open_.bound = bound;
+    }
     if (open_.bound <= enough_) return;
     choose_cut();
     keep_columns();
@@ -115,7 +120,9 @@ class CellBound {
     while (true) {
       game_->solve();
       work_done += kGameWork * cell_.corners.size();
-      bound = std::fmin(bound, proven());
+      const double shown = proven();
+      if (record_ != nullptr && shown < bound) keep_terms();
+      bound = std::fmin(bound, shown);
       if (bound <= enough_) return bound;
       point_ = {};
       for (std::size_t k = 0; k < cell_.corners.size(); ++k) point_ = point_ + cell_.corners[k].at * game_->row_weights()[k];
@@ -289,6 +296,15 @@ class CellBound {
     open_.columns = std::move(kept);
   }
 
+  void keep_terms() {
+    terms_.clear();
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const double weight = game_->column_weights()[c];
+      const double reach = open_.bound + bodies_.less(columns_[c].body) + bodies_.rounding();
+      if (weight > 0) terms_.push_back({columns_[c], reach, weight});
+    }
+  }
+
   static constexpr double kSteep = 1e-9;
 
   const TwoBodies& bodies_;
@@ -297,12 +313,14 @@ class CellBound {
   const Cell& cell_;
   double best_, enough_;
   const Consider& consider_;
+  ThicknessRecord* record_;
   Aabb box_;
   double floor_ = 0, floor_of_game_ = 0;
   std::array<std::size_t, 2> met_{};  // patches that may meet the cell
   std::optional<MatrixGame> game_;
   std::vector<Column> columns_;
   std::vector<double> values_;  // of each column at all corners
+  std::vector<Term> terms_;     // of the least sum, for the record
   bool only_planes_ = true;
   Vec3 point_;  // where the game's other player expects the deepest point
   std::array<Nearest, 2> nearest_;
@@ -312,8 +330,9 @@ class CellBound {
 
 }  // namespace
 
-void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider) {
-  CellBound(bodies, axes, open, best, enough, consider).run();
+void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider,
+                ThicknessRecord* record) {
+  CellBound(bodies, axes, open, best, enough, consider, record).run();
 }
 
 }  // namespace satcheck

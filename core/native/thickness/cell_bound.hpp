@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "thickness/cell.hpp"
+#include "thickness/thickness_proof.hpp"
 #include "thickness/two_bodies.hpp"
 
 namespace satcheck {
@@ -18,13 +19,16 @@ struct OpenCell {
   std::array<bool, 2> inside{};       // all of it is inside the body
   std::optional<HalfSpace> cut;       // where to split it
   std::uint64_t number = 0;
+  std::uint32_t node = 0;  // of the record
 };
 
 // Called with a point whose distance from all triangles looks promising. Which body it is outside of: 0, 1, or -1.
 using Consider = std::function<int(Vec3 p)>;
 
 // Sets the bound of the cell, and where to split it if that is larger than `enough`. `bound`, `near` and `columns` are
-// those of the cell it comes from. best: points that are no deeper are not considered.
-void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider);
+// those of the cell it comes from. best: points that are no deeper are not considered. record: why the bound holds is written
+// there, if it is not null.
+void bound_cell(const TwoBodies& bodies, const Mat3& axes, OpenCell& open, double best, double enough, const Consider& consider,
+                ThicknessRecord* record);
 
 }  // namespace satcheck

@@ -41,19 +41,25 @@ class Search {
   }
 
   ThicknessInterval run() {
+    if (goal_.prove && goal_.across < 0) record_.emplace();
+    search();
+    if (record_ && box_) result_.proof = std::make_shared<ThicknessProof>(record_->proof(bodies_, centre_, *box_));
+    return result_;
+  }
+
+ private:
+  void search() {
     push_root();
     while (!open_.empty()) {
-      if (finish(open_.front()->bound)) return result_;
+      if (finish(open_.front()->bound)) return;
       std::pop_heap(open_.begin(), open_.end(), smaller_bound);
       const std::unique_ptr<OpenCell> cell = std::move(open_.back());
       open_.pop_back();
       divide(*cell);
     }
     finish(floor_);
-    return result_;
   }
 
- private:
   std::uint64_t work() const { return work_done - start_; }
 
   // A cell whose bound is no larger does not have to be divided.
@@ -99,6 +105,8 @@ class Search {
     root.cell = make_cell(axes_, low, high, goal_.across, bodies_.scale());
     const double reach = root.bound + std::fmax(bodies_.less(0), bodies_.less(1)) + 2 * bodies_.rounding();
     root.near = bodies_.find_patches(root.cell.box(), reach, kFlatness * half);
+    box_ = box;
+    if (record_) root.node = record_->add_root();
     add(std::make_unique<OpenCell>(std::move(root)));
   }
 
@@ -106,7 +114,8 @@ class Search {
   void add(std::unique_ptr<OpenCell> cell) {
     ++result_.boxes;
     work_done += kCellWork;
-    bound_cell(bodies_, axes_, *cell, best_, enough(), [&](Vec3 p) { return consider(p); });
+    bound_cell(bodies_, axes_, *cell, best_, enough(), [&](Vec3 p) { return consider(p); },
+               record_ ? &*record_ : nullptr);
     if (cell->bound <= enough()) {
       dropped_ = std::fmax(dropped_, cell->bound);
       return;
@@ -142,8 +151,11 @@ class Search {
       dropped_ = std::fmax(dropped_, parent.bound);
       return;
     }
+    std::pair<std::uint32_t, std::uint32_t> nodes;
+    if (record_) nodes = record_->divide(parent.node, halves->plane);
     for (Cell* part : {&halves->below, &halves->above}) {
-      auto child = std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.columns, parent.inside, {}, 0});
+      const std::uint32_t node = part == &halves->below ? nodes.first : nodes.second;
+      auto child = std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.columns, parent.inside, {}, 0, node});
       add(std::move(child));
     }
   }
@@ -167,6 +179,8 @@ class Search {
   ThicknessGoal goal_;
   Vec3 centre_;
   Mat3 axes_;
+  std::optional<Aabb> box_;  // common to the boxes of the bodies
+  std::optional<ThicknessRecord> record_;
   std::uint64_t start_ = work_done;
   double floor_, best_, dropped_;
   ThicknessInterval result_;
@@ -188,7 +202,9 @@ ThicknessInterval search_thickness(const Surface& a, const Surface& b, const Thi
   if (comes_before(a, b)) return search_in_order(a, b, goal);
   ThicknessGoal swapped = goal;
   std::swap(swapped.less_a, swapped.less_b);
-  return search_in_order(b, a, swapped);
+  ThicknessInterval interval = search_in_order(b, a, swapped);
+  if (interval.proof) interval.proof->swap_bodies();
+  return interval;
 }
 
 }  // namespace satcheck

@@ -7,11 +7,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "mesh/surface.hpp"
 
 namespace satcheck {
+
+struct ThicknessProof;
 
 struct ThicknessGoal {
   double width = 0.01;     // the interval may stay this wide, relative to its upper end
@@ -20,6 +23,7 @@ struct ThicknessGoal {
   std::optional<double> limit = {};  // the search ends as soon as the interval lies on one side of this length
   // An axis of the world along which both solids are prisms: triangles across it do not count; -1: none.
   int across = -1;
+  bool prove = false;  // write down why no point lies deeper; not along an axis
   std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
 };
 
@@ -37,6 +41,7 @@ struct ThicknessInterval {
   ThicknessStop stop = ThicknessStop::narrow;
   std::uint64_t work = 0;
   std::uint32_t boxes = 0;  // that were bounded
+  std::shared_ptr<ThicknessProof> proof;  // of upper, where it was asked for
 };
 
 // Swapping the surfaces, and less_a with less_b, changes nothing. Throws std::invalid_argument unless both are solids.

@@ -1,0 +1,265 @@
+"""A partition of a box into convex cells by planes, walked leaf by leaf.
+
+The tree is that of H. Fuchs, Z. Kedem, B. Naylor, "On visible surface generation by a priori tree
+structures" (1980): each node halves its cell by a plane. So the leaves cover the root, wherever the
+planes are. A cell without an inside is left out: the cells beside it hold its points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from itertools import product
+from math import gcd, lcm
+from typing import Any
+
+import numpy as np
+
+from satcheck.report.certificate import Cells
+from satcheck.report.values import Vector
+from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, homogeneous, planar_hull
+from satcheck.verify.world import Exact, Indices
+
+MOST_CELLS = 100_000
+# The kinds of nodes; 0 to 2: halved across this axis.
+CUT, OUTSIDE_A, OUTSIDE_B, BOUNDED = 3, 4, 5, 6
+# Triangles are looked through for each cell only where there are more than that.
+FEW = 32
+AXES = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+# The corners of each face of a box, by their places in a product of its ends.
+BOX = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+# Of points of the lattice, in integers. A point is (X, Y, Z, W), its coordinates times some W > 0;
+# the half-space (n, d) holds those with n . X <= d W.
+Corner = tuple[int, int, int, int]
+HalfSpace = tuple[int, int, int, int]
+Polygon = list[Corner]
+
+
+class Frame:
+    """Coordinates less an origin, world units. On the lattice they are exact."""
+
+    def __init__(self, origin: Sequence[float], k: int) -> None:
+        self.scale = 1 << k
+        self.floats: Floats = np.array(origin)
+        x, y, z = (Fraction(c) * self.scale for c in origin)
+        self.origin: Point = x, y, z
+        self.is_plain = not any(origin)
+
+    def point(self, p: Sequence[Any]) -> Corner:
+        x, y, z = (o + Fraction(c) * self.scale for o, c in zip(self.origin, p, strict=True))
+        return homogeneous((x, y, z))
+
+    def behind(self, normal: Sequence[float], height: float) -> HalfSpace:
+        """The points with normal . p <= height."""
+        x, y, z = map(Fraction, normal)
+        limit = dot((x, y, z), self.origin) + Fraction(height) * self.scale
+        scale = lcm(*(c.denominator for c in (x, y, z, limit)))
+        return int(x * scale), int(y * scale), int(z * scale), int(limit * scale)
+
+    def box(self, low: Sequence[float], high: Sequence[float]) -> list[HalfSpace]:
+        ends = enumerate(zip(low, high, strict=True))
+        sides = [(self.behind(AXES[k], y), reverse(self.behind(AXES[k], x))) for k, (x, y) in ends]
+        return [side for both in sides for side in both]
+
+    def world(self, points: Floats) -> Floats:
+        """Each coordinate rounded once."""
+        return points + self.floats
+
+
+def reverse(space: HalfSpace) -> HalfSpace:
+    x, y, z, limit = space
+    return -x, -y, -z, -limit
+
+
+def height(space: HalfSpace, p: Corner) -> int:
+    """Over 0 beyond the half-space; times something over 0."""
+    return space[0] * p[0] + space[1] * p[1] + space[2] * p[2] - space[3] * p[3]
+
+
+def exactly(p: Corner) -> Point:
+    return Fraction(p[0], p[3]), Fraction(p[1], p[3]), Fraction(p[2], p[3])
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """low, high: of a box that it lies in. cuts: half-spaces that it lies in besides, and then its
+    faces, convex polygons. near: the triangles of A, and of B, that may enter it."""
+
+    low: Vector
+    high: Vector
+    near: tuple[Indices, Indices]
+    cuts: tuple[HalfSpace, ...] = ()
+    faces: list[Polygon] | None = None
+
+    def corners(self, frame: Frame) -> list[Corner]:
+        if self.faces is None:
+            return [frame.point(p) for p in product(*zip(self.low, self.high, strict=True))]
+        return list(dict.fromkeys(p for face in self.faces for p in face))
+
+    def rounded(self, frame: Frame) -> Floats:
+        """Its corners in the world, (n, 3), each coordinate rounded once."""
+        if self.faces is None:
+            return frame.world(np.array([*product(*zip(self.low, self.high, strict=True))]))
+        scale = frame.scale
+        return np.array([[c / (w * scale) for c in p] for *p, w in self.corners(frame)])
+
+    def half_spaces(self, frame: Frame) -> list[HalfSpace]:
+        return [*frame.box(self.low, self.high), *self.cuts]
+
+    def middle(self, frame: Frame) -> Point:
+        """A point inside."""
+        if self.faces is None:
+            ends = zip(self.low, self.high, strict=True)
+            middle = [(Fraction(low) + Fraction(high)) / 2 for low, high in ends]
+            return exactly(frame.point(middle))
+        corners = [exactly(p) for p in self.corners(frame)]
+        x, y, z = (sum((p[k] for p in corners), Fraction()) / len(corners) for k in range(3))
+        return x, y, z
+
+    def box(self, frame: Frame) -> tuple[Floats, Floats]:
+        """World coordinates that it does not reach beyond."""
+        corners = self.rounded(frame)
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        if self.faces is None and frame.is_plain:
+            return low, high
+        return np.nextafter(low, -np.inf), np.nextafter(high, np.inf)
+
+
+class Partition:
+    """The leaves are those of one walk."""
+
+    def __init__(self, cells: Cells, a: Exact, b: Exact) -> None:
+        if len(cells.cells) > MOST_CELLS:
+            raise Rejected(f"a partition has at most {MOST_CELLS:,} cells")
+        self.cells, self.bodies, self.frame = cells, (a, b), Frame(cells.origin, a.k)
+        if not all(x < y for x, y in zip(cells.low, cells.high, strict=True)):
+            raise Rejected("the box of the cells has no inside")
+
+    def holds_common_part(self) -> None:
+        """Rejects a root that leaves out a point of the boxes of both bodies."""
+        for *n, limit in self.frame.box(self.cells.low, self.cells.high):
+            if min(body.extent(n) for body in self.bodies) > limit:
+                raise Rejected("the cells leave out a part that the bodies may share")
+
+    def leaves(self) -> Iterator[tuple[int, Cell | None]]:
+        """The kind of each leaf, and its cell; None: without an inside."""
+        everything = [np.arange(len(body.world.triangles)) for body in self.bodies]
+        root = Cell(self.cells.low, self.cells.high, (everything[0], everything[1]))
+        pending: list[Cell | None] = [root]
+        at, cuts = iter(self.cells.at), iter(self.cells.cuts)
+        for kind in self.cells.cells:
+            if not pending:
+                raise Rejected("there are more cells than the planes make")
+            cell = pending.pop()
+            if kind < CUT:
+                pending += reversed(self._halved(cell, kind, next(at, None)))
+            elif kind == CUT:
+                pending += reversed(self._cut(cell, next(cuts, None)))
+            else:
+                yield kind, cell
+        if pending or next(at, None) is not None or next(cuts, None) is not None:
+            raise Rejected("the cells are not those that the planes make")
+
+    def _halved(self, cell: Cell | None, axis: int, place: float | None) -> list[Cell | None]:
+        if place is None:
+            raise Rejected("a cell is halved nowhere")
+        if cell is None:
+            return [None, None]
+        if not cell.low[axis] < place < cell.high[axis]:
+            raise Rejected("a cell is halved beside it")
+        below = replace(cell, high=_with(cell.high, axis, place))
+        above = replace(cell, low=_with(cell.low, axis, place))
+        if cell.faces is None:
+            return [self._narrowed(below), self._narrowed(above)]
+        side = self.frame.behind(AXES[axis], place)
+        return [self._clipped(below, side), self._clipped(above, reverse(side))]
+
+    def _cut(self, cell: Cell | None, cut: tuple[Vector, float] | None) -> list[Cell | None]:
+        """What is behind a plane, and what is in front of it."""
+        if cut is None or not any(cut[0]):
+            raise Rejected("a cell is cut nowhere")
+        if cell is None:
+            return [None, None]
+        if cell.faces is None:
+            corners = cell.corners(self.frame)
+            cell = replace(cell, faces=[[corners[v] for v in face] for face in BOX])
+        side = self.frame.behind(*cut)
+        halves = [(replace(cell, cuts=(*cell.cuts, s)), s) for s in (side, reverse(side))]
+        return [self._clipped(half, space) for half, space in halves]
+
+    def _clipped(self, cell: Cell, space: HalfSpace) -> Cell | None:
+        """A half, that the faces of the whole are clipped to."""
+        assert cell.faces is not None
+        faces = clip(cell.faces, space)
+        return None if faces is None else self._narrowed(replace(cell, faces=faces))
+
+    def _narrowed(self, cell: Cell) -> Cell:
+        """Without triangles that do not enter it any more, if there are many."""
+        if max(map(len, cell.near)) <= FEW:
+            return cell
+        low, high = cell.box(self.frame)
+        near = [within(b, t, low, high) for b, t in zip(self.bodies, cell.near, strict=True)]
+        return replace(cell, near=(near[0], near[1]))
+
+
+def _with(ends: Vector, axis: int, place: float) -> Vector:
+    x, y, z = (place if k == axis else end for k, end in enumerate(ends))
+    return x, y, z
+
+
+def within(body: Exact, triangles: Any, low: Floats, high: Floats) -> Indices:
+    """Those of the triangles whose boxes have a point inside the box."""
+    world = body.world
+    meets = (world.low[triangles] < high) & (world.high[triangles] > low)
+    near: Indices = triangles[meets.all(axis=1)]
+    return near
+
+
+def clip(faces: list[Polygon], space: HalfSpace) -> list[Polygon] | None:
+    """The faces of the part of a convex polyhedron in a half-space; None: it has no inside."""
+    heights = {p: height(space, p) for face in faces for p in face}
+    if min(heights.values()) >= 0:
+        return None
+    if max(heights.values()) <= 0:
+        return faces
+    kept = [clipped(face, heights) for face in faces]
+    rim = {p for face in kept for p in face if heights.get(p, 0) == 0}
+    across = max(range(3), key=lambda k: abs(space[k]))
+    flat = {(q[across - 2], q[across - 1]): p for p in rim for q in (exactly(p),)}
+    cap = [flat[q] for q in planar_hull(flat)]
+    return [face for face in (*kept, cap) if len(face) > 2]
+
+
+def clipped(polygon: Polygon, heights: dict[Corner, int]) -> Polygon:
+    """The part of a convex polygon, segment or point whose heights are not over 0: I. E.
+    Sutherland, G. W. Hodgman, "Reentrant Polygon Clipping" (1974)."""
+    kept: Polygon = []
+    for k, p in enumerate(polygon):
+        q = polygon[k - 1]
+        g, h = heights[q], heights[p]
+        if g < 0 < h or h < 0 < g:
+            kept.append(_between(q, p, abs(g), abs(h)))
+        if h <= 0:
+            kept.append(p)
+    return kept
+
+
+def _between(q: Corner, p: Corner, g: int, h: int) -> Corner:
+    """Where the height is 0 that is g at q and h at p, one of them below."""
+    x, y, z, w = (h * c + g * d for c, d in zip(q, p, strict=True))
+    common = gcd(x, y, z, w)
+    return x // common, y // common, z // common, w // common
+
+
+def enters(triangle: Sequence[IntVector], spaces: Sequence[HalfSpace]) -> bool:
+    """Whether a triangle has a point in the open cell that these half-spaces bound."""
+    region: Polygon = [(x, y, z, 1) for x, y, z in triangle]
+    for space in spaces:
+        heights = {p: height(space, p) for p in region}
+        if min(heights.values()) >= 0:
+            return False
+        if max(heights.values()) > 0:
+            region = clipped(region, heights)
+    # The middle of the region is as far in as any of its points.
+    return all(any(height(space, p) < 0 for p in region) for space in spaces)

@@ -1,0 +1,198 @@
+"""How thick the overlap of two solids is: twice the most that a point lies deep in both.
+
+A ball in both shows that it is no less. That it is no more, a partition of the common part of their
+boxes shows. A cell lies outside of a body, or a sum of distances from convex pieces of either
+surface, with weights of sum 1, bounds the lesser depth. Such a sum is convex, so that it is
+greatest at a corner of the cell. Bounds are computed in float64 with their rounding; in rationals
+where that leaves them open.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from satcheck.report.certificate import Cells, Weighted
+from satcheck.verify.evidence import index
+from satcheck.verify.exact import Floats, Point, Rejected, integers, lattice
+from satcheck.verify.partition import (
+    BOUNDED,
+    OUTSIDE_A,
+    Cell,
+    Frame,
+    Partition,
+    enters,
+    exactly,
+    within,
+)
+from satcheck.verify.patches import (
+    Piece,
+    Side,
+    lengths,
+    next_points,
+    patch_of,
+    slack,
+    squared_distance,
+)
+from satcheck.verify.surfaces import up
+from satcheck.verify.world import Exact, Indices
+
+# How far rounding takes a weighted sum, of the sum of its terms without their signs.
+SUM_ERROR = 2.0**-46
+
+
+def holds_ball(body: Exact, centre: Sequence[float], radius: Fraction) -> None:
+    """Rejects a ball, world units, that does not lie in the solid, apart from its skin."""
+    if not body.world.solid:
+        raise Rejected("what is not solid has no thickness")
+    middle = np.array(centre)
+    k = max(body.k, lattice(middle))
+    x, y, z = integers(middle[None], k)[0]
+    shrunk = 1 << k - body.k
+    at = Fraction(x, shrunk), Fraction(y, shrunk), Fraction(z, shrunk)
+    if not body.winding(at):
+        raise Rejected("the centre of the ball lies outside of a body")
+    squared = (radius * (1 << body.k)) ** 2
+    for t in _perhaps_within(body, middle, up(radius)):
+        if squared_distance(at, body.corners(t)) < squared:
+            raise Rejected("the ball reaches beyond the surface of a body")
+
+
+def _perhaps_within(body: Exact, p: Floats, radius: float) -> list[int]:
+    """The triangles that are not certainly as far as that from a point."""
+    world = body.world
+    gaps = np.maximum(np.maximum(world.low - p, p - world.high), 0.0)
+    near = np.flatnonzero(~(lengths(gaps) > radius * (1 + SUM_ERROR)))
+    spokes = world.vertices[world.triangles[near]] - p
+    with np.errstate(all="ignore"):
+        direction = next_points(spokes)
+        direction /= lengths(direction)[:, None]
+        heights = np.einsum("nkj,nj->nk", spokes, direction).min(axis=1)
+        beyond = heights - slack(spokes) >= radius
+    return near[~beyond].tolist()  # type: ignore[no-any-return]
+
+
+def at_most(
+    cells: Cells, a: Exact, b: Exact, most: Fraction, less: tuple[Fraction, Fraction]
+) -> None:
+    """Rejects cells that do not show that no point lies deeper than less[0] in A, and than less[1]
+    in B, by more than `most`, which is not below 0. World units."""
+    if not (a.world.solid and b.world.solid):
+        raise Rejected("what is not solid has no thickness")
+    partition = Partition(cells, a, b)
+    partition.holds_common_part()
+    sums = iter(cells.sums)
+    bounded: list[tuple[Cell, Weighted]] = []
+    for kind, cell in partition.leaves():
+        if kind == BOUNDED:
+            terms = next(sums, None)
+            if terms is None:
+                raise Rejected("a cell has no bound")
+            if cell is not None:
+                bounded.append((cell, terms))
+        elif cell is not None:
+            side = int(kind != OUTSIDE_A)
+            _is_outside(cell, partition.frame, partition.bodies[side], side)
+    if next(sums, None) is not None:
+        raise Rejected("there are more bounds than cells")
+    _Sums(cells, partition, less).are_at_most(bounded, most)
+
+
+def _is_outside(cell: Cell, frame: Frame, body: Exact, side: int) -> None:
+    """Rejects a cell with a point inside the body."""
+    near = within(body, cell.near[side], *cell.box(frame))
+    if near.size:
+        spaces = cell.half_spaces(frame)
+        if any(enters(body.corners(t), spaces) for t in near.tolist()):
+            raise Rejected("a surface runs through a cell that should be outside")
+    if body.winding(cell.middle(frame)) != 0:
+        raise Rejected("a cell that should be outside of a body is not")
+
+
+class _Sums:
+    """Of bounds for how deep a point lies, less what is granted to its body."""
+
+    def __init__(self, cells: Cells, partition: Partition, less: tuple[Fraction, Fraction]) -> None:
+        self.cells, self.partition, self.frame = cells, partition, partition.frame
+        sides = [int(patch.body == "b") for patch in cells.patches]
+        self.patches: list[Piece | Side] = [
+            patch_of(patch, partition.bodies[side], self.frame)
+            for patch, side in zip(cells.patches, sides, strict=True)
+        ]
+        self.granted = [less[side] for side in sides]
+
+    def are_at_most(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> None:
+        for _, terms in bounded:
+            for patch, _ in terms:
+                index(patch, len(self.patches))
+            if not any(weight for _, weight in terms):
+                raise Rejected("the weights of a bound are 0")
+        self._are_clear(bounded, most)
+        limit = most * self.frame.scale
+        for number in self._open(bounded, most):
+            cell, terms = bounded[number]
+            if any(self._exceeds(exactly(p), terms, limit) for p in cell.corners(self.frame)):
+                raise Rejected("a cell is not shown to be as thin as that")
+
+    def _are_clear(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> None:
+        """Rejects a plane with something of its body in front of it. Where that is looked at within
+        reach only, the sum bounds depths up to that: it has to be more than `most`."""
+        used: dict[int, list[Cell]] = {}
+        for cell, terms in bounded:
+            for n, weight in terms:
+                if weight and isinstance(self.patches[n], Side):
+                    used.setdefault(n, []).append(cell)
+        for n, bound_here in used.items():
+            side = self.patches[n]
+            assert isinstance(side, Side)
+            if side.supports:
+                continue
+            if side.reach is None or Fraction(side.reach) - self.granted[n] <= most:
+                raise Rejected("a body reaches beyond a plane that should bound it")
+            if not all(side.is_clear(cell, side.reach) for cell in bound_here):
+                raise Rejected("a body reaches beyond a plane next to what it should bound")
+
+    def _exceeds(self, p: Point, terms: Weighted, limit: Fraction) -> bool:
+        shares = [(patch, Fraction(weight)) for patch, weight in terms if weight]
+        less = [granted * self.frame.scale for granted in self.granted]
+        bounds = (w * (self.patches[n].distance(p) - less[n]) for n, w in shares)
+        return sum(bounds) > limit * sum(w for _, w in shares)
+
+    def _open(self, bounded: list[tuple[Cell, Weighted]], most: Fraction) -> list[int]:
+        """The cells that float64 leaves open."""
+        if not bounded:
+            return []
+        points, off, counts = self._corners([cell for cell, _ in bounded])
+        width = np.array([len(terms) for _, terms in bounded])
+        patch = np.array([n for _, terms in bounded for n, _ in terms])
+        weight = np.array([w for _, terms in bounded for _, w in terms], dtype=float)
+        # A row for each corner of a cell and each term of its sum.
+        cell_of = np.repeat(np.arange(len(bounded)), counts)
+        rows = width[cell_of]
+        point_of = np.repeat(np.arange(len(points)), rows)
+        first = np.cumsum(width) - width
+        within = np.arange(rows.sum()) - np.repeat(np.cumsum(rows) - rows, rows)
+        term_of = first[cell_of[point_of]] + within
+        value = np.empty(len(term_of))
+        order = np.argsort(patch[term_of], kind="stable")
+        borders = np.flatnonzero(np.diff(patch[term_of][order])) + 1
+        for group in np.split(order, borders):
+            n = patch[term_of[group[0]]]
+            above = self.patches[n].above(points[point_of[group]])
+            value[group] = above + off[point_of[group]] - float(self.granted[n]) * (1 - SUM_ERROR)
+        terms = weight[term_of] * value
+        total = np.bincount(point_of, terms, len(points))
+        size = np.bincount(point_of, np.abs(terms), len(points))
+        share = np.bincount(point_of, weight[term_of], len(points))
+        holds = total + SUM_ERROR * size <= float(most) * (1 - SUM_ERROR) * share
+        return np.unique(cell_of[~holds]).tolist()  # type: ignore[no-any-return]
+
+    def _corners(self, cells: list[Cell]) -> tuple[Floats, Floats, Indices]:
+        """In the world, (n, 3), how far they are off, (n,), and how many each cell has."""
+        corners = [cell.rounded(self.frame) for cell in cells]
+        points = np.concatenate(corners)
+        exact = self.frame.is_plain and all(cell.faces is None for cell in cells)
+        off = np.zeros(len(points)) if exact else 2.0**-51 * lengths(points)
+        return points, off, np.array([len(p) for p in corners])
