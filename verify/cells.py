@@ -17,7 +17,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, sub
+from satcheck.verify.exact import IntVector, Point, Rejected, cross, dot, sub, turn
 from satcheck.verify.surfaces import common, meeting
 from satcheck.verify.world import Corners, Exact
 
@@ -202,16 +202,12 @@ def cells_of(corners: Corners, normal: IntVector, *surfaces: list[Corners]) -> l
     return cells
 
 
-def _turn(p: Plane, q: Plane, x: Plane) -> Fraction:
-    return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
-
-
 def _enters(cell: list[Plane], edge: Segment) -> bool:
     """Whether a part of the segment, longer than 0, runs through the open cell: M. Cyrus, J. Beck,
     "Generalized two- and three-dimensional clipping" (1978)."""
     start, end = Fraction(0), Fraction(1)
     for k in range(len(cell)):
-        at, to = _turn(cell[k - 1], cell[k], edge[0]), _turn(cell[k - 1], cell[k], edge[1])
+        at, to = turn(cell[k - 1], cell[k], edge[0]), turn(cell[k - 1], cell[k], edge[1])
         if at <= 0 and to <= 0:
             return False
         if at < 0 < to:
@@ -225,16 +221,16 @@ def _enters(cell: list[Plane], edge: Segment) -> bool:
 
 def _split(cell: list[Plane], edge: Segment) -> list[list[Plane]]:
     """The cell on either side of the line of the segment."""
-    turns = [_turn(*edge, p) for p in cell]
+    turns = [turn(*edge, p) for p in cell]
     halves: list[list[Plane]] = []
     for side in (1, -1):
         kept: list[Plane] = []
-        for k, (p, turn) in enumerate(zip(cell, turns, strict=True)):
+        for k, (p, height) in enumerate(zip(cell, turns, strict=True)):
             before = turns[k - 1]
-            if before * turn < 0:
-                q, s = cell[k - 1], before / (before - turn)
+            if before * height < 0:
+                q, s = cell[k - 1], before / (before - height)
                 kept.append((q[0] + s * (p[0] - q[0]), q[1] + s * (p[1] - q[1])))
-            if turn * side >= 0:
+            if height * side >= 0:
                 kept.append(p)
         halves.append(kept)
     return halves

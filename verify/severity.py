@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import isqrt
 
 from satcheck.report.report import CROSS_CHECK, OVERLAPS, Finding
 from satcheck.verify.evidence import vector
-from satcheck.verify.exact import Rejected, dot
+from satcheck.verify.exact import Rejected, dot, root_above
 from satcheck.verify.rules import SEVERITIES, Request
 
 CLEARANCE = "clearance"
@@ -149,11 +148,5 @@ def proven_depth(finding: Finding, proven: ProvenFields) -> Fraction | None:
         bounds.append(Fraction(finding.depth))
     if proven.mtv and finding.mtv is not None:
         move = vector(finding.mtv)
-        bounds.append(_root_above(dot(move, move)))
+        bounds.append(root_above(dot(move, move)))
     return min(bounds, default=None)
-
-
-def _root_above(value: Fraction) -> Fraction:
-    """At least the square root, by a relative 2**-50 at most."""
-    shift = 200 + max(value.denominator.bit_length(), value.numerator.bit_length())
-    return Fraction(isqrt((value.numerator << (2 * shift)) // value.denominator) + 1, 1 << shift)
