@@ -52,26 +52,25 @@ ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone
 
 void bind_geometry(nb::module_& m) {
   nb::class_<Geometry>(m, "Geometry", R"(What all bodies of one mesh share, in file coordinates, made when needed. solid: the mesh is closed and
-consistently wound; surfaces raise ValueError where it is not. plain: the mesh is that of an Inspection whose topology
-is a plain solid; that is not proven again. sheets: where the mesh is open, it has no inside; else every hole is
-filled somehow.)")
+consistently wound; if that is false, surfaces raise ValueError. plain: the mesh of an Inspection whose topology is a
+plain solid, which is not proven again. sheets: open parts of the mesh have no inside; else every hole has some fill.)")
       .def("__init__",
            [](Geometry* self, std::shared_ptr<Mesh> mesh, bool solid, bool plain, bool sheets) {
              new (self) Geometry(std::move(mesh), solid, plain, sheets ? OpenParts::sheets : OpenParts::filled);
            },
            "mesh"_a, "solid"_a, "plain"_a = false, "sheets"_a = false)
-      .def_prop_ro("convex", &Geometry::convex, ReleaseGil(), R"(Closed, consistently outward, and exactly convex. An affine map keeps that, up to the one rounding of each
-world coordinate: the body is then taken as the hull of its world vertices.)")
+      .def_prop_ro("convex", &Geometry::convex, ReleaseGil(), R"(Closed, consistently outward, and exactly convex. An affine map keeps a mesh convex up to the rounding of each
+world coordinate, so the body in the world is the hull of its world vertices.)")
       .def_prop_ro("known_convex", &Geometry::known_convex, "None until a pair needs it.")
       .def("surface", &Geometry::surface, ReleaseGil())
       .def("hull", &Geometry::hull, ReleaseGil())
       .def("hull_shape", &Geometry::hull_shape, ReleaseGil())
       .def_prop_ro("hierarchies", &Geometry::hierarchies, "How many trees were built for these bodies.")
       .def_prop_ro("refits", &Geometry::refits, "How many were fitted again to placed vertices.");
-  nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh and what is made of it when needed.
+  nb::class_<PlacedGeometry>(m, "PlacedGeometry", R"(A body in the world: its mesh, and data that are made on demand.
 
-transform: 4x4, 16 numbers by rows, affine and not singular; None: as in the file. bounds: of the body in the world.
-resolution: how finely its coordinates are known, world units.)")
+transform: 4x4, 16 numbers by rows, affine and not singular; None: the identity. bounds: of the body in the world.
+resolution: the precision of its coordinates, world units.)")
       .def("__init__",
            [](PlacedGeometry* self, std::shared_ptr<Geometry> shared, const std::optional<Matrix>& transform,
               const Box& bounds, double resolution) {
@@ -82,7 +81,7 @@ resolution: how finely its coordinates are known, world units.)")
       .def("surface", &PlacedGeometry::surface, ReleaseGil())
       .def("hull", &PlacedGeometry::hull, ReleaseGil(), "Of all its vertices, with its faces.")
       .def("hull_shape", &PlacedGeometry::hull_shape, ReleaseGil(), "The same as a shape, usually without faces.")
-      .def("release", &PlacedGeometry::release, "Forget what was made; it is made again should somebody ask.");
+      .def("release", &PlacedGeometry::release, "Releases the data; they are made again on demand.");
 }
 
 const char* name_of(BoxOutcome outcome) {
@@ -137,25 +136,25 @@ double deepest(const Climb& climb) {
 }
 
 void bind_result(nb::module_& m) {
-  nb::class_<Climb>(m, "Climb", R"(The verdict of the ladder on a pair, and what its rungs found; None where the climb did not get so far.
+  nb::class_<Climb>(m, "Climb", R"(The verdict of the ladder on a pair, and the results of its rungs; None for rungs that the climb did not reach.
 
-relation      of the bodies, without a touch band; "indeterminate" where `hole` leaves it open.
-settled       a rung answered what was asked. Else a rung above the last one may say more: the bodies are apart by
-              gap_lower, but not beyond what was asked about, or overlap as far as is known.
-proven        the relation is. gap_lower: a proven lower bound of the distance, 0.0 where none is known.
-signed_distance  of two convex bodies, by their hulls: it says everything about them.
+relation      of the bodies, without a touch band; "indeterminate" if `hole` leaves it open.
+settled       a rung decided the pair. Else a higher rung may decide more: the bodies are apart by gap_lower, but not
+              by more than asked_gap, or they may overlap.
+proven        the relation is proven. gap_lower: a proven lower bound of the distance; 0.0: none is known.
+signed_distance  of two convex bodies, by their hulls; it decides everything about them.
 crossing      indices of one triangle of each body that meet. point: a common point, rounded.
-band          of a settled overlap, whether it is within the touch band: "within" or "deeper", proven; "hidden" where
-              rounding alone leaves it open; "open". The last two leave a search to do.
-least_depth   of an overlap that triangles decided, where the touch band is not 0: a proven lower bound of its depth.
-deepest       the greatest such bound that was met. way_out: a translation of A within the band that was seen to free it.
-gap           of surfaces apart. gap_of_holes: what fills a hole may be as near as this, and nearer than gap.
-box_gap       a proven lower bound of the gap of the world boxes, 0.0 where they meet.
-boxes         oriented boxes: "apart" by more than was asked about, "meet", why they say no more than the world boxes
-              ("sheared", "unturned"), or "".
-hulls         the depth of two convex bodies; else the distance where hulls are apart, or the overlap.
+band          whether a settled overlap is within the touch band: "within" or "deeper", both proven; "hidden": only
+              rounding leaves it open; "open". The last two need a search.
+least_depth   a proven lower bound of the depth of an overlap that triangles decided, if the touch band is not 0.
+deepest       the greatest such bound. way_out: a translation of A within the band that frees it.
+gap           of separate surfaces. gap_of_holes: the fill of a hole may be this near, nearer than gap.
+box_gap       a proven lower bound of the gap of the world boxes; 0.0 if they meet.
+boxes         oriented boxes: "apart" by more than asked_gap, "meet", the reason why they prove no more than the world
+              boxes ("sheared", "unturned"), or "".
+hulls         the depth of two convex bodies; else the distance of separate hulls, or the overlap.
 triangles     the relation of the meshes.
-band_nanoseconds  what the touch band or the gap took. stages() says what the rungs did.)")
+band_nanoseconds  the time of the touch band or the gap. stages() describes the rungs.)")
       .def_prop_ro("relation",
                    [](const Climb& c) { return hole_in_the_way(c) ? "indeterminate" : name_of(c.verdict.relation); })
       .def_prop_ro("settled", [](const Climb& c) { return c.verdict.settled; })
@@ -176,7 +175,7 @@ band_nanoseconds  what the touch band or the gap took. stages() says what the ru
       .def_prop_ro("hulls", [](const Climb& c) { return if_known(c.hulls); }, nb::rv_policy::reference_internal)
       .def_prop_ro("triangles", [](const Climb& c) { return if_known(c.triangles); },
                    nb::rv_policy::reference_internal)
-      .def("stages", &stages, "make"_a, R"(What the rungs that ran found, in words: make(rung, result, microseconds, detail) of each.)")
+      .def("stages", &stages, "make"_a, R"(The results of the rungs in words: make(rung, result, microseconds, detail) for each.)")
       .def_prop_ro("band_nanoseconds", [](const Climb& c) { return c.nanoseconds[kBand]; });
 }
 
@@ -219,18 +218,17 @@ class Climbing {
 void bind_climb(nb::module_& m) {
   bind_geometry(m);
   bind_result(m);
-  nb::class_<Climbing>(m, "Climbing", R"(Pairs on their way up the ladder; while they climb, the caller can do something else.
+  nb::class_<Climbing>(m, "Climbing", R"(Climbs with many pairs in threads, while the caller can do other work.
 
-A pair is (a, b, asked_gap, tolerance, wants_distance). A rung that proves the bodies apart by more than asked_gap ends
-its climb, and so does the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
-wants_distance: of bodies apart, however far. threads: 0: one a core; on one thread the pairs climb when the results are
-taken. alone: of one pair, that no other will ask for anything of its bodies. method: between convex
-hulls, as that of check_pairs.)")
+A pair is (a, b, asked_gap, tolerance, wants_distance). A climb ends at a rung that proves a gap beyond asked_gap, or
+at the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band. wants_distance:
+measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken. alone: there is
+one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs.)")
       .def(nb::init<nb::list, const std::string&, unsigned, bool, const std::string&>(), "pairs"_a,
            "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto")
       .def("results", &Climbing::results,
-           R"(Waits, and hands over once: a Climb a pair, the same at any thread count; None where a climb failed: by itself it
-raises.)");
+           R"(Waits, then hands over the results once: a Climb for each pair, the same for any number of threads; None: the climb
+failed, and climb() raises for this pair.)");
   m.def("climb",
         [](const PairTuple& pair, const std::string& first, const std::string& last, const std::string& method) {
           const ClimbRequest request = request_from(pair, method_from(method));
@@ -248,8 +246,8 @@ raises.)");
           return crossing_depth(a, b, static_cast<std::uint32_t>(triangle_a), static_cast<std::uint32_t>(triangle_b));
         },
         "a"_a, "b"_a, "triangle_a"_a, "triangle_b"_a, ReleaseGil(),
-        R"(A proven lower bound of the depth of two surfaces from one pair of triangles that cross; 0.0 where the bodies do
-not end on all of both.)");
+        R"(A proven lower bound of the depth of two surfaces from one pair of triangles that cross; 0.0 unless each triangle is
+boundary all over.)");
   m.def("nested_depth", &nested_depth, "a"_a, "b"_a, ReleaseGil(),
         "A proven lower bound of the depth of nested bodies: the inner one stays inside until the surfaces meet.");
 }

@@ -68,10 +68,10 @@ triangle_pairs: all that meet. complete: False when more met than allowed, and n
         R"(All common points of two placed surfaces. Which triangles meet and how the pieces join is decided by exact
 predicates; points are exact intersections, each coordinate rounded once. Solid or not makes no difference.)");
   m.def("covers_once", &covers_once, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
-        R"(Whether winding numbers with respect to the solid are 0 and 1 only, so that its signed volume is that of what it
-covers. Told by exact samples beside every piece of the surface.)");
+        R"(Whether all winding numbers of the solid are 0 or 1, so that its signed volume is the volume that it covers. Exact
+samples beside every piece of the surface decide.)");
   m.def("has_sheets", &has_sheets, "solid"_a, nb::call_guard<nb::gil_scoped_release>(),
-        R"(Whether a piece of the surface has no inside on either side; true also where a sample gives no answer.)");
+        R"(Whether a piece of the surface has no inside on either side; also true if a sample gives no answer.)");
 }
 
 }  // namespace satcheck

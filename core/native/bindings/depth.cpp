@@ -30,9 +30,9 @@ DepthInterval checked_search(const Surface& a, const Surface& b, double upper, d
 
 void bind_depth(nb::module_& m) {
   nb::class_<DepthInterval>(m, "DepthInterval", R"(lower <= depth <= upper. way_out: a translation of a, `upper` long, after which the meshes have no common
-interior; None where none was found that is shorter than the known one. bound: what that proves of the depth, `upper`
+interior; None: none is shorter than the known one. bound: the proven upper bound of the depth: `upper`
 and the rounding of a's moved coordinates. stop: "narrow" or "work spent"; boxes
-of translations, exact tests of the moved meshes, convex sets of forbidden translations: what it took.)")
+of translations, exact tests of the moved meshes, convex sets of forbidden translations: the counts of the search.)")
       .def_ro("lower", &DepthInterval::lower)
       .def_ro("upper", &DepthInterval::upper)
       .def_ro("bound", &DepthInterval::bound)
@@ -49,9 +49,9 @@ of translations, exact tests of the moved meshes, convex sets of forbidden trans
   m.def("search_depth", &checked_search, "a"_a, "b"_a, nb::kw_only(), "upper"_a, "lower"_a, "width"_a, "work"_a,
         "across"_a = -1,
         nb::call_guard<nb::gil_scoped_release>(),
-        R"(The depth of two overlapping meshes as a proven interval, at most `width` wide relative to its upper end unless
-`work` steps, each about a nanosecond, are spent first. upper: a known way out is this long; lower: a known bound.
-across: an axis of the world along which nothing is moved, as bodies that are prisms along it need it; -1: none.
+        R"(The depth of two overlapping meshes as a proven interval. The search ends when the interval is `width` wide, relative
+to its upper end, or after `work` steps of about a nanosecond. upper: the length of a known way out; lower: a known
+bound. across: for prisms along a world axis, that axis, along which no translation goes; -1: none.
 The same input gives the same result on every machine. In the main thread a signal handler may raise, KeyboardInterrupt for one.
 ValueError for a length that is negative or not finite, or for an empty surface.)");
 }

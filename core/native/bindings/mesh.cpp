@@ -165,8 +165,8 @@ the winding. ValueError when the matrix is not affine, not finite or singular.)"
            [](const Mesh& mesh, const Tuple3& offset) { return translate(mesh, to_vec3(offset)); },
            "offset"_a, ReleaseGil())
       .def("topology", &measure_topology, ReleaseGil(), "Counts and properties; edges are counted on the welded mesh.")
-      .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding a component, outermost closed shells outward. Copies of a triangle are dropped
-where that closes the surface.)")
+      .def("oriented", &orient, ReleaseGil(), R"(Welded, with one winding for each component, and the outermost closed shells outward. Copies of a triangle are
+dropped if that closes the surface.)")
       .def("components", &split_components, "crack_width"_a = 0.0, ReleaseGil(), R"(The parts that share no edge, in order of their
 first triangle. crack_width: points within it may be the same; edges along such a crack count as shared.)")
       .def("is_flat", [](const Mesh& mesh) { return is_flat(mesh); }, ReleaseGil(), "Whether all vertices lie in one plane, exactly; so they do where no triangle has an area.")
@@ -225,9 +225,8 @@ oriented and wound outward, so that inspect() leaves its winding alone.)")
       .def_ro("volume", &Topology::volume)
       .def_prop_ro("plain_solid", &Topology::is_plain_solid)
       .def_ro("solid", &Topology::solid);
-  nb::class_<Inspection>(m, "Inspection", R"(What inspect() found. mesh: welded, vertices and triangles in an order that depends on their coordinates alone,
-oriented. turned: whether orienting it changed anything; cracks: how many were closed; topology: before that,
-repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), file units, or None.)")
+  nb::class_<Inspection>(m, "Inspection", R"(The result of inspect(). mesh: welded, oriented, in an order that depends on coordinates alone. turned: orienting
+changed the mesh. cracks: the number of closed cracks. topology: before these repairs; repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), file units, or None.)")
       .def_ro("mesh", &Inspection::mesh)
       .def_ro("turned", &Inspection::turned)
       .def_ro("cracks", &Inspection::cracks)
@@ -246,8 +245,8 @@ repaired: of `mesh`. hole_count: of `mesh`; largest_hole: (centre, diameter), fi
   m.def("inspect_bytes", &inspect_bytes, "vertices"_a, "triangles"_a, "orient"_a, ReleaseGil(),
         "inspect(Mesh.from_bytes(vertices, triangles), orient), for less than the two.");
   m.def("with_cracks_closed", &with_cracks_closed, "inspection"_a, "orient"_a, "width"_a, ReleaseGil(),
-        R"(The same with its cracks closed: places where neighbouring faces miss each other by no more than the width, file
-units. Triangles are added, none is changed.)");
+        R"(The inspection with cracks closed: places where neighbouring faces miss each other by at most the width, file units.
+Triangles are added; none is changed.)");
 }
 
 void bind_polytope(nb::module_& m) {

@@ -76,22 +76,23 @@ std::int64_t index_or_minus_one(std::uint32_t triangle) { return triangle == kNo
 }  // namespace
 
 void bind_motion(nb::module_& m) {
-  nb::class_<Moving>(m, "Moving", R"(A rigid body on the move, world frame: p_world = rotation * p + translation now, rotation as three rows. It goes on
-turning about the axis through `centre` with `spin`, a unit axis times radians per unit of time, while the centre
-moves with `velocity`. ValueError on a number that is not finite.)")
+  nb::class_<Moving>(m, "Moving", R"(A moving rigid body, world frame: p_world = rotation * p + translation now, rotation as three rows. It turns about the
+axis through `centre` with `spin`, a unit axis times radians per unit of time, while the centre moves with `velocity`.
+ValueError on a number that is not finite.)")
       .def("__init__", &construct_moving, "rotation"_a, "translation"_a, "centre"_a, "velocity"_a, "spin"_a);
-  nb::class_<MotionAnswer>(m, "MotionAnswer", R"(value: a proven lower bound of what was asked. upper: of the signed distance as the bodies are now, rounding apart;
-infinite where nothing was in the way. triangle_a, triangle_b: what is most in the way, -1 where nothing is.)")
+  nb::class_<MotionAnswer>(m, "MotionAnswer", R"(value: a proven lower bound of the requested time or gap. upper: of the signed distance now, without rounding;
+infinite if there is no obstacle. triangle_a, triangle_b: the nearest obstacle; -1: none.)")
       .def_ro("value", &MotionAnswer::value)
       .def_ro("upper", &MotionAnswer::upper)
       .def_ro("visits", &MotionAnswer::visits)
       .def_prop_ro("triangle_a", [](const MotionAnswer& r) { return index_or_minus_one(r.triangle_a); })
       .def_prop_ro("triangle_b", [](const MotionAnswer& r) { return index_or_minus_one(r.triangle_b); });
   const nb::call_guard<nb::gil_scoped_release> unlocked;
-  constexpr const char* time_doc = R"(For how long, up to `limit`, the gap of two moving surfaces, or of a shape and one, or the signed distance of two shapes, stays
-above `level`. pad, slack: what rounding may do to a gap, and to the rate at which it closes. work: boxes and triangles.)";
-  constexpr const char* gap_doc = R"(The least gap, or signed distance, up to `window` before and after now. Of surfaces: minus infinity where it is, or
-may be, below `floor`.)";
+  constexpr const char* time_doc = R"(The time, up to `limit`, for which the gap of two moving bodies stays above `level`. For two shapes it is the signed
+distance, else the gap of the surfaces. pad, slack: the rounding of a gap, and of the rate at which it closes. work:
+boxes and triangles.)";
+  constexpr const char* gap_doc = R"(The least gap, or signed distance, from `window` before now to `window` after. For surfaces: minus infinity if it may
+be below `floor`.)";
   m.def("safe_time", &surfaces_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,
         "pad"_a, "slack"_a, "work"_a, unlocked, time_doc);
   m.def("safe_time", &mixed_time, "a"_a, "moving_a"_a, "b"_a, "moving_b"_a, nb::kw_only(), "level"_a, "limit"_a,

@@ -70,19 +70,19 @@ std::int64_t index_or_minus_one(std::uint32_t index) {
   return index == Shape::kNoIndex ? -1 : static_cast<std::int64_t>(index);
 }
 
-constexpr const char* kPairResultDoc = R"(What was found about one convex pair. World frame, units of the shapes.
+constexpr const char* kPairResultDoc = R"(The result of one convex pair. World frame, units of the shapes.
 
 outcome      "separated", "touching", "penetrating" or "undecided" (then `reason` says why), the same for every
-             query, and for B against A. On hulls, boxes, spheres and capsules touching is decided exactly,
-             for the vertices, centres and axes where the poses round them to; where a cylinder, cone or
-             ellipsoid takes part it means that 0 lies between the proven bounds lower and upper.
+             query, and for B against A. For hulls, boxes, spheres and capsules touching is exact for the vertices,
+             centres and axes after the poses have rounded them. For cylinders, cones and ellipsoids touching means
+             that 0 lies between the proven bounds lower and upper.
 distance     signed: > 0 the gap, < 0 minus the penetration depth. None for query "overlap".
 lower, upper proven bounds of the signed distance, rounding included.
 normal       unit, from A to B. witness_a, witness_b: points on A and B with
              witness_b - witness_a = distance * normal. Moving A by distance * normal separates an overlap.
 method       the stage that decided: "portal", "sat", "gjk", "epa" or "exact".
-feature      what carries the answer: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face
-             or edge, -1 where none), "vertices" or "curved".)";
+feature      the feature that decides: "face-a", "face-b", "edge-edge" (with index_a, index_b of the face
+             or edge; -1: none), "vertices" or "curved".)";
 
 void bind_pair_result(nb::module_& m) {
   nb::class_<PairResult>(m, "PairResult", kPairResultDoc)

@@ -50,9 +50,9 @@ void bind_resolve(nb::module_& m) {
         R"(The translations t with the least sum of squares that keep the walls normal . (t[a] - t[b]) >= least.
 
 movable: of each body; bodies: (a, b) of each wall, one of them movable; normals: unit; multipliers: those of an
-earlier answer to a similar question, or zeros. Returns the translations, (0, 0, 0) where a body is not movable,
-and the multipliers: each >= 0, how far a wall pushes its bodies. Walls that exclude each other are not all kept;
-the others are, to about 1e-6 of the largest `least` at worst and usually to rounding. ValueError for lists
+earlier result for similar walls, or zeros. Returns the translations, (0, 0, 0) for a body that is not movable, and
+the multipliers: each >= 0, how far a wall pushes its bodies. If walls contradict each other, some are broken. All
+others are kept to about 1e-6 of the largest `least` at worst, and usually to rounding. ValueError for lists
 that do not fit.)");
 }
 

@@ -35,8 +35,8 @@ void bind_one_surface(nb::module_& m) {
            [](Surface* self, const Mesh& mesh, bool solid, bool sheets) {
              new (self) Surface(make_surface(mesh, solid, sheets ? OpenParts::sheets : OpenParts::filled));
            },
-           "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: claimed to be closed; ValueError where it is not. sheets: what has a rim has no inside; other holes are
-filled somehow.)")
+           "mesh"_a, "solid"_a, "sheets"_a = false, ReleaseGil(), R"(solid: claimed to be closed; ValueError if it is not. sheets: parts with a rim have no inside; other holes have some
+fill.)")
       .def_prop_ro("mesh", [](const Surface& s) -> const Mesh& { return s.mesh; },
                    nb::rv_policy::reference_internal)
       .def_ro("solid", &Surface::solid)
@@ -47,16 +47,16 @@ filled somehow.)")
              const auto closing = closing_of(s, OpenParts::filled);
              return std::make_tuple(*closing->surface, closing->hulls);
            },
-           ReleaseGil(), R"((surface, hulls): the surface closed, and for each of its holes a surface that every fill of it lies within. Away
-from these its winding numbers do not depend on the fill.)")
+           ReleaseGil(), R"((surface, hulls): the closed surface, and for each hole a surface that encloses every fill of it. Outside of these
+hulls the winding numbers do not depend on the fill.)")
       .def("sheets_around",
            [](const Surface& s, const Tuple3& point) {
              return generalized_winding_number(s.mesh, s.sheets, finite_point(point));
            },
-           "point"_a, ReleaseGil(), R"(How far the sheets of an open surface are around a point on none of them: their solid angle over 4 pi, signed, in
-float64. 0 without sheets.)")
-      .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of this mesh with its vertices elsewhere, `mesh`: the tree is fitted again in linear time. Made anew
-where the triangles are others, or where rounding has put two vertices into one place.)")
+           "point"_a, ReleaseGil(), R"(The winding number of the sheets of an open surface about a point on none of them: their signed solid angle over
+4 pi, in float64. 0 without sheets.)")
+      .def("refit", &refitted_surface, "mesh"_a, ReleaseGil(), R"(The surface of `mesh`, which is this mesh with moved vertices: the tree is fitted again in linear time. It is built
+anew if the triangles differ, or if rounding has merged two vertices.)")
       .def("winding_number",
            [](const Surface& s, const Tuple3& point) {
              if (!s.solid) throw std::invalid_argument("the surface is not a solid");
@@ -68,8 +68,8 @@ where the triangles are others, or where rounding has put two vertices into one 
              if (triangle >= s.mesh.triangles.size()) throw nb::index_error("no such triangle");
              return is_plain_boundary(s, static_cast<std::uint32_t>(triangle));
            },
-           "triangle"_a, ReleaseGil(), R"(Whether the closed body ends on all of the triangle: it is no face inside the material, and meets no other
-triangle of the surface but at shared corners and edges.)")
+           "triangle"_a, ReleaseGil(), R"(Whether all of the triangle is boundary of the closed body: it is no face inside the material, and meets other
+triangles of the surface only at shared corners and edges.)")
       .def("nearest",
            [](const Surface& s, const Tuple3& point) {
              const NearestPoint nearest = nearest_point(s, finite_point(point));
@@ -90,8 +90,8 @@ largest hole of the body first; count: of its holes.)")
       .def_ro("count", &OpenHole::count)
       .def_prop_ro("centre", [](const OpenHole& hole) { return to_tuple(hole.centre); })
       .def_ro("diameter", &OpenHole::diameter);
-  nb::class_<MeshRelation>(m, "MeshRelation", R"(proven: False where a degenerate contact was decided by samples, or where `hole` is the hole that leaves the
-relation open; the relation is then that of the surfaces as they are.)")
+  nb::class_<MeshRelation>(m, "MeshRelation", R"(proven: False if samples decided a degenerate contact, or if `hole` leaves the relation open; the relation is then
+that of the surfaces without fills.)")
       .def_prop_ro("relation", [](const MeshRelation& r) { return name_of(r.relation); })
       .def_ro("proven", &MeshRelation::proven)
       .def_prop_ro("hole", [](const MeshRelation& r) { return r.hole ? &*r.hole : nullptr; }, nb::rv_policy::reference_internal)
@@ -120,7 +120,7 @@ void bind_mesh_distance(nb::module_& m) {
       .def_prop_ro("triangle_b", [](const MeshDistance& d) { return triangle_number(d.triangle_b); });
   m.def("mesh_distance", [](const Surface& a, const Surface& b, double limit) { return mesh_distance(a, b, limit); }, "a"_a, "b"_a, "limit"_a = INFINITY, ReleaseGil(),
         R"(The least distance of two surfaces in float64, with witness points; inf when it exceeds `limit`. A body inside
-another is at a distance from its surface all the same: ask mesh_relation first.)");
+another has a distance from its surface, too, so call mesh_relation first.)");
   m.def("compare_gap",
         [](const Surface& a, const Surface& b, double length) {
           if (!(length >= 0)) throw std::invalid_argument("the length must not be negative");
@@ -134,8 +134,8 @@ length. Decided exactly.)");
           return moves_within(mesh.vertices, finite_point(move), length);
         },
         "mesh"_a, "move"_a, "length"_a, ReleaseGil(),
-        R"(Whether a translation, added to the vertices with one rounding of each coordinate, takes none of them farther than
-`length`. Decided exactly where nothing is rounded.)");
+        R"(Whether a translation, added with one rounding of each coordinate, moves no vertex farther than `length`. The answer
+is exact if nothing is rounded.)");
   m.def("deviation",
         [](const Mesh& surface_of, const Surface& solid, double tolerance) {
           const Deviation d = deviation(surface_of, solid, tolerance);
