@@ -1,6 +1,6 @@
 """Whether the figures of a finding agree with each other and with the bodies, up to rounding.
 
-What the figures claim beyond that, a certificate proves or `coverage` names.
+A certificate proves the other claims of the figures, or `coverage` lists them.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from satcheck.verify.world import World
 EXACT_WIDTH = Fraction(1, 10**9)
 # Figures of polytopes are at most 6e-12 of the size off, as the tables of hard cases show.
 POLYTOPE_ERROR = Fraction(1, 1 << 37)
-# Those of curved shapes are known as far as their bounds close, which is 1e-9 of the size.
+# Figures of curved shapes have bounds within 1e-9 of the size.
 CURVED_ERROR = EXACT_WIDTH
 UNIT_ERROR = 1e-12  # of the length of a unit vector
 # A direction is checked only if rounding turns it by at most this angle, in radians.
@@ -41,7 +41,7 @@ ALL_FIGURES = (*DEPTH_FIGURES, "distance", "witness", "quality", "volume", "volu
 
 @dataclass(frozen=True, slots=True)
 class Rounding:
-    """What rounding may take, world units, for bodies of this size."""
+    """The largest effects of rounding, world units, for bodies of this size."""
 
     share: Fraction
     largest: Fraction
@@ -65,8 +65,9 @@ def check_id(finding: Finding) -> None:
 
 
 def default_tolerance(a: Placed, b: Placed, across: int | None) -> float:
-    """The input precision of two bodies, but no more than a share of the smaller one, and no less
-    than what their curves may be off their polygons. across: the axis that no size counts along."""
+    """The sum of the input precisions of two bodies, at most a share of the smaller body, and at
+    least the deviation of polygons from their curves. across: sizes along this axis do not
+    count."""
     axes = [axis for axis in range(3) if axis != across]
     sizes = [
         math.dist(*(corner[axes].tolist() for corner in body.bounds))
@@ -88,7 +89,7 @@ def check_tolerance(finding: Finding, a: Placed, b: Placed, request: Request) ->
 
 
 def check_no_figures(finding: Finding) -> None:
-    """Of a pair that could not be decided."""
+    """Rejects figures of an undecided pair."""
     claims = [
         key for key in (*ALL_FIGURES, "exact_relation", "contacts", "rule") if getattr(finding, key)
     ]
@@ -162,7 +163,8 @@ def _check_gap(finding: Finding, rounding: Rounding) -> None:
 
 
 def _check_witness(finding: Finding, bodies: tuple[Placed, Placed], rounding: Rounding) -> None:
-    """Points on the bodies, as far apart, and along the normal, as the distance or the depth."""
+    """Rejects witness points that are not on the bodies, or whose distance along the normal is not
+    the distance or the depth."""
     normal = None if finding.normal is None else _unit(finding.normal)
     witness = finding.witness
     if witness is None:
@@ -191,14 +193,15 @@ def shows_direction(finding: Finding, a: Placed, b: Placed) -> bool:
 
 
 def is_on(p: Point, body: Placed, slack: Fraction) -> bool:
-    """Whether a point is that close to the surface, world units."""
+    """Whether a point is within this distance of the surface, world units."""
     if body.curved is not None:
         return _on_curved(p, body.curved, slack)
     return body.world is not None and _on_mesh(p, body.world, slack)
 
 
 def _on_curved(p: Point, shape: Curved, slack: Fraction) -> bool:
-    """A convex shape around its origin: pulled there the point is within, pushed away it is not."""
+    """Whether a point is close to the surface of a convex shape: moved towards its origin it is
+    inside, moved away it is not."""
     x, y, z = map(Fraction, shape.image.origin)
     step = p[0] - x, p[1] - y, p[2] - z
     length = _length(step)
@@ -225,7 +228,7 @@ def _on_mesh(p: Point, world: World, slack: Fraction) -> bool:
 
 
 def _check_distance_bounds(finding: Finding, a: Placed, b: Placed, rounding: Rounding) -> None:
-    """The distance of polygons says of curves no more than how far these are off them allows."""
+    """Checks that the bounds of the distance of curves include the deviation of their polygons."""
     bounds, distance = finding.distance_bounds, finding.distance
     closer = Fraction(a.deviation) + Fraction(b.deviation)
     if (bounds is not None) is not (distance is not None and closer > 0):

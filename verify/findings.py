@@ -1,4 +1,4 @@
-"""One finding: its certificate, and whether what it says follows from what that proves."""
+"""One finding: whether its claims follow from its certificate."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from satcheck.verify.way_out import check_mtv, prove_way_out
 
 
 def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> ProvenFields:
-    """Rejects a finding, of two bodies that could be read, that is not proven."""
+    """Rejects an unproven finding of two readable bodies."""
     if a.reason is not None or b.reason is not None:
         raise Rejected(a.reason or b.reason or "a body is missing")
     certificate = finding.certificate
@@ -108,7 +108,8 @@ def _prove_relation(
     request: Request,
     tolerance: Fraction,
 ) -> bool:
-    """Whether the relation holds for the hulls, so that neither body can lie inside the other."""
+    """Returns whether the relation also holds for the hulls; then neither body can lie inside the
+    other."""
     relation, proof, ends = finding.exact_relation, certificate.relation, pair
     error = curve_error(a, b)
     if request.across is not None:
@@ -132,7 +133,8 @@ def _check_distance(
 
 
 def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, error: CurveError) -> bool:
-    """The interval of the depth: a ball in the Minkowski difference, an axis across it."""
+    """Checks the interval of the depth: a ball in the Minkowski difference proves the lower bound,
+    an axis the upper bound."""
     bounds, proof = finding.depth_bounds, certificate.depth
     if bounds is None or isinstance(proof, UnsetType):
         return False
@@ -146,7 +148,8 @@ def _check_depth(finding: Finding, certificate: Certificate, pair: Pair, error: 
 
 
 def _check_cover(finding: Finding, certificate: Certificate, pair: Pair) -> bool:
-    """The lower end of the depth of bodies that are not both convex, where it is certified."""
+    """Checks the lower bound of the depth of bodies that are not both convex, if it is
+    certified."""
     if isinstance(certificate.cover, UnsetType):
         return False
     if finding.depth_bounds is None:
@@ -156,7 +159,7 @@ def _check_cover(finding: Finding, certificate: Certificate, pair: Pair) -> bool
 
 
 def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:
-    """Whether moving A against this axis by the length, world units, takes it off B."""
+    """Whether a translation of A against this axis by the length, world units, frees it from B."""
     overlap = -gap_along(pair.a, pair.b, n)
     return overlap <= 0 or overlap * overlap <= length * length * dot(n, n)
 
@@ -170,7 +173,7 @@ def _check_band(
     clearance: Fraction,
     proven: ProvenFields,
 ) -> None:
-    """Why the relation is another than the exact one."""
+    """Checks the proof that the relation differs from the exact one."""
     relation, exact = finding.relation, finding.exact_relation
     band = tolerance * (1 + EXACT_WIDTH)
     if exact == "separated" and relation in ("touching", "near"):
@@ -193,7 +196,7 @@ def _is_in_band(
     band: Fraction,
     proven: ProvenFields,
 ) -> bool:
-    """Whether a way out of an overlap is no longer than that."""
+    """Whether a way out of the overlap is within the tolerance."""
     if isinstance(proof, UnsetType):
         if proven.depth and finding.depth is not None and finding.depth <= band:
             return True

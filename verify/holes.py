@@ -1,4 +1,4 @@
-"""Open surfaces: what may fill their holes, and pieces that may surround the other body."""
+"""Open surfaces: the fills of their holes, and pieces that may surround the other body."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from satcheck.verify.open_parts import turns_around
 
 
 def check_pieces(a: Placed, b: Placed) -> None:
-    """Rejects bodies that do not meet, of which open pieces of one surround the other."""
+    """Rejects bodies that do not meet if open pieces of one surround the other."""
     for outer, inner in ((a, b), (b, a)):
         if outer.world is None or inner.world is None or outer.pieces is None:
             continue
@@ -26,8 +26,8 @@ def check_pieces(a: Placed, b: Placed) -> None:
 
 
 def check_holes(a: Placed, b: Placed, margin: Fraction) -> None:
-    """Rejects bodies of which one has holes, unless their boxes are farther apart than that: what
-    fills a hole may be there."""
+    """Rejects bodies with holes unless the gap of their boxes is large enough: the fill of a hole
+    may be anywhere near."""
     if not (a.holed or b.holed) or a.bounds is None or b.bounds is None:
         return
     (a_low, a_high), (b_low, b_high) = a.bounds, b.bounds

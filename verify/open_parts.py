@@ -1,8 +1,8 @@
 """The parts of an open surface that are sheets; the others may be a solid.
 
-A part that is open and lies in one plane is a sheet: nothing fills its boundary. So is all that has
-a rim where the settings say that it is meant to be open. A sheet bounds nothing, as a triangle and
-its reverse have no winding number. Any other open part has holes.
+An open part in one plane is a sheet: nothing fills its boundary. With --allow-open every part with
+a rim is a sheet. A sheet encloses nothing, because the winding numbers of a triangle and its
+reverse cancel. Any other open part has holes.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ def bounds_nothing(vertices: Floats, triangles: Indices) -> bool:
 
 
 def _by_place(vertices: Floats) -> Indices:
-    """One number for all vertices in one place."""
+    """Numbers the vertices; equal points get one number."""
     _, number = np.unique(vertices + 0.0, axis=0, return_inverse=True)
     return number.reshape(-1)
 
@@ -73,8 +73,8 @@ def _least(triangle: list[int]) -> int:
 
 
 def _flaps(corners: Indices) -> Mask:
-    """Patches that are taken off as long as one has a rim of its own: an edge that it leaves open,
-    and at which no other patch is left."""
+    """The patches that remain after removing, again and again, patches with a rim of their own: an
+    open edge at which no other patch is left."""
     edges = _edges(corners)
     patch = _patches(edges)
     taken = np.zeros(len(corners), dtype=bool)

@@ -15,7 +15,7 @@ MOST_FACES = 100_000
 def inner_radius_exceeds(
     polytope: Polytope | PolytopeProof, a: Exact, b: Exact, radius: Fraction
 ) -> None:
-    """Rejects a polytope that does not hold the ball of this radius (world) around the origin.
+    """Rejects a polytope that does not contain the ball of this radius (world) around the origin.
 
     Its vertices are a_i - b_j. Where each directed edge meets its reverse once, and the origin
     lies behind every face, the surface runs around the origin. So every ray from there meets it,

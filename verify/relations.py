@@ -1,4 +1,4 @@
-"""What each kind of certificate proves about the relation of two bodies, checked exactly."""
+"""The exact check of each kind of certificate of a relation."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ Way = tuple[bool, bool]
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Two bodies on one lattice. convex: both are exactly convex in their files, so that each is
-    taken as the hull of its world vertices."""
+    """Two bodies on one lattice. convex: both are exactly convex in their files, so each is the
+    hull of its world vertices."""
 
     a: Exact
     b: Exact
@@ -65,8 +65,8 @@ def prove(
 ) -> bool:
     """Rejects a proof that does not prove the exact relation.
 
-    A separation has to be over `beyond` and at least `least`, world units. Returns whether the
-    hulls have no common interior, so that neither body can lie inside the other.
+    A gap must be greater than `beyond` and at least `least`, world units. Returns whether the hulls
+    have no common interior; then neither body can lie inside the other.
     """
     match relation, proof:
         case "separated", AxisProof() as separation:
@@ -137,8 +137,8 @@ def _no_overlap(pair: Pair) -> None:
 def _nowhere(ways: set[Way], pair: Pair, contacts: list[tuple[int, int]]) -> None:
     """Rejects bodies with a point that lies in one of these ways. contacts: all pairs that meet.
 
-    A region of one surface that the other does not meet lies inside of that or outside; it is
-    looked at where that is part of one of the ways. A sheet is its points, and has no inside.
+    A region of one surface that the other does not meet lies inside or outside of the other body as
+    a whole. It is checked only if one of the ways includes that. A sheet has no inside.
     """
     a, b = pair.a, pair.b
     views = [(a, b, contacts, ways)]
@@ -161,7 +161,8 @@ def _ways_beside(sides: Sides, solid: bool) -> set[Way]:
 
 
 def _holds(outer: Exact, proof: SurfacesProof, alone: Way, pair: Pair) -> None:
-    """alone: a point of the inner body that lies outside of the outer one."""
+    """Checks that one body contains the other. alone: a point of the outer body outside of the
+    inner one."""
     if not outer.world.solid:
         raise Rejected("what is not solid contains nothing")
     _has_point(BOTH, proof.both, "both", pair)
@@ -169,8 +170,9 @@ def _holds(outer: Exact, proof: SurfacesProof, alone: Way, pair: Pair) -> None:
 
 
 def _overlap(proof: OverlapProof, pair: Pair) -> None:
-    """A point inside both, and one inside either alone; or inside one of them alone, and a common
-    point of the boundaries. Something of a solid is always outside of a sheet."""
+    """Checks an overlap: a point inside both, and a point inside each one alone; or a point inside
+    one alone, and a common point of the boundaries. A part of a solid always lies outside of a
+    sheet."""
     if not (pair.a.world.solid or pair.b.world.solid):
         raise Rejected("two bodies without an inside have no common interior")
     _has_point(BOTH, proof.both, "both", pair)
@@ -228,7 +230,7 @@ def _solid_at(place: OnBody, sheet: Exact, pair: Pair) -> Way:
 
 
 def _crossing(proof: CrossingProof, pair: Pair) -> None:
-    """Two triangles of which each passes through the other's inside, one of them of a sheet."""
+    """Two triangles that pass through each other's interior, one of them of a sheet."""
     s = index(proof.triangles[0], len(pair.a.world.triangles))
     t = index(proof.triangles[1], len(pair.b.world.triangles))
     corners = pair.a.corners(s), pair.b.corners(t)
@@ -256,7 +258,8 @@ def _sides(body: Exact, p: Point, normal: IntVector) -> tuple[bool, bool]:
 
 
 def _hulls_overlap(proof: PolytopeProof, pair: Pair) -> None:
-    """For convex bodies; each reaches as far as the other along some axis, one of them farther."""
+    """An overlap of convex bodies: each reaches at least as far as the other along some axis, and
+    one farther."""
     if not pair.convex:
         raise Rejected("a polytope proves something about convex bodies only")
     inner_radius_exceeds(proof, pair.a, pair.b, Fraction(0))

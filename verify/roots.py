@@ -1,7 +1,7 @@
 """Signs of sums of square roots.
 
-A sum of square roots of rationals, all with one sign, is rational only where each of them is. So
-closer and closer bounds find every sign but that of 0, and 0 itself only comes of exact roots.
+A sum of square roots of rationals, all with one sign, is rational only if each root is. So narrower
+bounds find every sign except 0, and 0 comes only from exact roots.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Reach:
 
 
 def root(square: Fraction, bits: int) -> tuple[Fraction, Fraction]:
-    """Bounds of its root, equal where that is rational; so many bits beyond those of the square."""
+    """Bounds of its root, equal if it is rational, with this many bits more than the square."""
     whole = square.numerator * square.denominator
     low = isqrt(whole)
     if low * low == whole:
@@ -38,7 +38,8 @@ def root(square: Fraction, bits: int) -> tuple[Fraction, Fraction]:
 
 
 def sign_of(c: Fraction, less: Sequence[Fraction] = (), more: Sequence[Fraction] = ()) -> int:
-    """Of c - the roots of `less` + the roots of `more`; Rejected where it is too close to 0."""
+    """The sign of c - the roots of `less` + the roots of `more`. Raises Rejected if it is too close
+    to 0."""
     less, more = list(less), list(more)
     for p in [p for p in less if p in more]:
         if p in more:

@@ -1,6 +1,6 @@
 """The rules of a report: which pairs are exempt, and which limits the others have.
 
-Of several rules about a pair the last one that sets a key decides it. Written apart from the
+If several rules of a pair set the same key, the last one counts. This code is independent of the
 solver's, which compiles the same rules to sets of bodies.
 """
 
@@ -54,8 +54,8 @@ class Request:
 TERMS = frozenset(("tolerance", "clearance", "max_depth", "max_volume", "severity"))
 
 Terms = dict[str, Any]  # key of a rule -> its value
-# What the rules see of a body: on which sides of which rules it is, the ignored groups it is in,
-# whether it stands still while pairs of such bodies are not asked about.
+# The facts about a body that rules depend on: its sides of rules, its ignored groups, and whether
+# it is static while pairs of static bodies are exempt.
 Kind = tuple[tuple[tuple[int, bool], ...], frozenset[str], bool]
 
 
@@ -85,7 +85,7 @@ class Rules:
         return about
 
     def is_ignored(self, a: Placed, b: Placed) -> bool:
-        """Neither asked about nor counted."""
+        """Whether the pair is neither checked nor counted."""
         return _ignored(self._kinds[a.id], self._kinds[b.id])
 
     def terms(self, a: Placed, b: Placed) -> Terms:
@@ -100,7 +100,7 @@ class Rules:
         return self.is_ignored(a, b) or self.terms(a, b).get("allowed") is True
 
     def count(self) -> tuple[int, int]:
-        """Pairs that are counted, and how many of these are allowed."""
+        """The number of counted pairs, and of allowed ones among them."""
         sizes = Counter(self._kinds.values())
         pairs = [(kind, kind, n * (n - 1) // 2) for kind, n in sizes.items()]
         pairs += [

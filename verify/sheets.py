@@ -1,9 +1,9 @@
-"""That two surfaces without an inside meet, and do not cross.
+"""The proof that two surfaces without an inside meet but do not cross.
 
-Around almost every point of a contact that is a segment, triangles of both surfaces stand on the
-line of the segment like the pages of a book. The surfaces cross there where, turning around the
-line, pages of the one and of the other alternate. A contact that is a single point is no crossing:
-a disk without one point is connected. Triangles that lie in each other are left undecided.
+If a contact is a segment, triangles of both surfaces stand on its line like the pages of a book.
+The surfaces cross if, going around the line, the pages of both alternate. A contact in a single
+point is no crossing, because a disk without one point is connected. Coplanar triangles that overlap
+stay undecided.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from satcheck.verify.exact import Point, Rejected, cross, dot, sign, sub
 from satcheck.verify.surfaces import common
 from satcheck.verify.world import Corners, Exact
 
-# Points of a segment that are tried until one lies on no edge that runs across it.
+# The most points of a segment that are tried; one must lie on no crossing edge.
 SHARES = (Fraction(1, 2), Fraction(2, 5), Fraction(3, 7), Fraction(5, 11), Fraction(6, 13))
 CROSSING = 4  # changes around the line: A, B, A, B
 
@@ -41,7 +41,7 @@ def no_crossing(a: Exact, b: Exact, contacts: list[tuple[int, int]]) -> None:
 
 
 def _changes(p: Point, q: Point, of_a: list[Corners], of_b: list[Corners]) -> int:
-    """How often, turning around the line p q, pages of A give way to pages of B or the reverse."""
+    """The number of changes between pages of A and pages of B, going around the line p q."""
     line: Any = tuple(y - x for x, y in zip(p, q, strict=True))
     for share in SHARES:
         point: Any = tuple(x + share * along for x, along in zip(p, line, strict=True))

@@ -9,7 +9,7 @@ from satcheck.report.report import EFFECTS, Finding, Report
 from satcheck.verify.exact import Rejected
 from satcheck.verify.rules import SEVERITIES, Rules
 
-# Counts of the summary, and what was left undecided of the findings that they count.
+# Counts of the summary -> the open question of the findings that they count.
 UNDECIDED = (
     ("surfaces_only", "inside"),
     ("limits_undecided", "limit"),
@@ -91,6 +91,7 @@ def _check_baseline(report: Report, findings: Sequence[Finding], least: int) -> 
 
 
 def _fails(finding: Finding, least: int) -> bool:
-    """Whether what is decided, and not what is left open, is as grave as that."""
+    """Whether a decided severity of the finding reaches this level. An open question does not
+    count."""
     decided = finding.undecided is None or finding.severity == "error"
     return decided and finding.severity in SEVERITIES[least:]

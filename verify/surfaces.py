@@ -21,8 +21,8 @@ from satcheck.verify.exact import (
 )
 from satcheck.verify.world import Corners, Exact, Indices
 
-BLOCK = 4096  # so many pairs are compared at once
-MOST_PAIRS = 50_000_000  # beyond, the surfaces lie in each other: a check would not end
+BLOCK = 4096  # pairs compared at once
+MOST_PAIRS = 50_000_000  # with more pairs a check would take too long
 HalfSpace = tuple[IntVector, int]
 Mask = NDArray[np.bool_]
 
@@ -30,10 +30,10 @@ Mask = NDArray[np.bool_]
 def near_pairs(
     a: Exact, b: Exact, reach: float, most: int = MOST_PAIRS
 ) -> Iterator[tuple[Indices, Indices]]:
-    """All pairs of triangles whose boxes are no further apart than reach, in blocks, and a few
-    whose are. Rejects surfaces with more than `most` of them.
+    """In blocks, all pairs of triangles with boxes within reach of each other, and a few other
+    pairs. Rejects surfaces with more than `most` of them.
 
-    A difference is rounded monotonically, so none is lost: x <= reach implies fl(x) <= reach.
+    Rounding a difference is monotonic, so no pair is missed: x <= reach implies fl(x) <= reach.
     """
     boxes = [(e.world.low, e.world.high) for e in (a, b)]
     (low_a, high_a), (low_b, high_b) = boxes
@@ -80,8 +80,8 @@ def _halves(index: Indices, centres: Floats) -> list[Indices]:
 def close_pairs(
     a: Exact, b: Exact, reach: Fraction, most: int = MOST_PAIRS
 ) -> Iterator[tuple[int, int, Fraction]]:
-    """The pairs of triangles no further apart than reach, world units, and the square of their
-    distance on the lattice, 0 where they meet."""
+    """The pairs of triangles within reach of each other (world units), with the square of their
+    distance on the lattice; 0 if they meet."""
     within = reach * (1 << a.k)
     for i, j in near_pairs(a, b, up(reach), most):
         p, q = a.world.vertices[a.world.triangles[i]], b.world.vertices[b.world.triangles[j]]
@@ -106,8 +106,8 @@ def up(value: Fraction) -> float:
 
 
 def _apart(p: Floats, q: Floats, reach: float) -> Mask:
-    """Whether a direction certainly keeps triangles (n, 3, 3) more than reach apart: the normals,
-    the products of edges, the edges across either face, the lines between corners."""
+    """Whether one of these directions proves that triangles (n, 3, 3) are more than reach apart:
+    normals, products of edges, edges projected onto either face, lines between corners."""
     done = np.zeros(len(p), dtype=bool)
     e, f = np.roll(p, -1, axis=1) - p, np.roll(q, -1, axis=1) - q
     with np.errstate(all="ignore"):
@@ -137,7 +137,7 @@ def _directions(
 
 
 def _separates(axes: Floats, p: Floats, q: Floats, reach: float) -> Mask:
-    """Whatever vectors the axes came out as, the gap along them is bounded with its rounding."""
+    """The gap along each axis is bounded with its rounding, so the axes need not be exact."""
     largest = np.abs(axes).max(axis=1, keepdims=True)
     axes = np.where((largest > 0) & np.isfinite(largest), axes / largest, 0.0)
     on_p, on_q = np.einsum("kij,kj->ki", p, axes), np.einsum("kij,kj->ki", q, axes)
@@ -170,8 +170,8 @@ def _normal(t: Corners) -> IntVector:
 
 
 def half_spaces(t: Corners) -> list[HalfSpace]:
-    """Half-spaces normal . x <= limit that have the closed triangle in common, or the segment or
-    point that it is."""
+    """Half-spaces normal . x <= limit whose intersection is the closed triangle, which may be a
+    segment or a point."""
     n = _normal(t)
     if any(n):
         normals = [n, _negated(n)] + [cross(sub(t[(k + 1) % 3], t[k]), n) for k in range(3)]

@@ -22,8 +22,9 @@ from satcheck.verify.relations import pair_of, prove_free
 def check_mtv(finding: Finding, certificate: Certificate, a: Placed, b: Placed) -> bool:
     """A, moved by the MTV with one rounding of each coordinate, has no common interior with B.
 
-    The MTV is the depth long, and what rounding takes: it is lengthened until the rounded
-    coordinates are free. False: the finding does not say so, or it is not certified.
+    The MTV is longer than the depth by some rounding, because it is lengthened until the rounded
+    coordinates are free. Returns False if the finding does not claim this, or if it is not
+    certified.
     """
     if finding.mtv_verified is not True:
         return False

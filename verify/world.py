@@ -1,4 +1,4 @@
-"""A body in the world, read again from its file and placed by its pose, and what is inside it."""
+"""A body in the world, read again from its file and placed by its pose, and its winding numbers."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ SPLITTER = 2.0**27 + 1  # T. J. Dekker (1971): halves of 26 bits
 class World:
     """vertices: (n, 3) float64, triangles: (m, 3). solid: bounds material.
 
-    Where a solid's material is, winding numbers say: of a point, how often the surface runs around
-    it. That means something because every directed edge is run as often as its reverse: `Shape`
-    has checked that in the file, and equal points stay equal wherever they are moved.
+    Winding numbers define the material of a solid. They are well defined because every directed
+    edge occurs as often as its reverse. `Shape` has checked that in the file, and equal points stay
+    equal when moved.
     """
 
     def __init__(self, vertices: Floats, triangles: Indices, solid: bool) -> None:
@@ -63,7 +63,7 @@ class World:
         return np.unique(self.labels(self.triangles)[self.used]).tolist()  # type: ignore[no-any-return]
 
     def labels(self, triangles: Indices) -> Indices:
-        """For each vertex the least one that is connected with it through these triangles."""
+        """For each vertex the least vertex that is connected with it through these triangles."""
         return connected(triangles, len(self.vertices))
 
     @property
@@ -90,7 +90,7 @@ def placed(
     handedness = sign(dot(x, cross(y, z)))
     if handedness == 0 or tuple(pose[12:]) != (0.0, 0.0, 0.0, 1.0):
         raise Rejected("the pose is singular or not affine")
-    # What overflows is not finite in the end, which a World refuses.
+    # An overflow gives an infinite coordinate, which World refuses.
     with np.errstate(over="ignore", invalid="ignore"):
         columns = [_sums(row, pose[4 * k + 3], vertices) for k, row in enumerate(rows)]
     turned = triangles if handedness > 0 else triangles[:, [0, 2, 1]]
@@ -123,7 +123,7 @@ def two_product(a: float, b: Floats) -> tuple[Floats, Floats]:
 
 
 def connected(triangles: Indices, count: int) -> Indices:
-    """For each of so many corners the least one that is connected with it through triangles."""
+    """For each corner the least corner that is connected with it through triangles."""
     label = np.arange(count)
     while True:  # each triangle takes the least label of its corners, labels follow labels
         least = label[triangles].min(axis=1)
@@ -163,9 +163,9 @@ def is_balanced(vertices: Floats, triangles: Indices) -> bool:
 def is_convex(vertices: Floats, triangles: Indices) -> bool:
     """Whether a balanced surface winds around its hull and nothing else, outward.
 
-    Each face lies in a plane that has all vertices on one side: a sheet that is flush with the
-    hull has them in front. Such a surface wraps the hull a whole number of times, and a volume
-    above 0 says that this number is not 0.
+    All vertices lie on one side of the plane of each face; for a sheet flush with the hull they lie
+    in front. Such a surface wraps the hull a whole number of times. A volume above 0 proves that
+    this number is not 0.
     """
     k = lattice(vertices)
     exact = integers(vertices, k)
@@ -206,7 +206,7 @@ def rounded(vector: Sequence[Any]) -> Floats:
 
 
 def possibly_highest(normal: Sequence[Any], points: Floats) -> Indices:
-    """The indices of all points that may be the farthest along the normal, and few others."""
+    """The indices of all points that may be farthest along the normal, and of a few others."""
     direction = rounded(normal)
     heights = points @ direction
     # Three products, two sums, and the rounding of the direction: 6 roundoffs cover them.
@@ -215,7 +215,8 @@ def possibly_highest(normal: Sequence[Any], points: Floats) -> Indices:
 
 
 class Exact:
-    """A body on the lattice of a pair: its points are integers. scale: what they are times."""
+    """A body on the lattice of a pair: its points are integers. scale: the factor from world
+    units."""
 
     def __init__(self, world: World, k: int) -> None:
         self.world, self.k = world, k

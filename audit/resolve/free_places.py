@@ -1,10 +1,10 @@
 """A free place for one body among others that stay: where it goes when pushing does not help.
 
 Each body is taken as a discrete-orientation polytope: Klosowski et al., "Efficient Collision
-Detection Using Bounding Volume Hierarchies of k-DOPs" (1998), with 26 planes. Such polytopes
-overlap along an interval of every ray of translations; the first point of a ray that no interval
-covers is free for certain. The shortest such translation over a fan of rays is what is returned:
-one exists for every body, beyond all others, but it need not be the shortest there is.
+Detection Using Bounding Volume Hierarchies of k-DOPs" (1998), with 26 planes. Along every ray of
+translations two such polytopes overlap in one interval. The first point of a ray outside of all
+intervals is certainly free. The result is the shortest such translation over a fan of rays. It
+always exists, beyond all other bodies, but a shorter free translation may exist.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class FreePlaces:
         clearances: Sequence[float],
         longest: float,
     ) -> Vector | None:
-        """A translation of the body that leaves it its clearance from each of the others, these
-        translated by their offsets; None: no ray has one that is at most `longest`. World units."""
+        """A translation of the body that keeps its clearance from all others, which are moved by
+        their offsets. None: no ray has one of at most `longest`. World units."""
         if not others:
             return (0.0, 0.0, 0.0)
         low, high = self._placed_extents()

@@ -38,12 +38,12 @@ CAREFUL_BUDGET = 4.0
 
 
 class Layout:
-    """Bodies go by their rank among the ids, and a pair is (i, j) with i < j: the order of a scene
-    then changes nothing.
+    """The index of a body is its rank among the sorted ids, and a pair is (i, j) with i < j, so the
+    order of the scene does not matter.
 
-    home: where the scene has them; placed: where they are now, moved by `offsets`. movable: the
-    bodies that may be moved. settings: those of the ways out. careful: few bodies overlap, and each
-    has time.
+    home: bodies as the scene places them. placed: bodies now, moved by `offsets`. movable: the
+    bodies that may be moved. settings: for the ways out. careful: few bodies overlap, so each gets
+    more time.
     """
 
     def __init__(
@@ -79,8 +79,8 @@ class Layout:
         self.settle()
 
     def look_closely(self, overlaps: int) -> None:
-        """From here on ways out are as short as those of a check, as far as the budget goes for so
-        many; those that are known are looked for again."""
+        """From now on ways out are as short as those of a check, within the budget for this number
+        of overlaps. Known ways out are computed again."""
         own, self.careful = self._own, True
         budget = min(own.depth_budget, CAREFUL_BUDGET / max(overlaps, 1))
         self.settings = replace(self.settings, depth_width=own.depth_width, depth_budget=budget)
@@ -99,11 +99,11 @@ class Layout:
                 )
 
     def settle(self) -> None:
-        """What is known is what `restart` comes back to."""
+        """Keeps the known states for `restart`."""
         self._start = dict(self._known), set(self._excused)
 
     def restart(self) -> None:
-        """All bodies to where the scene has them."""
+        """Moves all bodies home."""
         self.placed, self.offsets = list(self.home), [ORIGIN] * len(self.home)
         self._known, self._excused = dict(self._start[0]), set(self._start[1])
 
@@ -143,7 +143,7 @@ class Layout:
         return i, j
 
     def close_pairs(self, boxes: Sequence[Box] | None = None) -> list[BodyPair]:
-        """Asked pairs whose boxes, by default those of the bodies, are close enough to matter."""
+        """Checked pairs whose boxes (by default those of the bodies) are close enough to matter."""
         around = boxes or [body.bounds for body in self.placed]
         reach = self._planner.reach(
             {index: body.resolution for index, body in zip(self._index, self.placed, strict=True)}
@@ -152,7 +152,8 @@ class Layout:
         return [pair for pair in close if self.is_asked(pair)]
 
     def states(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, PairState]:
-        """Of pairs where their bodies are now; those that did not move are not asked again."""
+        """The states of pairs at the current places. Pairs that did not move are not checked
+        again."""
         unknown = [pair for pair in pairs if not self._is_known(pair)]
         for pair, state in zip(unknown, self._in_parallel(unknown), strict=True):
             self._known[pair] = (self.placed[pair[0]], self.placed[pair[1]], state)
@@ -173,15 +174,16 @@ class Layout:
         return in_parallel(self._state, pairs, threads)
 
     def _state(self, pair: BodyPair) -> PairState:
-        """A pair that fails must not take the others with it; the check at the end says so."""
+        """A failure makes the pair undecided, so that the others are still resolved. The final
+        check reports it."""
         try:
             return self._judged(pair)
         except Exception:  # noqa: BLE001 as in a check
             return PairState("undecided")
 
     def _judged(self, pair: BodyPair) -> PairState:
-        """At home, and of excused pairs, by the touch band of a check; elsewhere without one: what
-        is moved is moved until it is free."""
+        """At home, and for excused pairs, the touch band of a check applies. Elsewhere it does not,
+        because moved bodies must be free."""
         at_home = pair not in self._known and all(self.offsets[i] == ORIGIN for i in pair)
         strict = self.pair(pair)
         if at_home or pair in self._excused:

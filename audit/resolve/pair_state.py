@@ -27,8 +27,8 @@ class PairState(Struct, frozen=True):
 
     open: a hole of one body leaves open whether they overlap. push: a translation of the first body
     that ends the overlap, widens the gap to the clearance, or leads away from the hole; None: none
-    was found. excused: no check fails on them where the scene has them, although they overlap or
-    may overlap: within the touch band, for instance.
+    is known. excused: the bodies overlap at home, or may overlap, but no check fails on that, for
+    example within the touch band.
     """
 
     kind: Literal["free", "overlap", "near", "open", "undecided"]
@@ -62,8 +62,8 @@ def state_of(pair: Pair, finding: Finding) -> PairState:
 
 
 def may_overlap(pair: Pair) -> float:
-    """How deep the bodies may overlap. Where depth is an interval, less than the limit by its
-    width, so that the interval can end below the limit. A limit of the volume is no length."""
+    """How deep the bodies may overlap. If depth is an interval, the limit is reduced by its width,
+    so that the upper end stays below the limit. A limit of the volume gives no length."""
     if pair.request.max_depth is None or pair.request.max_volume is not None:
         return 0.0
     width = 0.0 if pair.both_convex else pair.settings.depth_width
@@ -71,17 +71,17 @@ def may_overlap(pair: Pair) -> float:
 
 
 def is_overlap_excused(finding: Finding) -> bool:
-    """Of a finding that no check fails on: whether it is an overlap, or may be one."""
+    """Whether a finding that no check fails on is an overlap, or may be one."""
     return finding.exact_relation in OVERLAPS or finding.undecided is not None
 
 
 def separation(pair: Pair) -> tuple[Vector, float] | None:
-    """The unit direction in which A is from B, and the gap along it; None where none is known.
+    """The unit direction from B to A, and the gap along it; None: unknown.
 
-    Of bodies whose hulls are apart it is that of a separating plane: A may move along the plane and
-    away from it as far as it likes. Of others it is that of their nearest points, which says as
-    much for small translations only. Of an overlap within limits it is the way out, and the gap is
-    the depth, negative.
+    If the hulls are apart, it is the normal of a separating plane, and valid for all translations.
+    For other bodies it is the direction between their nearest points, and valid for small
+    translations only. For an overlap within limits it is the way out, and the gap is the negative
+    depth.
     """
     distance = core.check_pair(pair.a.hull_shape(), pair.b.hull_shape(), query="depth")
     if distance.outcome in ("separated", "touching") and distance.normal is not None:
@@ -99,8 +99,8 @@ def separation(pair: Pair) -> tuple[Vector, float] | None:
 
 
 def parting_step(pair: Pair, length: float) -> Vector | None:
-    """Of the translations of A this long to the faces, edges and corners of a cube, the one that
-    leaves touching bodies farthest apart; None where none parts them."""
+    """The translation of A, of this length and towards a face, edge or corner of a cube, that
+    leaves touching bodies farthest apart; None: none separates them."""
     best, way = 0.0, None
     for x, y, z in product((-1.0, 0.0, 1.0), repeat=3):
         if x == y == z == 0.0:

@@ -17,7 +17,7 @@ DIGITS = (9, 12)
 
 
 def write_plainly(layout: Layout, left: Collection[BodyPair], longest: float) -> None:
-    """Round where bodies were moved to, one after the other: to the nearest number, or away from
+    """Rounds the places of moved bodies, one body after another, to the nearest number or away from
     home. left: pairs that need not be free."""
     moved = [i for i, offset in enumerate(layout.offsets) if offset != ORIGIN]
     boxes = [body.bounds for body in layout.placed]
@@ -67,7 +67,7 @@ def _around(box: Box, margin: float) -> Box:
 
 
 def _rounded(start: float, way: float, decimals: int, away: float) -> float:
-    """The way to the number next to where it ends, if that is shorter; 0 stays 0."""
+    """The way to the nearest short number, if that has fewer digits; 0 stays 0."""
     plainer = round(start + way + away, decimals) - start
     is_shorter = len(repr(start + plainer)) < len(repr(start + way))
     return plainer if way and is_shorter else way

@@ -33,11 +33,11 @@ _VERDICTS: dict[str, ResolutionVerdict] = {
 
 
 class Resolution(Struct, frozen=True):
-    """moves: of the bodies that were moved, in the order of the scene. pinned: those that had to
-    stay. overlaps, gaps: pairs that a check of the scene as it was fails on, because they overlap
-    beyond what rules allow, or are closer than their clearance. open: pairs of which a hole leaves
-    open whether they overlap. rounds: how often bodies were pushed. left: what could not be
-    resolved. report: of a check of the moved scene; the verdict is its own.
+    """moves: of the moved bodies, in the order of the scene. pinned: bodies that had to stay.
+    overlaps, gaps: pairs of the unmoved scene that fail a check, because they overlap more than
+    rules allow, or are closer than their clearance. open: pairs that may overlap because of a hole.
+    rounds: how often bodies were pushed. left: unresolved pairs. report: of the check of the moved
+    scene.
     """
 
     moves: tuple[Move, ...]
@@ -126,7 +126,7 @@ def reasons(
     links: frozenset[str],
     given_up: dict[BodyPair, str],
 ) -> dict[frozenset[str], str]:
-    """Why pairs are left, including those that no check fails on as they are placed."""
+    """Why pairs are left, for all close pairs, even if no check fails on them at rest."""
     why = {}
     for pair, state in layout.states(layout.close_pairs()).items():
         ids = frozenset(layout.home[i].id for i in pair)

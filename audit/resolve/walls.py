@@ -13,8 +13,8 @@ from satcheck.core.conventions import Vector
 BodyPair = tuple[int, int]
 
 ORIGIN: Vector = (0.0, 0.0, 0.0)
-# Of the longest way that a wall asks for: by what a wall may be missed and still is no sign that
-# walls exclude each other, and what is rounding in a translation.
+# Shares of the longest way that a wall requires. MISSED: a wall that is missed by less does not
+# contradict others. NOISE: rounding of a translation.
 MISSED = 1e-3
 NOISE = 1e-13
 
@@ -22,8 +22,8 @@ NOISE = 1e-13
 class Wall(Struct):
     """normal . (t_a - t_b) >= least, for translations t of the bodies a and b, world frame.
 
-    normal: unit; A goes along it to get away from B. multiplier: what the wall pushes A with, and B
-    the other way, in the last solution (`least_motion`); a length.
+    normal: unit; A moves along it to leave B. multiplier: a length, how strongly the wall pushed A
+    and B apart in the last solution (`least_motion`).
     """
 
     a: int
@@ -45,8 +45,8 @@ class Motion(Struct, frozen=True):
 
 
 def least_motion(walls: Sequence[Wall], held: Mapping[int, Vector]) -> Motion:
-    """Translations of the bodies of these walls; the multipliers of the walls are kept for the next
-    time.
+    """The least motion of the bodies of these walls. It stores the multipliers of the walls for the
+    next call.
 
     held: bodies that stay where they are, with their translation; a wall has at most one of them.
     """

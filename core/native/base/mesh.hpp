@@ -13,7 +13,7 @@ struct Mesh {
   std::vector<Triangle> triangles;
 };
 
-// The same in memory of somebody else.
+// A mesh in memory that the view does not own.
 struct MeshView {
   std::span<const Vec3> vertices;
   std::span<const Triangle> triangles;

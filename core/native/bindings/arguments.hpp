@@ -1,5 +1,5 @@
-// The arguments of a call from Python, by place or by name. What does not fit is said in words: nanobind alone
-// would list the types of all overloads.
+// The arguments of a call from Python, by place or by name. An argument that does not fit raises an error in words:
+// nanobind alone would list the types of all overloads.
 #pragma once
 
 #include <nanobind/nanobind.h>

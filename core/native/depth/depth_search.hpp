@@ -1,5 +1,5 @@
-// The depth of two meshes of which one at least is not convex: a proven interval, narrowed until it is
-// narrow enough or the work is spent.
+// The depth of two meshes that are not both convex: a proven interval, narrowed until it is narrow enough or the work
+// is spent.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Two surfaces of which one or both are open: do their holes leave the relation open?
+// Two surfaces, at least one of them open: whether holes leave their relation open.
 #pragma once
 
 #include <memory>

@@ -1,10 +1,9 @@
 // What stands in the way of two moving surfaces, by branch and bound over their box trees.
 //
-// Method: conservative advancement with motion bounds for each pair of boxes and triangles, as Min Tang,
-// Young J. Kim, Dinesh Manocha, "C2A: Controlled Conservative Advancement for Continuous Collision
-// Detection of Polygonal Models" (2009). Where we deviate: the trees are those of the surfaces as they were
-// placed, whose boxes turn with the body, so that nothing is built anew from step to step; and several axes
-// are tried for each pair, each of which is a proof by itself.
+// Method: conservative advancement with motion bounds for each pair of boxes and triangles, as Min Tang, Young J. Kim,
+// Dinesh Manocha, "C2A: Controlled Conservative Advancement for Continuous Collision Detection of Polygonal Models"
+// (2009). Where we deviate: the trees are those of the surfaces as they were placed, whose boxes turn with the body, so
+// that nothing is built anew from step to step; and several axes are tried for each pair. Each is a proof by itself.
 #pragma once
 
 #include "mesh/surface.hpp"

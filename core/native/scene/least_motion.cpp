@@ -12,7 +12,7 @@ namespace satcheck {
 namespace {
 
 constexpr int sweeps_at_most = 20000;
-// After so many sweeps the shortfall has halved at least, or the walls are taken to exclude each other.
+// If the shortfall does not halve within this many sweeps, the walls count as contradictory.
 constexpr int patience = 2000;
 // Of the longest way that a wall asks for: a sweep that changes less is the last one, and how far past the
 // walls is aimed where sweeps_at_most did not do.
