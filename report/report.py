@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
+from itertools import chain
 from typing import Annotated, Any, Literal, get_args
 
 from msgspec import Meta, to_builtins
@@ -187,11 +188,13 @@ class Finding(Value, frozen=True, kw_only=True):
     baseline_state: BaselineState | None = None
 
     def __post_init__(self) -> None:
-        lengths = (self.tolerance, self.distance, self.depth, self.volume, self.volume_error)
         vectors = (self.normal, self.mtv, self.depth_bounds, self.distance_bounds)
-        numbers = (*lengths, *(c for vector in vectors if vector for c in vector))
-        if not all(number is None or math.isfinite(number) for number in numbers):
-            raise ValueError(f"the figures of a pair are finite numbers: {numbers}")
+        figures = (
+            *(self.tolerance, self.distance, self.depth, self.volume, self.volume_error),
+            *chain.from_iterable(filter(None, vectors)),
+        )
+        if not all(map(math.isfinite, filter(None, figures))):
+            raise ValueError(f"the figures of a pair are finite numbers: {figures}")
 
     @property
     def at_rest(self) -> Relation:
