@@ -14,6 +14,7 @@ from satcheck.scene.loading.flatten import concatenate
 from satcheck.scene.loading.gltf_accessors import Accessors, Columns
 from satcheck.scene.loading.gltf_buffers import extension, integer, items, member
 from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh
+from satcheck.scene.loading.written_mesh import fan_triangles, strip_triangles
 
 DRACO = "KHR_draco_mesh_compression"
 
@@ -186,13 +187,4 @@ def _as_list(corners: array[int], mode: int, where: str) -> array[int]:
         if len(corners) % 3:
             raise MeshFileError("count-mismatch", f"{where}: {len(corners)} corners, not 3 each")
         return corners
-    triangles = array("I")
-    for i in range(len(corners) - 2):
-        first, second, third = corners[i : i + 3]
-        if mode == _FAN:
-            triangles.extend((second, third, corners[0]))
-        elif i % 2:  # in a strip, every other triangle runs backwards
-            triangles.extend((first, third, second))
-        else:
-            triangles.extend((first, second, third))
-    return triangles
+    return array("I", fan_triangles(corners) if mode == _FAN else strip_triangles(corners))
