@@ -43,6 +43,9 @@ def _spread(count: int) -> Array:
 
 AXES = _unit_axes()
 RAYS = np.concatenate([AXES, -AXES, _spread(SPREAD_RAYS)])
+# (rays, 1, axes): how fast a point moves along each axis.
+RATES = np.stack([AXES @ ray for ray in RAYS])[:, None]
+LEVEL = np.abs(RATES) < 1e-12
 
 
 class FreePlaces:
@@ -74,8 +77,8 @@ class FreePlaces:
         below = low[chosen] + shift - pad - high[body]
         above = high[chosen] + shift + pad - low[body]
         best, way = longest, None
-        for ray in RAYS:
-            length = _first_free(below, above, AXES @ ray)
+        for ray, start, stop in zip(RAYS, *_intervals(below, above), strict=True):
+            length = _first_free(start, stop)
             if length < best or (way is None and length <= best < math.inf):
                 best, way = length, ray
         return None if way is None else _point(way, best)
@@ -96,19 +99,18 @@ def _point(ray: Array, length: float) -> Vector:
     return x, y, z
 
 
-def _first_free(below: Array, above: Array, rates: Array) -> float:
-    """The least s >= 0 outside all intervals; inf where a ray never leaves one."""
+def _intervals(below: Array, above: Array) -> tuple[Array, Array]:
+    """(rays, bodies) each: from where to where along each ray the body is in the way."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        ends = np.sort(np.stack([below / rates, above / rates]), axis=0)
-    level = np.abs(rates) < 1e-12
+        ends = below / RATES, above / RATES
     inside = (below < 0) & (above > 0)
-    ends[0][:, level] = np.where(inside[:, level], -np.inf, np.inf)
-    ends[1][:, level] = np.where(inside[:, level], np.inf, -np.inf)
-    start, stop = ends[0].max(axis=1), ends[1].min(axis=1)
-    return _gap(start, stop)
+    start = np.where(LEVEL, np.where(inside, -np.inf, np.inf), np.minimum(*ends))
+    stop = np.where(LEVEL, np.where(inside, np.inf, -np.inf), np.maximum(*ends))
+    return start.max(axis=2), stop.min(axis=2)
 
 
-def _gap(start: Array, stop: Array) -> float:
+def _first_free(start: Array, stop: Array) -> float:
+    """The least s >= 0 outside all intervals; inf where the ray never leaves one."""
     blocked = (start < stop) & (stop > 0)
     at = 0.0
     for low, high in sorted(zip(start[blocked].tolist(), stop[blocked].tolist(), strict=True)):

@@ -9,7 +9,7 @@ import pytest
 
 from satcheck.core import worker
 from satcheck.core.worker import WorkerCrashed, WorkerOutOfMemory, WorkerTimeout
-from satcheck.scene import load_scene
+from satcheck.scene import load_scene, mesh_files
 from satcheck.scene.loading.reading_children import ReadingChildren
 from tests.scene import files
 
@@ -33,6 +33,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[worker._Child]:
             children.append(self)
 
     monkeypatch.setattr(worker, "_Child", Recorded)
+    monkeypatch.setattr(mesh_files, "ReadingChildren", ReadingChildren)  # none that others share
     return children
 
 

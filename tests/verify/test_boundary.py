@@ -97,7 +97,7 @@ def pile_pairs() -> Iterator[tuple[Pile, Pile, Pair, int]]:
     """Piles anywhere, side by side, within each other, and that fill the same box."""
     rng = np.random.default_rng(8)
     whole: Pile = [((0, 0, 0), (EDGE, EDGE, EDGE), 1)]
-    for number in range(24):
+    for number in range(18):
         a, b = (random_pile(rng, 1, EDGE - 1, 2) for _ in range(2))
         kind = number % 6
         if kind in (1, 2):

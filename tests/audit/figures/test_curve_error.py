@@ -18,8 +18,6 @@ from tests.scene.planar.flat import scene, sheet
 
 RADIUS = 1000.0
 Circle = tuple[float, float, float]
-# Polygons of these discs are off by up to 1/16384 of the radius each.
-OFF = 2 * RADIUS / 2**14
 
 
 def drawing(folder: Path, *circles: Circle) -> Scene:

@@ -59,8 +59,8 @@ def hollow_box() -> Body:
     return mesh_body("hollow", Mesh(vertices, faces.astype(np.uint32)))
 
 
-def ask(a: Body, b: Body, **settings: object) -> Finding:
+def ask(a: Body, b: Body, *, depth: bool = True, **settings: object) -> Finding:
     scene = Scene("shapes", None, (a, b), order=(a.id, b.id))
-    asked = Settings(depth=True, **settings)  # type: ignore[arg-type]
+    asked = Settings(depth=depth, **settings)  # type: ignore[arg-type]
     (finding,) = check(scene, asked).findings
     return finding
