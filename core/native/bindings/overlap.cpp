@@ -16,7 +16,7 @@ namespace satcheck {
 void bind_overlap(nb::module_& m) {
   nb::class_<OverlapComponent>(m, "OverlapComponent", R"(A connected component of what two solids have in common. bounds: least and greatest corner; point: of its
 boundary, rounded. triangles: that take part in its boundary; curves: along which the surfaces cross there,
-curve_length in all. a_through_b: a connected piece of A's surface within B joins two pieces of B's surface within A, as
+curve_length in all. volume: in float64, volume_error: about how far off it is. a_through_b: a connected piece of A's surface within B joins two pieces of B's surface within A, as
 a pin through a plate joins the places where it enters and leaves; None: faces that lie in each other leave it open, or
 it is not resolved. resolved: False where a surface meets itself here.)")
       .def_prop_ro("bounds",
@@ -25,6 +25,8 @@ it is not resolved. resolved: False where a surface meets itself here.)")
       .def_ro("triangles", &OverlapComponent::triangles)
       .def_ro("curves", &OverlapComponent::curves)
       .def_ro("curve_length", &OverlapComponent::curve_length)
+      .def_ro("volume", &OverlapComponent::volume)
+      .def_ro("volume_error", &OverlapComponent::volume_error)
       .def_ro("a_through_b", &OverlapComponent::a_through_b)
       .def_ro("b_through_a", &OverlapComponent::b_through_a)
       .def_ro("resolved", &OverlapComponent::resolved);

@@ -70,17 +70,19 @@ MeshFeature MeetingNodes::feature(int mesh, std::uint32_t node) const {
 }
 
 const ExactPoint& MeetingNodes::at(std::uint32_t node) const {
-  const auto known = where_.find(node);
-  if (known != where_.end()) return known->second;
+  if (where_.size() < count()) where_.resize(count());
+  if (!where_[node]) where_[node] = std::make_unique<const ExactPoint>(locate_node(node));
+  return *where_[node];
+}
+
+ExactPoint MeetingNodes::locate_node(std::uint32_t node) const {
   const std::size_t of_a = meshes_[0]->vertices.size();
   if (node < first_incidence()) {
-    const Vec3 p = node < of_a ? meshes_[0]->vertices[node] : meshes_[1]->vertices[node - of_a];
-    return where_.emplace(node, make_exact_point(p)).first->second;
+    return make_exact_point(node < of_a ? meshes_[0]->vertices[node] : meshes_[1]->vertices[node - of_a]);
   }
   ExactPoint p = locate(incidences_[node - first_incidence()], *meshes_[0], *meshes_[1]);
   // With the error of its rounding, which locate() leaves out.
-  p = make_exact_point(std::move(p.x), std::move(p.y), std::move(p.z), std::move(p.w));
-  return where_.emplace(node, std::move(p)).first->second;
+  return make_exact_point(std::move(p.x), std::move(p.y), std::move(p.z), std::move(p.w));
 }
 
 }  // namespace satcheck

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <memory>
 #include <unordered_map>
 #include <vector>
 
@@ -33,6 +33,7 @@ class MeetingNodes {
     return static_cast<std::uint32_t>(meshes_[0]->vertices.size() + meshes_[1]->vertices.size());
   }
   std::uint32_t number(const Incidence& at);
+  ExactPoint locate_node(std::uint32_t node) const;
 
   const Mesh* meshes_[2];
   std::map<Incidence, std::uint32_t> number_;
@@ -40,7 +41,7 @@ class MeetingNodes {
   std::unordered_map<std::uint32_t, Incidence> of_node_;
   std::unordered_map<std::uint32_t, std::uint32_t> same_as_;  // vertices of b that lie on one of a
   std::map<MeshFeature, std::vector<std::uint32_t>> on_edge_[2];
-  mutable std::unordered_map<std::uint32_t, ExactPoint> where_;
+  mutable std::vector<std::unique_ptr<const ExactPoint>> where_;  // by number
 };
 
 }  // namespace satcheck

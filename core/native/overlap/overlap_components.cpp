@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "base/tolerances.hpp"
 #include "mesh/self_contact.hpp"
 #include "mesh/slivers.hpp"
 #include "mesh/surface_order.hpp"
@@ -14,6 +15,9 @@
 
 namespace satcheck {
 namespace {
+
+// Each corner of a face is rounded, and some operations on it.
+constexpr double kVolumeRoundoffs = 16;
 
 bool lies_within(const Aabb& in, const Aabb& out) {
   return in.min.x >= out.min.x && in.min.y >= out.min.y && in.min.z >= out.min.z && in.max.x <= out.max.x &&
@@ -39,6 +43,7 @@ class Overlap {
     find_self_contact();
     std::map<std::uint32_t, OverlapComponent> found;
     add_faces(found);
+    add_volumes(found);
     add_curves(found);
     const auto passing = find_passing(cells_, component_);
     for (auto& [number, component] : found) {
@@ -99,9 +104,26 @@ class Overlap {
       const auto [at, is_new] = found.try_emplace(component_[s]);
       OverlapComponent& component = at->second;
       if (const auto p = is_new ? cells_.sample(f) : std::nullopt) component.point = p->rounded;
-      component.bounds.include(cells_.box(f));
+      for (const Vec3 corner : cells_.face_corners(f)) {
+        component.bounds.include(corner);
+        component.corners.push_back(corner);
+      }
       component.triangles += counted.emplace(component_[s], f - cells_.faces()[f].within).second;
       component.resolved = component.resolved && !irregular_[f];
+    }
+  }
+
+  // By the divergence theorem, from the middle of each component.
+  void add_volumes(std::map<std::uint32_t, OverlapComponent>& found) const {
+    for (std::uint32_t s = 0; s < sides(); ++s) {
+      if (component_[s] == kNoComponent) continue;
+      OverlapComponent& component = found[component_[s]];
+      const Vec3 middle = component.bounds.min * 0.5 + component.bounds.max * 0.5;
+      const CellFace& f = cells_.faces()[s / 2];
+      const Vec3 area = cells_.area(s / 2, middle) * (s % 2 == 0 ? -1 : 1);
+      component.volume += dot(area, corners(cells_.surface(f.mesh).mesh, f.triangle)[0] - middle) / 3;
+      const double largest = larger(max_abs(component.bounds.min), max_abs(component.bounds.max));
+      component.volume_error += kVolumeRoundoffs * kUnitRoundoff * largest * norm(area);
     }
   }
 

@@ -15,9 +15,12 @@ namespace satcheck {
 struct OverlapComponent {
   Aabb bounds;
   Vec3 point;  // of its boundary; rounded
+  std::vector<Vec3> corners;  // of the faces of its boundary, rounded; some more than once
   std::size_t triangles = 0;  // that take part in its boundary
   std::size_t curves = 0;     // along which the surfaces cross there; where curves meet, each ends
   double curve_length = 0;
+  double volume = 0;  // in float64; volume_error: about how far off that is
+  double volume_error = 0;
   // Does a connected piece of A's surface within B join two pieces of B's surface within A, as a pin through a plate
   // joins the places where it enters and leaves? Nothing: that depends on faces that lie in each other, or is not
   // resolved.

@@ -192,18 +192,39 @@ std::optional<std::uint32_t> SpaceCells::face_at(int mesh, std::uint32_t triangl
   return within ? std::optional(first + *within) : std::nullopt;
 }
 
-Aabb SpaceCells::box(std::uint32_t face) const {
+template <class Visit>
+void SpaceCells::visit_outline(std::uint32_t face, Visit visit) const {
   const CellFace& f = faces_[face];
-  if (!in_contact(f.mesh, f.triangle)) return triangle_box(surface(f.mesh).mesh, f.triangle);
+  if (!in_contact(f.mesh, f.triangle)) {
+    const Corners c = corners(surface(f.mesh).mesh, f.triangle);
+    for (int i = 0; i < 3; ++i) visit(c[i], c[(i + 1) % 3]);
+    return;
+  }
   const TriangleFaces& cut = cuts_[cut_[f.mesh][f.triangle]];
-  Aabb box;
   for (std::size_t h = 0; h < 2 * cut.stretches().size(); ++h) {
     if (cut.left(h) != f.within) continue;
     const auto [first, second] = cut.stretches()[h / 2];
-    box.include(nodes_.at(first).rounded);
-    box.include(nodes_.at(second).rounded);
+    const Vec3 p = nodes_.at(first).rounded, q = nodes_.at(second).rounded;
+    h % 2 == 0 ? visit(p, q) : visit(q, p);
   }
+}
+
+std::vector<Vec3> SpaceCells::face_corners(std::uint32_t face) const {
+  std::vector<Vec3> points;
+  visit_outline(face, [&](Vec3 from, Vec3) { points.push_back(from); });
+  return points;
+}
+
+Aabb SpaceCells::box(std::uint32_t face) const {
+  Aabb box;
+  visit_outline(face, [&](Vec3 from, Vec3) { box.include(from); });
   return box;
+}
+
+Vec3 SpaceCells::area(std::uint32_t face, Vec3 origin) const {
+  Vec3 sum;
+  visit_outline(face, [&](Vec3 from, Vec3 to) { sum = sum + cross(from - origin, to - origin); });
+  return sum * 0.5;
 }
 
 }  // namespace satcheck

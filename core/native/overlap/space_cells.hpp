@@ -49,8 +49,11 @@ class SpaceCells {
   // A point inside the face, and the face of a triangle in which a point lies; nothing where that cannot be told.
   std::optional<ExactPoint> sample(std::uint32_t face) const;
   std::optional<std::uint32_t> face_at(int mesh, std::uint32_t triangle, const ExactPoint& p) const;
-  // Around the face, rounded.
+  // The corners of the face and the box around them, rounded; and its area times its unit normal, of coordinates
+  // relative to an origin.
+  std::vector<Vec3> face_corners(std::uint32_t face) const;
   Aabb box(std::uint32_t face) const;
+  Vec3 area(std::uint32_t face, Vec3 origin) const;
 
  private:
   static constexpr std::uint32_t kNotCut = 0xFFFFFFFF;
@@ -61,6 +64,9 @@ class SpaceCells {
     std::vector<int> edges;
   };
 
+  // Calls visit(from, to) for the stretches around a face, which is on their left; rounded ends.
+  template <class Visit>
+  void visit_outline(std::uint32_t face, Visit visit) const;
   void meet(std::size_t max_pairs);
   void cut(int mesh);
   std::uint32_t cut_triangle(int mesh, std::uint32_t triangle);

@@ -87,7 +87,12 @@ class Search {
 
   // No ball in both is larger than the box that is common to their boxes.
   void push_root() {
-    const Aabb box = common_box(bodies_.surface(0).bvh.nodes[0].box, bodies_.surface(1).bvh.nodes[0].box);
+    Aabb box = common_box(bodies_.surface(0).bvh.nodes[0].box, bodies_.surface(1).bvh.nodes[0].box);
+    if (goal_.within) {
+      const double wider = bodies_.rounding();
+      box = common_box(box, {goal_.within->min - centre_ - Vec3{wider, wider, wider},
+                             goal_.within->max - centre_ + Vec3{wider, wider, wider}});
+    }
     double half = INFINITY;
     for (int axis = 0; axis < 3; ++axis) {
       if (!(box.max[axis] > box.min[axis])) return;

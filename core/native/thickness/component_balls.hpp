@@ -1,0 +1,16 @@
+// The thickness of the components of an overlap, without a search.
+#pragma once
+
+#include <vector>
+
+#include "overlap/overlap_components.hpp"
+#include "thickness/thickness_search.hpp"
+
+namespace satcheck {
+
+// Of each component. upper: the diameter of the largest ball in its convex hull, which is its thickness where it is
+// convex, as slivers between facets are. centre: of that ball; lower: how thick the overlap of the solids is around it,
+// and 0 where it does not lie in both, or may belong to another component.
+std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& b, const OverlapComponents& overlap);
+
+}  // namespace satcheck
