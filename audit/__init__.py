@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import Settings
+from satcheck.report.components import Component, Components
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 from satcheck.report.report import (
     BodyReport,
@@ -20,6 +21,8 @@ from satcheck.report.report import (
 
 __all__ = [
     "BodyReport",
+    "Component",
+    "Components",
     "ContactTotals",
     "Contacts",
     "Curve",

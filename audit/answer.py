@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from satcheck.audit.figures.gap import Gap
     from satcheck.audit.figures.touch_band import Band
     from satcheck.audit.figures.volume import CommonVolume
+    from satcheck.report.components import Components
     from satcheck.report.contacts import Contacts
 
 
@@ -20,7 +21,7 @@ class Answer(Struct, frozen=True):
     """relation: with the touch band. exact_relation: without it; None: not proven.
 
     quality: of the weakest figure. gap: of bodies without a common interior. band: of an overlap.
-    depth, volume and contacts are None if they were not requested.
+    depth, volume, contacts and components are None if they were not requested.
     """
 
     relation: Relation
@@ -32,3 +33,4 @@ class Answer(Struct, frozen=True):
     depth: Depth | None = None
     volume: CommonVolume | None = None
     contacts: Contacts | None = None
+    components: Components | None = None

@@ -24,6 +24,7 @@ from satcheck.audit.ladder.ladder import boxes_verdict, settle
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.severity import Judgement, disputed, judged
 from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
 from satcheck.report.report import OVERLAPS, Finding, Quality, Relation, Vector
 
@@ -81,6 +82,7 @@ def apart_by_boxes(pair: Pair) -> Examined:
         "exact",
         volume=NOTHING if pair.request.wants("volume") else None,
         contacts=Contacts() if pair.request.wants("contacts") else None,
+        components=Components() if pair.request.wants("components") else None,
     )
     return Examined(_finding(pair, answer, Judgement("none"), trace), verdict, answer)
 
@@ -122,6 +124,10 @@ def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> 
         from satcheck.audit.figures.contacts import find_contacts
 
         answer = replace(answer, contacts=find_contacts(pair, verdict, trace))
+    if "components" in asked:
+        from satcheck.audit.figures.components import find_components
+
+        answer = replace(answer, components=find_components(pair, verdict, trace))
     return answer
 
 
@@ -274,6 +280,7 @@ def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> 
         volume=None if volume is None else volume.volume,
         volume_error=None if volume is None else volume.error,
         contacts=answer.contacts,
+        components=answer.components,
         reason=answer.reason or judgement.reason,
         plan=tuple(trace.stages),
     )

@@ -28,7 +28,9 @@ POINTS_OF_CERTIFICATES = frozenset({"both", "a_alone", "b_alone", "move", "point
 DIMENSIONS = {
     **dict.fromkeys(("tolerance", "distance", "distance_bounds", "depth", "depth_bounds"), 1),
     **dict.fromkeys(("mtv", "witness", "points", "outlines", "length"), 1),
+    **dict.fromkeys(("bounds", "point", "thickness_bounds", "curve_length"), 1),
     "area": 2,
+    **dict.fromkeys(("volume", "volume_error"), 3),
 }
 
 
@@ -88,15 +90,16 @@ class Scaling:
         motion = finding.motion
         figures = {
             "contacts": finding.contacts and self._held(finding.contacts),
+            "components": finding.components and self._held(finding.components),
             "volume": self._held(finding.volume, 3),
             "volume_error": self._held(finding.volume_error, 3),
         }
         left_out = [
             Stage(name, "left out", 0.0, "float64 cannot hold it in the unit of the files")
-            for name in ("contacts", "volume")
+            for name in ("contacts", "components", "volume")
             if getattr(finding, name) is not None and figures[name] is None
         ]
-        scaled: Finding = self._scaled(replace(finding, contacts=None, certificate=None))
+        scaled: Finding = self._scaled(replace(finding, certificate=None, **dict.fromkeys(figures)))
         return replace(
             scaled,
             **figures,

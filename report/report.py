@@ -20,6 +20,7 @@ from satcheck.report.baseline import BaselineState, StatedBaseline
 from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
+from satcheck.report.components import Components
 from satcheck.report.contacts import Contacts
 from satcheck.report.motions import StatedMotion
 from satcheck.report.settings import StatedSettings
@@ -42,7 +43,15 @@ SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 # the way; cross-check: another library contradicts what was decided.
 Undecided = Literal["relation", "inside", "limit", "motion", "cross-check"]
 Effect = Literal[
-    "overlap", "depth", "distance", "volume", "contacts", "cross-check", "certificate", "sweep"
+    "overlap",
+    "depth",
+    "distance",
+    "volume",
+    "contacts",
+    "components",
+    "cross-check",
+    "certificate",
+    "sweep",
 ]
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
@@ -51,7 +60,7 @@ CROSS_CHECK = "cross-check"
 NO_ANSWER = "no answer"
 # The result of an effect that is found on triangles, of a pair with a curved shape.
 NOT_AVAILABLE = "not available"
-ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "cross-check")
+ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "components", "cross-check")
 # The code of an issue about a pair that failed by a fault of satcheck itself.
 INTERNAL_ERROR = "internal-error"
 # No pair is asked about: within one link, allowed, or exempt.
@@ -181,6 +190,7 @@ class Finding(Value, frozen=True, kw_only=True):
     volume: Length | None = None
     volume_error: Length | None = None
     contacts: Contacts | None = None
+    components: Components | None = None
     motion: Sweep | None = None
     certificate: Certificate | None = None
     reason: str | None = None

@@ -20,6 +20,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     volume_megabytes: Count
     contacts: bool
     contact_points: Count
+    components: bool
     clearance: Length | None
     tolerance: Length | Literal["input-precision"]
     accuracy: Accuracy

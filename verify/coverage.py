@@ -94,6 +94,7 @@ COVERAGE: dict[str, Cover] = {
     "findings[].volume": _certified("common volume"),
     "findings[].volume_error": _certified("common volume"),
     "findings[].contacts": _certified("contacts"),
+    "findings[].components": _not("the components of overlaps"),
     "findings[].motion": _not("what happens while bodies move"),
     "findings[].certificate": PROVEN,
     "findings[].reason": _not("reasons"),

@@ -91,7 +91,9 @@ def check_tolerance(finding: Finding, a: Placed, b: Placed, request: Request) ->
 def check_no_figures(finding: Finding) -> None:
     """Rejects figures of an undecided pair."""
     claims = [
-        key for key in (*ALL_FIGURES, "exact_relation", "contacts", "rule") if getattr(finding, key)
+        key
+        for key in (*ALL_FIGURES, "exact_relation", "contacts", "components", "rule")
+        if getattr(finding, key)
     ]
     if claims:
         raise Rejected(f"an indeterminate pair claims nothing, this one claims {claims[0]!r}")
@@ -151,6 +153,8 @@ def _check_gap(finding: Finding, rounding: Rounding) -> None:
         and contacts != Contacts(truncated=contacts.truncated)
     ):
         raise Rejected("bodies that are apart have no contacts")
+    if finding.components is not None and finding.components.items:
+        raise Rejected("bodies without a common interior have no component of it")
     distance = finding.distance
     if distance is None:
         if finding.normal is not None or finding.witness is not None:

@@ -26,7 +26,7 @@ LAST: dict[Accuracy, Rung] = {
 }
 # What is computed after the ladder, whatever the verdict.
 _EXTRAS: frozenset[Effect] = frozenset(
-    ("volume", "contacts", "cross-check", "certificate", "sweep")
+    ("volume", "contacts", "components", "cross-check", "certificate", "sweep")
 )
 
 

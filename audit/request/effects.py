@@ -23,6 +23,7 @@ _EFFECT_OF_STAGE: dict[str, Effect] = {
     "distance": "distance",
     "volume": "volume",
     "contacts": "contacts",
+    "components": "components",
     "cross-check": "cross-check",
     "certificate": "certificate",
     "sweep": "sweep",

@@ -148,6 +148,7 @@ def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = Fa
         "distance": None if clearance is None else _name(terms.clearance) or "--clearance",
         "volume": "--volume" if settings.volume else _name(terms.max_volume),
         "contacts": "--contacts" if settings.contacts else None,
+        "components": "--components" if settings.components else None,
         "cross-check": "--cross-check" if settings.cross_check else None,
         "certificate": "--certificate" if settings.certificate else None,
     }

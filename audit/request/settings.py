@@ -39,6 +39,7 @@ class Settings(Struct, frozen=True):
     bodies only where a rule asks.
     volume: the volume that bodies have in common; volume_*: what a pair may cost.
     contacts: where surfaces meet; contact_points: how many points a pair may list.
+    components: the connected components of each overlap, with their thickness.
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
     accuracy: the highest rung of the ladder that may be climbed.
@@ -63,6 +64,7 @@ class Settings(Struct, frozen=True):
     volume_megabytes: int = 4096
     contacts: bool = False
     contact_points: int = CONTACT_POINTS
+    components: bool = False
     clearance: float | None = None
     tolerance: float | None = None
     accuracy: Accuracy = "exact"
@@ -99,10 +101,10 @@ class Settings(Struct, frozen=True):
             raise _refused(f"planar must be one of {', '.join(PLANES)}")
         for name, kind in _kinds().items():
             _require_kind(name, getattr(self, name), kind)
-        for name in ("contacts", "volume"):
+        for name in ("contacts", "components", "volume"):
             if getattr(self, name) and self.accuracy != "exact":
                 raise _refused(f"{name} is found on triangles: not at accuracy {self.accuracy}")
-        for name in ("volume", "contacts", "cross_check"):
+        for name in ("volume", "contacts", "components", "cross_check"):
             if self.planar is not None and getattr(self, name):
                 raise _refused(f"{name} is about bodies in space: not with planar")
         if self.contact_points < 0:
@@ -133,6 +135,7 @@ class Settings(Struct, frozen=True):
             volume_megabytes=self.volume_megabytes,
             contacts=self.contacts,
             contact_points=self.contact_points,
+            components=self.components,
             clearance=self.clearance,
             tolerance="input-precision" if self.tolerance is None else self.tolerance,
             accuracy=self.accuracy,

@@ -62,6 +62,7 @@ class Layout:
             depth_width=WAY_OUT_WIDTH,
             depth_budget=WAY_OUT_BUDGET,
             contacts=False,
+            components=False,
             volume=False,
             cross_check=False,
             certificate=False,

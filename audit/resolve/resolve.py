@@ -125,7 +125,13 @@ def _limits_volume(scene: Scene) -> bool:
 def proof_of(settings: Settings) -> Settings:
     """What the moved scene is checked with: the same questions, without figures for overlaps."""
     return replace(
-        settings, depth=False, contacts=False, volume=False, cross_check=False, certificate=False
+        settings,
+        depth=False,
+        contacts=False,
+        components=False,
+        volume=False,
+        cross_check=False,
+        certificate=False,
     )
 
 

@@ -129,6 +129,12 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     is_flag=True,
     help="Find where surfaces meet: curves, patches of flush faces, points. JSON has their points.",
 )
+@click.option(
+    "--components",
+    is_flag=True,
+    help="List the connected parts of each overlap: place, thickness, and whether a body passes "
+    "through the other there. JSON has them all.",
+)
 @click.option("--volume", is_flag=True, help="Measure the volume that overlapping solids share.")
 @click.option(
     "--clearance",

@@ -30,6 +30,10 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
     rest = report.summary.by_relation.get("separated", 0) - listed
     if shown and rest:
         lines += fitted(f"{counted(rest, 'more pair')}, all separated", page)
+    if any(finding.components for finding in shown):
+        from satcheck.cli.report.components import component_lines
+
+        lines += component_lines(page, shown)
     if explain:
         from satcheck.cli.report.explain import explanation  # rich's tables
 

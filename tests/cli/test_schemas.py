@@ -67,7 +67,10 @@ def test_certificates_of_shapes(tmp_path: Path, turn: dict[str, Any]) -> None:
 
 
 COMMANDS: dict[str, tuple[tuple[str, ...], str]] = {
-    "check": (("--volume", "--contacts", "--cross-check", "--clearance", "1", *PUSHED), "report"),
+    "check": (
+        ("--volume", "--contacts", "--components", "--cross-check", "--clearance", "1", *PUSHED),
+        "report",
+    ),
     "mesh files": (("--certificate", "l_bracket.obj", "peg_in_notch.ply", "cube.off"), "report"),
     "unreadable": (("box.obj", "cube.off", "{}/broken.obj"), "report"),
     "scene": (("cell.toml",), "report"),

@@ -47,7 +47,7 @@ def test_a_check_imports_no_large_library(form: str) -> None:
     assert ("rich" in names) == (form == "table")
 
 
-@pytest.mark.parametrize("option", ["--contacts", "--volume"])
+@pytest.mark.parametrize("option", ["--contacts", "--components", "--volume"])
 def test_figures_import_no_large_library(option: str) -> None:
     """manifold3d and numpy work in a child process."""
     names = imported(option, "--format", "json", "box.obj", "box_pushed.stl", code=1)

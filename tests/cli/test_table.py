@@ -7,7 +7,7 @@ import re
 import pytest
 from msgspec.structs import replace
 
-from satcheck.audit import Contacts
+from satcheck.audit import Component, Components, Contacts
 from satcheck.audit.request.settings import LISTED_PAIRS
 from satcheck.cli.output import PLAIN_PAGE, Page
 from satcheck.cli.report.columns import broken
@@ -73,6 +73,27 @@ def test_contacts_in_a_few_words() -> None:
     cut = replace(CONTACTS, curves=(), truncated=True)
     assert "1 curve of length 4" in shown(replace(CROSSING, contacts=cut))
     assert "contact" not in shown(PENETRATING)
+
+
+def test_components_below_the_table() -> None:
+    thick = Component(
+        bounds=((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
+        point=(0.5, 0.5, 0.0),
+        thickness_bounds=(0.25, 0.5),
+        volume=0.125,
+        curves=2,
+        curve_length=8.0,
+        passes="both",
+        resolved=True,
+    )
+    thin = replace(thick, point=(0.5, 0.5, 1.0), thickness_bounds=(0.0, 0.1), passes=None)
+    text = shown(replace(CROSSING, components=Components((thick, *[thin] * 9), False)))
+    a, b = CROSSING.a, CROSSING.b
+    assert f"{a} and {b}: 10 connected overlaps, perhaps not all" in text
+    first = f"  0.25 .. 0.5 thick, at (0.5, 0.5, 0), volume 0.125, {a} passes through {b}, "
+    assert first + f"{b} passes through {a}\n" in text
+    assert text.count("  <= 0.1 thick, at (0.5, 0.5, 1), volume 0.125\n") == 7
+    assert "  2 thinner ones\n" in text
 
 
 def test_a_volume_that_was_asked_for() -> None:

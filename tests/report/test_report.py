@@ -59,6 +59,7 @@ FINDING_KEYS = [
     "volume",
     "volume_error",
     "contacts",
+    "components",
     "motion",
     "certificate",
     "reason",

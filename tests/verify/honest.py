@@ -100,7 +100,9 @@ CONVERTED = placed(
 
 HONEST: dict[str, Callable[[Path], Json]] = {
     "convex": meshes(unit_box(), unit_box(0.5, 0.25, 0.125), depth=True, volume=True),
-    "concave": meshes(bracket(), unit_box(5.5, 0.5, 1.0), depth=True, contacts=True, volume=True),
+    "concave": meshes(
+        bracket(), unit_box(5.5, 0.5, 1.0), depth=True, contacts=True, components=True, volume=True
+    ),
     "apart": meshes(unit_box(), unit_box(3.0, 0.5, 0.25), clearance=1.0),
     "apart in a notch": meshes(bracket(), unit_box(2.5, 2.5, 1.0), clearance=0.25),
     "near": meshes(bracket(), unit_box(2.5, 2.5, 1.0), clearance=0.75),

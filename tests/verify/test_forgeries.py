@@ -12,7 +12,9 @@ from itertools import takewhile
 from typing import Any
 
 import pytest
+from msgspec import to_builtins
 
+from satcheck.report.components import Component, Components
 from satcheck.verify import Rejected
 from satcheck.verify.coverage import COVERAGE
 from tests.verify.honest import HONEST, honest
@@ -211,6 +213,19 @@ def meets(made: Json) -> None:
     made["findings"][0].update(contacts=contacts)
 
 
+def has_a_component(made: Json) -> None:
+    common = Component(
+        bounds=((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)),
+        point=(0.5, 0.5, 0.5),
+        thickness_bounds=(1.0, 1.0),
+        curves=0,
+        curve_length=0.0,
+        passes="none",
+        resolved=True,
+    )
+    made["findings"][0].update(components=to_builtins(Components((common,))))
+
+
 def is_called_deep(made: Json) -> None:
     made["findings"][0].update(relation="penetrating", severity="error")
     made["summary"].update(verdict="fail")
@@ -227,6 +242,7 @@ TOGETHER = {
     "a depth far beyond the way out": ("concave", is_deep),
     "a depth below the way out": ("concave", is_shallow),
     "contacts of bodies that are apart": ("apart", meets),
+    "a common part of bodies that are apart": ("apart", has_a_component),
 }
 
 
