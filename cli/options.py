@@ -19,13 +19,18 @@ from satcheck.scene import Scene
 from satcheck.scene.units import MICROMETRES, Length, parse_length
 
 FORMATS = ("table", "json")
+# Formats of one report or of many.
 REPORT_FORMATS = (*FORMATS, *CI_FORMATS)
+PICTURE = "html"
 SPLITS = ("nodes", "components", "none")
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 DEFAULTS = Settings()
-_ENDINGS = {ending: form for form, endings in CI_FORMATS.items() for ending in endings}
+_ENDINGS = {ending: form for form, endings in CI_FORMATS.items() for ending in endings} | {
+    ".html": PICTURE,
+    ".htm": PICTURE,
+}
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = frozenset({".html", ".htm", ".svg", ".png", ".pdf", ".toml", ".yaml"})
+_NO_REPORTS = frozenset({".svg", ".png", ".pdf", ".toml", ".yaml"})
 _STANDARD_OUTPUT = Path("-")
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -153,9 +158,9 @@ form_option = click.option(
 report_form_option = click.option(
     "--format",
     "form",
-    type=click.Choice(REPORT_FORMATS),
-    help="The format of the report. [default: as the file of -o ends: .json, .sarif, .xml (JUnit), "
-    ".md, .csv, .jsonl; otherwise table]",
+    type=click.Choice((*REPORT_FORMATS, PICTURE)),
+    help="The format of the report. html is a page with a 3-D view. [default: as the file of -o "
+    "ends: .json, .sarif, .xml (JUnit), .md, .csv, .jsonl, .html; otherwise table]",
 )
 output_option = click.option(
     "-o",

@@ -22,6 +22,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     DEFAULTS,
     HELP_NAMES,
+    PICTURE,
     REPORT_FORMATS,
     Command,
     cache_option,
@@ -245,12 +246,14 @@ def command(
     carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
     inputs = Inputs.taken_from(options)
-    form = form_of(form, output, REPORT_FORMATS)
+    form = form_of(form, output, (*REPORT_FORMATS, PICTURE))
     if options["certificate"] and form != "json":
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
     refuse_early(inputs, output)
+    if form == PICTURE:
+        options["contacts"] = True  # where the surfaces cross
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed=form == "json")
@@ -269,7 +272,9 @@ def command(
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
     if output is not None or not quiet:
         document.deliver(
-            lambda page: _render(result, form, page, explain=explain, timings=options["timings"]),
+            lambda page: _render(
+                result, scene, form, page, explain=explain, timings=options["timings"]
+            ),
             output,
             utf8=form != "table",
         )
@@ -309,7 +314,7 @@ def _check(scene: Scene, settings: Settings) -> Report:
 
 def _refuse_of_poses(form: str, **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
-    if form in CI_FORMATS:
+    if form in (*CI_FORMATS, PICTURE):
         raise click.UsageError(f"--format {form} takes one pose, and several are given")
     for name in ("baseline", "certificate", "explain", "cross_check"):
         if options[name]:
@@ -325,7 +330,7 @@ def _check_poses(
 
 
 def _render(
-    result: Report | Samples, form: str, page: Page, *, explain: bool, timings: bool
+    result: Report | Samples, scene: Scene, form: str, page: Page, *, explain: bool, timings: bool
 ) -> str | list[str]:
     if isinstance(result, Samples):
         if form == "json":
@@ -335,6 +340,10 @@ def _render(
         return render_samples(result, page)
     if form == "json":
         return render_json(result, timings=timings)
+    if form == PICTURE:
+        from satcheck.cli.report.picture import render as render_picture
+
+        return render_picture(result, scene)
     if form in CI_FORMATS:
         return render_for_ci({"satcheck": result}, form)
     from satcheck.cli.report.table import render as render_table
