@@ -56,12 +56,16 @@ def _of_body(body: Body, known: dict[tuple[object, ...], Curves]) -> BodyToleran
         mesh = body.file.mesh
         middle = np.mean(mesh.bounds, axis=0)
         points = (mesh.vertices - middle) @ linear.T
+        triangles = mesh.triangles.astype(np.intp)
+        if np.linalg.det(linear) < 0:  # a mirrored copy is turned inside out
+            triangles = triangles[:, ::-1]
         precision = body.file.resolution * float(np.linalg.norm(linear, 2))
-        known[key] = find_curves(points, mesh.triangles.astype(np.intp), precision)
+        known[key] = find_curves(points, triangles, precision, body.file.health.solid)
     curves = _told(known[key].curves, body, exponent)
+    concave = max((curve.sagitta for curve in curves if curve.concave), default=None)
     return BodyTolerance(
         body=body.id,
-        surface_tolerance=_rounded_up(curves[0].sagitta) if curves else None,
+        surface_tolerance=None if concave is None else _rounded_up(concave),
         stated=False,
         curves=curves,
         left_out=_told(known[key].left_out, body, exponent),
@@ -88,6 +92,7 @@ def _told(curves: tuple[Curve, ...], body: Body, exponent: int) -> tuple[Faceted
             group.append(curve)
     return tuple(
         FacetedCurves(
+            concave=group[0].concave,
             chains=len(group),
             facets=sum(curve.facets for curve in group),
             degrees=math.degrees(group[0].turn),
@@ -100,9 +105,9 @@ def _told(curves: tuple[Curve, ...], body: Body, exponent: int) -> tuple[Faceted
 
 
 def _are_alike(first: Curve, other: Curve) -> bool:
-    return math.isclose(first.sagitta, other.sagitta, rel_tol=ALIKE) and math.isclose(
-        first.radius, other.radius, rel_tol=ALIKE
-    )
+    lengths = ((first.sagitta, other.sagitta), (first.radius, other.radius))
+    close = all(math.isclose(one, two, rel_tol=ALIKE) for one, two in lengths)
+    return close and first.concave == other.concave
 
 
 def _place(body: Body, triangle: int) -> Vector:

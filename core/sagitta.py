@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from satcheck.core.facets import (
     LEAST_TURN,
@@ -46,15 +47,20 @@ HALF_WITHIN = 0.1
 # The last facet of a chain turns on one side only, so that it reads half the sagitta (1 / 2.05 at
 # 40 degrees).
 AGREEING = 2.1
+# A facet of a saddle counts as concave from this share of its convex sagitta on; less is noise.
+LEAST_CONCAVE = 0.25
 
 
 class Curve(Struct, frozen=True):
     """A chain or a patch of facets that stands for one smooth surface.
 
-    facets: how many. sagitta: the largest one. Of that facet, turn: the angle by which the
-    surface turns over it, radians; radius: of curvature; triangle: one of the mesh.
+    concave: the facets lie outside of the material of the curved body, which the mesh exceeds by
+    the sagitta; else inside. facets: how many. sagitta: the largest one. Of that facet, turn: the
+    angle by which the surface turns over it, radians; radius: of curvature; triangle: one of the
+    mesh.
     """
 
+    concave: bool
     facets: int
     turn: float
     radius: float
@@ -63,25 +69,36 @@ class Curve(Struct, frozen=True):
 
 
 class Curves(Struct, frozen=True):
-    """Largest sagitta first, lengths in the unit of the points. left_out: chains that turn more
-    from facet to facet, and may be prisms."""
+    """Concave ones first, then the largest sagitta; lengths in the unit of the points. left_out:
+    chains that turn more from facet to facet, and may be prisms."""
 
     curves: tuple[Curve, ...]
     left_out: tuple[Curve, ...]
 
 
-def find_curves(points: Floats, triangles: Indices, precision: float) -> Curves:
-    """points: (v, 3), triangles: (t, 3), of a welded mesh with consistent winding. precision: how
-    finely the coordinates are known, in their unit."""
+class _OverTriangles(Struct, frozen=True):
+    """rises: (c, 2), how far the curved surface gets outside and inside of the mesh. radii, turns:
+    (c,), over an edge across the triangle.
+    """
+
+    rises: Floats
+    radii: Floats
+    turns: Floats
+
+
+def find_curves(points: Floats, triangles: Indices, precision: float, solid: bool) -> Curves:
+    """points: (v, 3), triangles: (t, 3), of a welded mesh. precision: how finely the coordinates
+    are known, in their unit. solid: the triangles are wound outward; else no side of them has
+    material, and all curves are concave."""
     facets, ridges = facets_and_ridges(points, triangles.astype(np.intp), precision)
     nothing = np.zeros(facets.count, dtype=bool)
-    curves, taken = _curves(facets, ridges, 2 * math.pi / LEAST_AROUND, nothing)
-    left_out, _ = _curves(facets, ridges, 2 * math.pi / LEAST_PRISM, taken)
+    curves, taken = _curves(facets, ridges, 2 * math.pi / LEAST_AROUND, nothing, solid)
+    left_out, _ = _curves(facets, ridges, 2 * math.pi / LEAST_PRISM, taken, solid)
     return Curves(curves, left_out)
 
 
 def _curves(
-    facets: Facets, ridges: Ridges, most_turn: float, apart_from: Flags
+    facets: Facets, ridges: Ridges, most_turn: float, apart_from: Flags, solid: bool
 ) -> tuple[tuple[Curve, ...], Flags]:
     """The curves whose neighbouring facets turn by no more than that, and the facets of which they
     consist, (f,). Those with a facet of `apart_from` are left out."""
@@ -94,27 +111,34 @@ def _curves(
     smooth &= taken[ridges.facets[:, 0]]
     if not smooth.any():
         return (), taken
-    pairs = ridges.facets[smooth]
     chosen = np.flatnonzero(taken[facets.of_triangle])
-    sagittas, radii, turns = _of_triangles(facets, ridges, smooth, chosen, most_turn)
-    order = np.lexsort((sagittas, facets.of_triangle[chosen]))
-    counts = np.bincount(facets.of_triangle[chosen], minlength=facets.count)
-    highest = order[np.cumsum(counts) - 1]  # of each facet, among those chosen
-    of_facet = np.where(taken, sagittas[highest], 0.0)
-    members = np.flatnonzero(taken & _agreeing(of_facet, pairs))
-    members = members[np.lexsort((-of_facet[members], patch[members]))]
+    over = _of_triangles(facets, ridges, smooth, chosen, most_turn)
+    if not solid:
+        over = replace(over, rises=np.stack([0 * over.radii, over.rises.max(axis=1)], axis=1))
+    facet = facets.of_triangle[chosen]
+    rises = np.zeros((facets.count, 2))
+    np.maximum.at(rises, facet, over.rises)
+    concave = rises[:, 1] >= LEAST_CONCAVE * rises[:, 0]
+    sagittas = np.where(concave, rises[:, 1], rises[:, 0])
+    order = np.lexsort((over.rises[np.arange(len(facet)), concave[facet].astype(int)], facet))
+    highest = order[np.cumsum(np.bincount(facet, minlength=facets.count)) - 1]  # of each facet
+    curve = 2 * patch + concave
+    members = np.flatnonzero(taken & _agreeing(sagittas, curve, ridges.facets[smooth]))
+    members = members[np.lexsort((-sagittas[members], curve[members]))]
+    sizes = np.bincount(curve[taken])
+    first = members[np.unique(curve[members], return_index=True)[1]]
     curves = [
         Curve(
-            facets=int(sizes[patch[group[0]]]),
-            turn=float(turns[highest[group[0]]]),
-            radius=float(radii[highest[group[0]]]),
-            sagitta=float(of_facet[group[0]]),
-            triangle=int(chosen[highest[group[0]]]),
+            concave=bool(concave[top]),
+            facets=int(sizes[curve[top]]),
+            turn=float(over.turns[highest[top]]),
+            radius=float(over.radii[highest[top]]),
+            sagitta=float(sagittas[top]),
+            triangle=int(chosen[highest[top]]),
         )
-        for group in np.split(members, np.flatnonzero(np.diff(patch[members])) + 1)
-        if len(group)
+        for top in first
     ]
-    return tuple(sorted(curves, key=lambda curve: -curve.sagitta)), taken
+    return tuple(sorted(curves, key=lambda one: (not one.concave, -one.sagitta))), taken
 
 
 def _smooth(facets: Facets, ridges: Ridges, most_turn: float) -> Flags:
@@ -152,20 +176,20 @@ def _faces_beside(ridges: Ridges, smooth: Flags, patch: Indices) -> Indices:
     return np.bincount(patch[ridges.facets[beside]], minlength=int(patch.max()) + 1)
 
 
-def _agreeing(sagittas: Floats, pairs: Indices) -> Flags:
-    """(f,): whether a neighbour has about the same sagitta: one facet alone is a flaw."""
+def _agreeing(sagittas: Floats, curve: Indices, pairs: Indices) -> Flags:
+    """(f,): whether a neighbour on the same curve has about the same sagitta: one facet alone is a
+    flaw."""
     low, high = np.sort(sagittas[pairs], axis=1).T
+    same = curve[pairs[:, 0]] == curve[pairs[:, 1]]
     agreeing = np.zeros(len(sagittas), dtype=bool)
-    agreeing[pairs[(low > 0) & (high <= AGREEING * low)]] = True
+    agreeing[pairs[same & (low > 0) & (high <= AGREEING * low)]] = True
     return agreeing
 
 
 def _of_triangles(
     facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indices, most_turn: float
-) -> tuple[Floats, Floats, Floats]:
-    """(c,): the sagittas of these triangles, the radius of the surface over an edge across
-    them, and how far it turns there. The sagitta is 0 where that is too far, even for the
-    diagonal of a quadrilateral."""
+) -> _OverTriangles:
+    """No rises where the surface turns too far, even for the diagonal of a quadrilateral."""
     facet = facets.of_triangle[chosen]
     corners = facets.points[facets.triangles[chosen]]
     normals = _corner_normals(facets, ridges, smooth, chosen)
@@ -179,29 +203,32 @@ def _of_triangles(
     edges -= (edges * along).sum(axis=2, keepdims=True) * along
     turns = 2 * np.arcsin(np.minimum(np.linalg.norm(change, axis=2) / 2, 1.0))
     at_edges = (edges * change).sum(axis=2) / (8 * np.cos(turns / 4) ** 2)
-    rises = np.abs(at_edges)
+    sizes = np.abs(at_edges)
     squares = (edges**2).sum(axis=2)
     # Of the edges over which it rises, by half of the most, the one that turns least: no diagonal.
-    rising = rises >= rises.max(axis=1, keepdims=True) / 2
-    across = np.arange(len(rises)), np.where(rising, turns, np.inf).argmin(axis=1)
-    rise, turn = rises[across], turns[across]
+    rising = sizes >= sizes.max(axis=1, keepdims=True) / 2
+    across = np.arange(len(sizes)), np.where(rising, turns, np.inf).argmin(axis=1)
+    rise, turn = sizes[across], turns[across]
     radius = np.divide(squares[across], 8 * rise, out=np.full_like(rise, np.inf), where=rise > 0)
     even = turns.max(axis=1) <= math.sqrt(2) * most_turn
-    return np.where(even, _highest(at_edges), 0.0), radius + rise / 2, turn
+    rises = np.where(even[:, None], _highest(at_edges), 0.0)
+    return _OverTriangles(rises, radius + rise / 2, turn)
 
 
 def _highest(at_edges: Floats) -> Floats:
-    """(t,): the greatest |value| in a triangle of the quadratic that is 0 at its corners. at_edges:
-    (t, 3), its values at the middles of the edges.
+    """(t, 2): how far above and below 0 the quadratic over a triangle gets that is 0 at its
+    corners. at_edges: (t, 3), its values at the middles of the edges.
 
     These are squared lengths of the edges in the metric of the quadratic, over 8. In an acute
     triangle the centre of the circle through the corners is inside, and highest."""
     x, y, z = np.sort(np.abs(at_edges), axis=1).T
-    one_sided = (at_edges >= 0).all(axis=1) | (at_edges <= 0).all(axis=1)
     below = x * (2 * (y + z) - x) - (z - y) ** 2
-    acute = one_sided & (z < x + y) & (below > 0)
-    highest: Floats = z.copy()
-    np.divide(4 * x * y * z, below, out=highest, where=acute)
+    acute = (z < x + y) & (below > 0)
+    inside = np.divide(4 * x * y * z, below, out=np.zeros_like(z), where=acute)
+    highest = np.empty((len(z), 2))
+    for k, values in enumerate((at_edges, -at_edges)):
+        one_sided = (values >= 0).all(axis=1)
+        highest[:, k] = np.maximum(values.max(axis=1), np.where(one_sided, inside, 0.0)).clip(0.0)
     return highest
 
 

@@ -11,11 +11,13 @@ from satcheck.report.values import Count, Length, Size, Tool, Value, Vector
 class FacetedCurves(Value, frozen=True):
     """Chains of facets with the same radius and sagitta, to a few per cent.
 
-    chains: how many. facets: of all of them. sagitta: the largest distance of a facet from the
-    curve. Of that facet, degrees: the angle by which the surface turns over it; radius: of
+    concave: the facets lie outside of the material of the curved body, or the mesh is not solid;
+    else inside. chains: how many. facets: of all of them. sagitta: the largest distance of a facet
+    from the curve. Of that facet, degrees: the angle by which the surface turns over it; radius: of
     curvature; place: a point of it, world.
     """
 
+    concave: bool
     chains: Count
     facets: Count
     degrees: Size
@@ -25,9 +27,10 @@ class FacetedCurves(Value, frozen=True):
 
 
 class BodyTolerance(Value, frozen=True):
-    """surface_tolerance: the largest sagitta, rounded up; None: no curved surface is seen. stated:
-    the body is a shape stated by its sizes, which has no facets. left_out: chains that turn by more
-    than `most_degrees` from facet to facet, and may be prisms. Largest sagitta first.
+    """surface_tolerance: the largest sagitta of a concave curve, rounded up: so far the mesh has
+    more material than the curved body. None: no such curve is seen. stated: the body is a shape
+    stated by its sizes, which has no facets. left_out: chains that turn by more than `most_degrees`
+    from facet to facet, and may be prisms. Concave ones first, then the largest sagitta.
     """
 
     body: str
@@ -40,8 +43,8 @@ class BodyTolerance(Value, frozen=True):
 class SurfaceTolerancesReport(Value, frozen=True, kw_only=True):
     """Surface tolerances, measured on the meshes alone. Lengths in the units of the scene.
 
-    surface_tolerance: that covers all bodies; None: no curved surface is seen, or the bodies have
-    different units of length. most_degrees: the largest angle between two facets that is read as
+    surface_tolerance: that covers all bodies; None: no body needs one, or they have different units
+    of length. most_degrees: the largest angle between two facets that is read as
     that of a curve. least_facets: in a chain.
     """
 

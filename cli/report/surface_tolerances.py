@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     )
 
 NOTHING = "no curved surface is seen"
+INSIDE = "its facets are inside the curves, and explain no overlap"
 # Kinds of curves of a body that are told of, the largest sagitta first.
 _SHOWN = 3
 
@@ -40,7 +41,7 @@ def remark(report: SurfaceTolerancesReport) -> str:
         f"Facets at angles of up to {report.most_degrees:g} degrees count as a curve, in chains of "
         f"{report.least_facets} or more: a shape with eight sides or fewer may be a prism."
     )
-    if all(body.surface_tolerance is None for body in report.bodies):
+    if not any(body.curves for body in report.bodies):
         return limit
     return f"Measured, not known: confirm that the facets stand for curves. {limit}"
 
@@ -56,7 +57,7 @@ def _alike(bodies: tuple[BodyTolerance, ...]) -> list[list[BodyTolerance]]:
 
 
 def _figures(curve: FacetedCurves) -> tuple[object, ...]:
-    return curve.chains, curve.facets, f"{curve.radius:.3g}", f"{curve.sagitta:.3g}"
+    return curve.concave, curve.chains, curve.facets, f"{curve.radius:.3g}", f"{curve.sagitta:.3g}"
 
 
 def _proposal(bodies: list[BodyTolerance]) -> str:
@@ -66,6 +67,8 @@ def _proposal(bodies: list[BodyTolerance]) -> str:
         said = "stated by its sizes, without facets"
     elif bodies[0].surface_tolerance is not None:
         said = _typed(bodies[0].surface_tolerance)
+    elif bodies[0].curves:
+        said = INSIDE
     return f"{bodies[0].body}{more}: {said}"
 
 
@@ -88,7 +91,8 @@ def _evidence(body: BodyTolerance, unit: str | None) -> Iterator[str]:
 
 def _chains(curve: FacetedCurves) -> str:
     several = f" in {counted(curve.chains, 'chain')}" if curve.chains > 1 else ""
-    return f"{counted(curve.facets, 'facet')}{several}"
+    shape = "concave" if curve.concave else "convex"
+    return f"{counted(curve.facets, shape + ' facet')}{several}"
 
 
 def _measured(curve: FacetedCurves, unit: str | None) -> str:
@@ -102,6 +106,9 @@ def _measured(curve: FacetedCurves, unit: str | None) -> str:
 def _whole(report: SurfaceTolerancesReport) -> str:
     if report.surface_tolerance is not None:
         return f"whole input: {_typed(report.surface_tolerance)}"
+    nothing = "whole input: no tolerance is proposed"
     if any(body.surface_tolerance is not None for body in report.bodies):
-        return "whole input: no tolerance is proposed, the bodies have different units of length"
-    return f"whole input: {NOTHING}, no tolerance is proposed"
+        return f"{nothing}, the bodies have different units of length"
+    if any(body.curves for body in report.bodies):
+        return f"{nothing}, all facets are inside the curves"
+    return f"{nothing}, {NOTHING}"

@@ -15,24 +15,29 @@ from tests.cli.process import satcheck
 
 @pytest.fixture
 def files(tmp_path: Path) -> dict[str, str]:
-    """Cylinders of radius 5, by the number of their facets."""
-    paths = {f"c{number}": tmp_path / f"c{number}.obj" for number in (6, 24)}
-    for number, path in zip((6, 24), paths.values(), strict=True):
-        creation.cylinder(5, 20, sections=number).export(path)
-    return {name: str(path) for name, path in paths.items()}
+    """A pin and a bush of radius 5 with 24 facets, and a nut with 6."""
+    meshes = {
+        "pin": creation.cylinder(5, 20, sections=24),
+        "bush": creation.annulus(5, 8, 20, sections=24),
+        "nut": creation.cylinder(5, 20, sections=6),
+    }
+    for name, mesh in meshes.items():
+        mesh.export(tmp_path / f"{name}.obj")
+    return {name: str(tmp_path / f"{name}.obj") for name in meshes}
 
 
 def test_what_to_type_and_why(files: dict[str, str]) -> None:
-    ran = satcheck("suggest", "--surface-tolerance", files["c24"], files["c6"], "box.obj")
+    ran = satcheck("suggest", "--surface-tolerance", files["bush"], files["nut"], "box.obj")
     assert ran.code == 0, ran.err
-    first, evidence, nut, left_out, box, whole = ran.out.splitlines()
-    assert first == "c24: --surface-tolerance 0.0428"
-    assert evidence.startswith(
-        "  24 facets: radius 5, turning by 15 degrees over a facet, sagitta 0.0428, as at ("
+    bush, hole, outside, nut, left_out, box, whole = ran.out.splitlines()
+    assert bush == "bush: --surface-tolerance 0.0428"
+    assert outside.startswith("  24 convex facets: radius 8, ")
+    assert hole.startswith(
+        "  24 concave facets: radius 5, turning by 15 degrees over a facet, sagitta 0.0428, as at ("
     )
-    assert nut == "c6: no curved surface is seen"
+    assert nut == "nut: no curved surface is seen"
     assert left_out == (
-        "  left out, perhaps a prism: 6 facets; if a curve, radius 5, "
+        "  left out, perhaps a prism: 6 convex facets; if a curve, radius 5, "
         "turning by 60 degrees over a facet, sagitta 0.67"
     )
     assert box == "box: no curved surface is seen"
@@ -41,19 +46,28 @@ def test_what_to_type_and_why(files: dict[str, str]) -> None:
 
 
 def test_no_curve(files: dict[str, str]) -> None:
-    ran = satcheck("suggest", "--surface-tolerance", files["c6"])
+    ran = satcheck("suggest", "--surface-tolerance", files["nut"])
     assert ran.code == 0, ran.err
-    assert ran.out.endswith("whole input: no curved surface is seen, no tolerance is proposed\n")
+    assert ran.out.endswith("whole input: no tolerance is proposed, no curved surface is seen\n")
+
+
+def test_a_curve_that_explains_no_overlap(files: dict[str, str]) -> None:
+    ran = satcheck("suggest", "--surface-tolerance", files["pin"])
+    assert ran.code == 0, ran.err
+    first, evidence, whole = ran.out.splitlines()
+    assert first == "pin: its facets are inside the curves, and explain no overlap"
+    assert evidence.startswith("  24 convex facets: radius 5, ")
+    assert whole == "whole input: no tolerance is proposed, all facets are inside the curves"
 
 
 def test_copies_are_told_of_once(files: dict[str, str]) -> None:
-    ran = satcheck("suggest", "--surface-tolerance", files["c24"], files["c24"], files["c24"])
-    assert ran.out.startswith("c24 and 2 more bodies: --surface-tolerance 0.0428\n")
+    ran = satcheck("suggest", "--surface-tolerance", *3 * [files["bush"]])
+    assert ran.out.startswith("bush and 2 more bodies: --surface-tolerance 0.0428\n")
 
 
 def test_json_follows_its_schema(files: dict[str, str], tmp_path: Path) -> None:
     path = tmp_path / "tolerances.json"
-    ran = satcheck("suggest", "--surface-tolerance", files["c24"], "box.obj", "-o", str(path))
+    ran = satcheck("suggest", "--surface-tolerance", files["bush"], "box.obj", "-o", str(path))
     assert ran.code == 0, ran.err
     document = json.loads(path.read_text())
     Draft202012Validator(json.loads(text("surface-tolerances"))).validate(document)

@@ -17,10 +17,10 @@ from satcheck.core.transform import about
 EXACT = 1e-9
 
 
-def curves_of(mesh: trimesh.Trimesh, precision: float = 0.0) -> Curves:
+def curves_of(mesh: trimesh.Trimesh, precision: float = 0.0, *, solid: bool = True) -> Curves:
     """As placed obliquely."""
     turn = np.array(about((2 / 7, 3 / 7, 6 / 7), (0.6, 0.8))).reshape(3, 3)
-    return find_curves(np.array(mesh.vertices) @ turn.T, np.array(mesh.faces), precision)
+    return find_curves(np.array(mesh.vertices) @ turn.T, np.array(mesh.faces), precision, solid)
 
 
 def prism(outline: Sequence[tuple[float, float]], height: float) -> trimesh.Trimesh:
@@ -54,6 +54,7 @@ def sagitta(radius: float, turn: float) -> float:
 def test_a_cylinder(number: int) -> None:
     (curve,) = curves_of(creation.cylinder(5, 20, sections=number)).curves
     assert curve.facets == number
+    assert not curve.concave
     assert curve.turn == pytest.approx(2 * math.pi / number)
     assert curve.radius == pytest.approx(5, rel=EXACT)
     assert curve.sagitta == pytest.approx(sagitta(5, 2 * math.pi / number), rel=EXACT)
@@ -103,10 +104,14 @@ def test_a_sphere(made: trimesh.Trimesh) -> None:
 
 
 def test_a_torus() -> None:
-    """Most at its outer rim, where both directions add up."""
-    (curve,) = curves_of(creation.torus(5, 1, major_sections=48, minor_sections=24)).curves
+    """Most at its outer rim, where both directions add up. Its inner half is a saddle."""
+    torus = creation.torus(5, 1, major_sections=48, minor_sections=24)
+    concave, convex = curves_of(torus).curves
     outer = sagitta(6, 2 * math.pi / 48) + sagitta(1, 2 * math.pi / 24)
-    assert curve.sagitta == pytest.approx(outer, rel=0.02)
+    assert convex.sagitta == pytest.approx(outer, rel=0.02)
+    assert (concave.concave, convex.concave) == (True, False)
+    assert concave.sagitta == pytest.approx(sagitta(4, 2 * math.pi / 48), rel=0.02)
+    assert concave.facets + convex.facets == 48 * 24
 
 
 @pytest.mark.parametrize("steps", [3, 4, 8])
@@ -130,6 +135,16 @@ def test_a_rounded_edge_that_runs_into_a_ball() -> None:
     curves = curves_of(creation.capsule(50, 1, count=(24, 24))).curves
     strips = [curve for curve in curves if curve.facets == 24]
     assert [curve.sagitta for curve in strips] == [pytest.approx(sagitta(1, math.pi / 12))]
+
+
+def test_a_hole_has_more_material_than_the_curve() -> None:
+    """A tube, inside and outside; a sheet of its form has no inside."""
+    tube = creation.annulus(3, 5, 2, sections=40)
+    hole, outside = curves_of(tube).curves
+    assert (hole.concave, outside.concave) == (True, False)
+    assert hole.sagitta == pytest.approx(sagitta(3, math.pi / 20), rel=EXACT)
+    assert outside.sagitta == pytest.approx(sagitta(5, math.pi / 20), rel=EXACT)
+    assert [curve.concave for curve in curves_of(tube, solid=False).curves] == [True, True]
 
 
 @pytest.mark.parametrize("number", [6, 8])
@@ -164,7 +179,7 @@ def test_few_faces_are_no_curve(mesh: trimesh.Trimesh) -> None:
 def test_rounded_coordinates() -> None:
     mesh = creation.cylinder(5, 20, sections=64)
     rounded = np.array(mesh.vertices).astype(np.float32).astype(np.float64)
-    (curve,) = find_curves(rounded, np.array(mesh.faces), 8 * 2.0**-24).curves
+    (curve,) = find_curves(rounded, np.array(mesh.faces), 8 * 2.0**-24, True).curves
     # A chord is off by two roundings, and its sagitta in the same proportion, twice.
     chord = 10 * math.sin(math.pi / 64)
     assert curve.facets == 64
