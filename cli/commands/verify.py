@@ -183,5 +183,5 @@ def _summary(result: Verification) -> str:
         for count, words in ((depths, ("depth",)), (moves, ("way out", "ways out")))
         if count
     ]
-    extra = f" Proven besides: {', '.join(proven)}." if proven else ""
+    extra = f" Also proven: {', '.join(proven)}." if proven else ""
     return ", ".join(parts) + "." + extra

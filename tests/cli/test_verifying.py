@@ -12,8 +12,8 @@ import pytest
 from tests.cli.process import PUSHED, SAMPLES, VALIDATOR, private_cache, satcheck
 
 NOT_COVERED = (
-    "Taken as stated: settings, which bodies there are.\n"
-    "Not covered: the version of satcheck, which flags and rules asked, "
+    "Taken as stated: settings, the list of bodies.\n"
+    "Not covered: the version of satcheck, which flags and rules required an effect, "
     "on how many pairs an effect ran, times, plans.\n"
 )
 
@@ -30,7 +30,7 @@ def test_an_honest_report_is_accepted(tmp_path: Path) -> None:
     VALIDATOR.validate(json.loads(path.read_text("utf-8")))
     ran = satcheck("verify", str(path))
     assert (ran.code, ran.err) == (0, "")
-    assert ran.out == f"1 verdict accepted. Proven besides: 1 depth, 1 way out.\n{NOT_COVERED}"
+    assert ran.out == f"1 verdict accepted. Also proven: 1 depth, 1 way out.\n{NOT_COVERED}"
 
 
 def test_paths_start_at_the_root(tmp_path: Path) -> None:
