@@ -1,6 +1,7 @@
 // The centre of the largest ball in a polytope is that of Chebyshev's linear programme. Over a box that holds the
 // polytope it is a game of the corners of the box against the planes of the polytope, to which planes are added while
-// one is nearer than the value of the game: James E. Kelley, "The Cutting-Plane Method for Solving Convex Programs" (1960).
+// one is nearer than the value of the game: James E. Kelley, "The Cutting-Plane Method for Solving Convex Programs"
+// (1960).
 #include "thickness/component_balls.hpp"
 
 #include <algorithm>
@@ -17,6 +18,9 @@ namespace {
 // A height over a plane takes 12 roundings of products below 6 times the largest coordinate, those of a weighted sum
 // as many again, and a distance from a triangle up to 120 of it. Rounded up.
 constexpr double kHeightRoundoffs = 256;
+
+// Of triangles that meet; more take longer than they are worth.
+constexpr std::size_t kMostPairs = 100'000;
 
 // Planes that meet in one corner of a polytope and count are few; more rounds only repeat rounding.
 constexpr int kMostRounds = 100;
@@ -117,6 +121,18 @@ std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& 
     interval.lower = 2 * interval.radius;
   }
   return intervals;
+}
+
+std::optional<ThicknessInterval> thickest_component(const Surface& a, const Surface& b) {
+  const OverlapComponents overlap = overlap_components(a, b, kMostPairs);
+  if (!overlap.resolved) return std::nullopt;
+  ThicknessInterval thickest;
+  for (const ThicknessInterval& ball : component_balls(a, b, overlap)) {
+    const double upper = larger(thickest.upper, ball.upper);
+    if (ball.lower > thickest.lower) thickest = ball;
+    thickest.upper = upper;
+  }
+  return thickest;
 }
 
 }  // namespace satcheck

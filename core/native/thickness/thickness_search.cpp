@@ -13,12 +13,16 @@
 #include "mesh/surface_order.hpp"
 #include "mesh_pair/moved_surface.hpp"
 #include "thickness/cell_bound.hpp"
+#include "thickness/component_balls.hpp"
 
 namespace satcheck {
 namespace {
 
 // Measured steps of a cell, and steps between two calls of poll().
 constexpr std::uint64_t kCellWork = 1000, kPollWork = 50'000'000;
+
+// Of work, until the components of the overlap are looked at.
+constexpr std::uint64_t kPatience = 40'000'000;
 
 // Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
 constexpr double kFlatness = 1e-7;
@@ -200,16 +204,49 @@ ThicknessInterval search_in_order(const Surface& a, const Surface& b, const Thic
   return Search(moved_a.at(-centre), moved_b.at(-centre), goal, centre).run();
 }
 
-}  // namespace
-
-ThicknessInterval search_thickness(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
-  if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
+ThicknessInterval search_either_way(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
   if (comes_before(a, b)) return search_in_order(a, b, goal);
   ThicknessGoal swapped = goal;
   std::swap(swapped.less_a, swapped.less_b);
   ThicknessInterval interval = search_in_order(b, a, swapped);
   if (interval.proof) interval.proof->swap_bodies();
   return interval;
+}
+
+// Both are intervals of the same overlap.
+ThicknessInterval narrower(ThicknessInterval interval, const ThicknessInterval& other, const ThicknessGoal& goal) {
+  const double upper = smaller(interval.upper, other.upper);
+  interval.work += other.work;
+  interval.boxes += other.boxes;
+  if (other.lower > interval.lower) {
+    interval.lower = other.lower;
+    interval.found = other.found;
+    interval.centre = other.centre;
+    interval.radius = other.radius;
+  }
+  interval.upper = larger(upper, interval.lower);
+  const bool decided = goal.limit && (interval.lower > *goal.limit || interval.upper <= *goal.limit);
+  const bool narrow = interval.upper - interval.lower <= goal.width * interval.upper;
+  interval.stop = decided ? ThicknessStop::decided : narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
+  return interval;
+}
+
+}  // namespace
+
+// Many small components, as between the facets of a bolt and those of its hole, take a search long, and their hulls tell
+// at once how thick they are.
+ThicknessInterval search_thickness(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
+  if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
+  const bool of_the_overlap = goal.less_a == 0 && goal.less_b == 0 && goal.across < 0 && !goal.prove && !goal.within;
+  if (!of_the_overlap || goal.work <= kPatience) return search_either_way(a, b, goal);
+  ThicknessGoal next = goal;
+  next.work = kPatience;
+  ThicknessInterval interval = search_either_way(a, b, next);
+  if (interval.stop != ThicknessStop::work_spent) return interval;
+  if (const auto thickest = thickest_component(a, b)) interval = narrower(interval, *thickest, goal);
+  if (interval.stop != ThicknessStop::work_spent) return interval;
+  next.work = goal.work - kPatience;
+  return narrower(interval, search_either_way(a, b, next), goal);
 }
 
 }  // namespace satcheck
