@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 from msgspec import Struct
+from msgspec.structs import replace
 from rich import box
 from rich.table import Table
 
@@ -36,11 +37,17 @@ from satcheck.cli.report.words import counted, issue_line, with_unit
 from satcheck.core.errors import SatcheckError
 from satcheck.core.shapes import is_curved
 from satcheck.decompose import Cache, Decomposition, DecompositionError, decompose
+from satcheck.report.decomposition import (
+    DecomposedBody,
+    DecompositionOptions,
+    DecompositionReport,
+    Part,
+    Remark,
+)
 from satcheck.scene import Body, Scene, parts_file
 from satcheck.scene.scaled_scene import require_in_range
 from satcheck.scene.units import unit_of
 
-SCHEMA = "satcheck.decomposition/1"
 _FILES = ", ".join(parts_file.FORMATS)
 
 
@@ -145,10 +152,10 @@ def command(
     for each in bodies:
         if isinstance(each.result, SatcheckError):
             talk(f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]")
-    settings = {"threshold": threshold, "seed": seed, "seconds": seconds}
+    settings = DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds)
     document.deliver(
         lambda page: (
-            json_document(_values(bodies, scene, settings, output))
+            json_document(_report(bodies, scene, settings, output))
             if form == "json"
             else _table(bodies, scene, output, page)
         ),
@@ -190,40 +197,36 @@ def _rounding(bodies: list[_Parts], output: Path | None) -> float | None:
     return None if output is None else parts_file.rounding(parts, output.suffix.lower())
 
 
-def _values(
-    bodies: list[_Parts], scene: Scene, settings: dict[str, Any], output: Path | None
-) -> dict[str, Any]:
-    return {
-        "schema": SCHEMA,
-        "tool": tool(),
-        "units": scene.units,
-        "settings": settings,
-        "output": None if output is None else output.as_posix(),
-        "rounding": _rounding(bodies, output),
-        "bodies": [_body_values(each) for each in bodies],
-        "issues": scene.issues,
-    }
+def _report(
+    bodies: list[_Parts], scene: Scene, settings: DecompositionOptions, output: Path | None
+) -> DecompositionReport:
+    return DecompositionReport(
+        tool=tool(),
+        units=scene.units,
+        settings=settings,
+        output=None if output is None else output.as_posix(),
+        rounding=_rounding(bodies, output),
+        bodies=tuple(map(_body_report, bodies)),
+        issues=scene.issues,
+    )
 
 
-def _body_values(parts: _Parts) -> dict[str, Any]:
+def _body_report(parts: _Parts) -> DecomposedBody:
     result, mesh = parts.result, parts.body.file
-    values = {"id": parts.body.id, "file": mesh.path, "triangles": mesh.mesh.triangle_count}
+    body = DecomposedBody(id=parts.body.id, file=mesh.path, triangles=mesh.mesh.triangle_count)
     if isinstance(result, SatcheckError):
-        failure = {"code": result.code, "message": str(result)}
-        return {**values, "parts": None, "outside": None, "missing": None, "failure": failure}
-    return {
-        **values,
-        "parts": [
-            {"name": name, "vertices": part.vertex_count, "triangles": part.triangle_count}
-            for name, part in parts.named()
-        ],
-        "outside": result.outside,
-        "missing": result.missing,
-        "failure": None,
-        "seconds": result.seconds,
-        "from_cache": result.from_cache,
-        "notes": result.notes,
-    }
+        return replace(body, failure=Remark(result.code, str(result)))
+    return replace(
+        body,
+        parts=tuple(
+            Part(name, part.vertex_count, part.triangle_count) for name, part in parts.named()
+        ),
+        outside=result.outside,
+        missing=result.missing,
+        seconds=result.seconds,
+        from_cache=result.from_cache,
+        notes=tuple(Remark(note.code, note.message) for note in result.notes),
+    )
 
 
 def _table(bodies: list[_Parts], scene: Scene, output: Path | None, page: Page) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.report.assets import AssetsReport
+from satcheck.report.decomposition import DecompositionReport
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
 from satcheck.report.schema import schema_of
@@ -19,6 +20,7 @@ from satcheck.report.verification import VerificationReport
 HERE = Path(__file__).parent
 STRUCTS: dict[str, type[Struct]] = {
     "assets": AssetsReport,
+    "decomposition": DecompositionReport,
     "report": Report,
     "resolution": ResolutionReport,
     "stability": StabilityReport,
@@ -30,8 +32,9 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 
 def text(name: str = "report") -> str:
-    """The schema of one kind of document: `report` of a check, `assets`, `resolution`, `samples`,
-    `stability`, `suggestions`, `surface-tolerances`, `tradeoff`, `verification`; `scene`."""
+    """The schema of one kind of document: `report` of a check, `assets`, `decomposition`,
+    `resolution`, `samples`, `stability`, `suggestions`, `surface-tolerances`, `tradeoff`,
+    `verification`; `scene`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
     if name in STRUCTS:
