@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, get_args
 
 from msgspec import Struct, to_builtins
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 
 from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
@@ -26,13 +26,20 @@ from satcheck.report.report import (
     Verdict,
     without_timings,
 )
+from satcheck.report.samples import (
+    SampledBody,
+    SampledPair,
+    SampledPairCounts,
+    SampledPose,
+    SamplesReport,
+    SamplesSummary,
+)
 from satcheck.report.settings import StatedSettings
 
 if TYPE_CHECKING:
     from satcheck.scene import Scene
     from satcheck.scene.robot import Pose, Posture
 
-SCHEMA = "satcheck.samples/1"
 VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
 
 
@@ -113,41 +120,36 @@ class Samples(Struct, frozen=True):
         verdicts = {sample.verdict for sample in self.samples}
         return next(verdict for verdict in ("fail", "incomplete", "pass") if verdict in verdicts)
 
-    def to_dict(self, timings: bool = True) -> dict[str, Any]:
-        """JSON values in the fixed key order of the schema; no `microseconds` without timings."""
+    def report(self) -> SamplesReport:
         verdicts = Counter(sample.verdict for sample in self.samples)
-        return {
-            "schema": SCHEMA,
-            "tool": to_builtins(self.tool),
-            "units": self.units,
-            "settings": to_builtins(self.settings),
-            "seed": self.seed,
-            "summary": {
-                "verdict": self.verdict,
-                "samples": len(self.samples),
-                "by_verdict": {name: verdicts[name] for name in VERDICTS},
-                "pairs": {
-                    "total": self.counts.total,
-                    "allowed": self.counts.allowed,
-                    "exempt": self.counts.exempt,
-                    "separated": sum(pair.settled for pair in self.pairs),
-                },
-            },
-            "bodies": [
-                {
-                    "id": body.id,
-                    "file": body.file,
-                    "sha256": body.sha256,
-                    "shape": to_builtins(body.shape),
-                }
-                for body in self.bodies
-            ],
-            "exempt": to_builtins(self.exempt),
-            "rules": to_builtins(self.rules),
-            "samples": [_sample_values(sample, timings) for sample in self.samples],
-            "pairs": [to_builtins(pair) for pair in self.pairs if not pair.settled],
-            "issues": to_builtins(self.issues),
-        }
+        settled = sum(pair.settled for pair in self.pairs)
+        counts = self.counts
+        return SamplesReport(
+            tool=self.tool,
+            units=self.units,
+            settings=self.settings,
+            seed=self.seed,
+            summary=SamplesSummary(
+                self.verdict,
+                len(self.samples),
+                {name: verdicts[name] for name in VERDICTS},
+                SampledPairCounts(counts.total, counts.allowed, counts.exempt, settled),
+            ),
+            bodies=tuple(SampledBody(b.id, b.file, b.sha256, b.shape) for b in self.bodies),
+            exempt=self.exempt,
+            rules=self.rules,
+            samples=tuple(
+                SampledPose(s.number, s.posture.pose(), s.verdict, s.findings, s.issues)
+                for s in self.samples
+            ),
+            pairs=tuple(SampledPair(*astuple(pair)) for pair in self.pairs if not pair.settled),
+            issues=self.issues,
+        )
+
+    def to_dict(self, timings: bool = True) -> dict[str, Any]:
+        """JSON values; no `microseconds` without timings."""
+        values: dict[str, Any] = to_builtins(self.report())
+        return values if timings else without_timings(values)
 
 
 def check_poses(
@@ -218,17 +220,6 @@ def _sample(number: int, report: Report, posture: Posture | None) -> tuple[Sampl
 def _is_plain(finding: Finding) -> bool:
     """Separated at rest and in motion, without a remark."""
     return finding.relation == "separated" and finding.severity == "none"
-
-
-def _sample_values(sample: Sample, timings: bool) -> dict[str, Any]:
-    findings = to_builtins(sample.findings)
-    return {
-        "number": sample.number,
-        "pose": sample.posture.pose(),
-        "verdict": sample.verdict,
-        "findings": findings if timings else without_timings(findings),
-        "issues": to_builtins(sample.issues),
-    }
 
 
 def _all_pairs(

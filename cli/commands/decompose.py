@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 from msgspec import Struct
-from msgspec.structs import replace
+from msgspec.structs import astuple, replace
 from rich import box
 from rich.table import Table
 
@@ -44,6 +44,7 @@ from satcheck.report.decomposition import (
     Part,
     Remark,
 )
+from satcheck.report.report import Issue
 from satcheck.scene import Body, Scene, parts_file
 from satcheck.scene.scaled_scene import require_in_range
 from satcheck.scene.units import unit_of
@@ -207,7 +208,7 @@ def _report(
         output=None if output is None else output.as_posix(),
         rounding=_rounding(bodies, output),
         bodies=tuple(map(_body_report, bodies)),
-        issues=scene.issues,
+        issues=tuple(Issue(*astuple(issue)) for issue in scene.issues),
     )
 
 

@@ -11,6 +11,7 @@ from satcheck.report.assets import AssetsReport
 from satcheck.report.decomposition import DecompositionReport
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
+from satcheck.report.samples import SamplesReport
 from satcheck.report.schema import schema_of
 from satcheck.report.stability import StabilityReport
 from satcheck.report.suggestions import SuggestionsReport
@@ -23,6 +24,7 @@ STRUCTS: dict[str, type[Struct]] = {
     "decomposition": DecompositionReport,
     "report": Report,
     "resolution": ResolutionReport,
+    "samples": SamplesReport,
     "stability": StabilityReport,
     "suggestions": SuggestionsReport,
     "surface-tolerances": SurfaceTolerancesReport,
