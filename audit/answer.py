@@ -11,6 +11,7 @@ from satcheck.report.report import Quality, Relation
 if TYPE_CHECKING:
     from satcheck.audit.figures.depth import Depth
     from satcheck.audit.figures.gap import Gap
+    from satcheck.audit.figures.thickness import Thickness
     from satcheck.audit.figures.touch_band import Band
     from satcheck.audit.figures.volume import CommonVolume
     from satcheck.report.components import Components
@@ -20,8 +21,9 @@ if TYPE_CHECKING:
 class Answer(Struct, frozen=True):
     """relation: with the touch band. exact_relation: without it; None: not proven.
 
-    quality: of the weakest figure. gap: of bodies without a common interior. band: of an overlap.
-    depth, volume, contacts and components are None if they were not requested.
+    quality: of the weakest of relation, depth and gap. gap: of bodies without a common interior.
+    band: of an overlap. depth, thickness, volume, contacts and components are None if they were not
+    requested.
     """
 
     relation: Relation
@@ -31,6 +33,7 @@ class Answer(Struct, frozen=True):
     gap: Gap | None = None
     band: Band | None = None
     depth: Depth | None = None
+    thickness: Thickness | None = None
     volume: CommonVolume | None = None
     contacts: Contacts | None = None
     components: Components | None = None

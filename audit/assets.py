@@ -41,7 +41,7 @@ def _without_bodies(issues: list[Issue]) -> Report:
     return Report(
         tool=tool(),
         units=None,
-        settings=settings.stated(depth=False),
+        settings=settings.stated(depth=False, thickness=False),
         summary=summarise(NO_PAIRS, (), settings.fail_on),
         bodies=(),
         findings=(),

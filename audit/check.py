@@ -126,7 +126,7 @@ def _check(
     return Report(
         tool=tool(),
         units=scene.units,
-        settings=settings.stated(depth=planner.depth),
+        settings=planner.stated(),
         summary=summarise(
             counts, findings, settings.fail_on, alone=len(bodies.placed) == len(bodies.ids) == 1
         ),

@@ -59,8 +59,8 @@ def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
         answer = _overlapping(pair, verdict, trace)
     else:
         answer = _apart(pair, verdict, trace)
-    if answer is None:
-        reason = f"undecided: rounding hides whether the overlap is within {pair.tolerance:.9g}"
+    if isinstance(answer, str):
+        reason = f"undecided: {answer}"
         return Examined(indeterminate(pair.a.id, pair.b.id, reason, trace), verdict)
     answer = _with_extras(answer, pair, verdict, trace)
     contradiction = _contradiction(pair, verdict, trace)
@@ -111,12 +111,14 @@ def _why_open(pair: Pair, verdict: Verdict) -> str | None:
 
 def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
     """With what only some ask for."""
+    asked = pair.request.by
+    if "thickness" in asked and verdict.relation in OVERLAPS:
+        answer = _with_thickness(answer, pair, trace)
     if pair.curved:
         from satcheck.audit.figures.curved import without_meshes
 
         reason = without_meshes(answer.reason, pair, trace)
         return answer if reason is answer.reason else replace(answer, reason=reason)
-    asked = pair.request.by
     if "volume" in asked:
         volume = common_volume(pair, verdict, trace)
         answer = replace(answer, volume=volume, reason=answer.reason or volume.refusal)
@@ -129,6 +131,16 @@ def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> 
 
         answer = replace(answer, components=find_components(pair, verdict, trace))
     return answer
+
+
+def _with_thickness(answer: Answer, pair: Pair, trace: Trace) -> Answer:
+    from satcheck.audit.figures.thickness import STAGE, measure_thickness, why_not_thick
+
+    why_not = why_not_thick(pair)
+    if why_not is None:
+        return replace(answer, thickness=measure_thickness(pair, answer.depth, trace))
+    trace.record(STAGE, "not known", why_not)
+    return replace(answer, reason=answer.reason or f"no thickness: {why_not}")
 
 
 def _contradiction(pair: Pair, verdict: Verdict, trace: Trace) -> str | None:
@@ -153,19 +165,21 @@ def _unproven(pair: Pair) -> str:
     return f"not proven at --accuracy {pair.settings.accuracy}"
 
 
-def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | None:
-    """None: rounding hides whether the overlap is within the tolerance."""
+def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | str:
+    """A text: why it is not known whether the overlap is within the tolerance."""
     band = touch_band(pair, verdict, trace)
     guess = band.side == "within" and not verdict.proven
     depth = None if guess else _depth(pair, verdict, band.move, trace)
     if depth is not None and band.side in ("open", "hidden"):
         band = _band_of_depth(pair, depth) or band
     if band.side == "hidden":
-        return None
+        return band.why
     is_open = pair.curved and verdict.signed_distance is not None and band.side == "open"
     relation: Relation = "touching" if band.side == "within" else verdict.relation
     proven = shown = verdict.proven
     reason = _weakness(pair, verdict) or (OPEN_BAND if is_open else None)
+    if pair.excuses and relation in OVERLAPS:
+        reason = reason or _unexcused(pair)
     if pair.closer:
         from satcheck.audit.figures import curve_error
 
@@ -182,6 +196,14 @@ def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | None:
         band=band,
         depth=depth,
     )
+
+
+def _unexcused(pair: Pair) -> str | None:
+    """Why a surface tolerance does not count; None: it does."""
+    from satcheck.audit.figures.thickness import why_not_thick
+
+    why_not = why_not_thick(pair)
+    return None if why_not is None else f"the surface tolerance excuses nothing: {why_not}"
 
 
 def _depth(pair: Pair, verdict: Verdict, move: Vector | None, trace: Trace) -> Depth | None:
@@ -254,7 +276,7 @@ def _open_gap(pair: Pair) -> str:
 
 
 def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> Finding:
-    depth, volume = answer.depth, answer.volume
+    depth, thick, volume = answer.depth, answer.thickness, answer.volume
     gap = answer.gap if answer.gap is not None and _is_shown(pair, answer.gap) else None
     figure = gap if depth is None else depth  # a pair has one of them at most
     return Finding(
@@ -277,6 +299,9 @@ def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> 
         mtv_moves=None if depth is None else "a",
         mtv_verified=None if depth is None else depth.escape.verified,
         witness=None if figure is None else figure.witness,
+        thickness=None if thick is None else thick.upper,
+        thickness_bounds=None if thick is None else (thick.lower, thick.upper),
+        ball=None if thick is None else thick.ball,
         volume=None if volume is None else volume.volume,
         volume_error=None if volume is None else volume.error,
         contacts=answer.contacts,

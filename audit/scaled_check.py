@@ -27,6 +27,7 @@ POINTS_OF_CERTIFICATES = frozenset({"both", "a_alone", "b_alone", "move", "point
 # The fields of a finding, and of what it holds, that state lengths and areas. Volumes: _finding.
 DIMENSIONS = {
     **dict.fromkeys(("tolerance", "distance", "distance_bounds", "depth", "depth_bounds"), 1),
+    **dict.fromkeys(("thickness", "thickness_bounds", "ball"), 1),
     **dict.fromkeys(("mtv", "witness", "points", "outlines", "length"), 1),
     **dict.fromkeys(("bounds", "point", "thickness_bounds", "curve_length"), 1),
     "area": 2,
@@ -42,7 +43,9 @@ class Scaling:
 
     def settings(self, given: Settings) -> Settings:
         """Settings for the scaled scene."""
-        lengths = {name: getattr(given, name) for name in ("clearance", "tolerance")}
+        lengths = {
+            name: getattr(given, name) for name in ("clearance", "tolerance", "surface_tolerance")
+        }
         known = {name: length for name, length in lengths.items() if length is not None}
         return replace(
             given,
@@ -55,7 +58,7 @@ class Scaling:
 
         return replace(
             report,
-            settings=given.stated(depth=report.settings.depth),
+            settings=given.stated(depth=report.settings.depth, thickness=report.settings.thickness),
             bodies=tuple(self._bodies(report.bodies, scene)),
             findings=tuple(map(self._finding, report.findings)),
             rules=rule_reports(scene.rules),
@@ -84,6 +87,7 @@ class Scaling:
                 health=stated_health(own.file.health),
                 shape=stated_shape(shape),
                 resolution=self._scaled(body.resolution, 1),
+                surface_tolerance=self._scaled(body.surface_tolerance, 1),
             )
 
     def _finding(self, finding: Finding) -> Finding:

@@ -165,17 +165,13 @@ class _Limit(Struct, frozen=True):
 
 
 def _limits(answer: Answer, request: Request) -> Iterator[_Limit]:
-    if request.max_depth is not None:
-        depth = answer.depth
-        least, greatest = (None, None) if depth is None else (depth.lower, depth.upper)
-        yield _Limit(
-            request.rule("max_depth") or "", "max_depth", request.max_depth, least, greatest
-        )
-    if request.max_volume is not None:
-        least = greatest = None
-        common = answer.volume
-        if common is not None and common.volume is not None and common.error is not None:
-            least, greatest = common.volume - common.error, common.volume + common.error
-        yield _Limit(
-            request.rule("max_volume") or "", "max_volume", request.max_volume, least, greatest
-        )
+    depth, thick, common = answer.depth, answer.thickness, answer.volume
+    figures = {
+        "max_depth": (None, None) if depth is None else (depth.lower, depth.upper),
+        "max_thickness": (None, None) if thick is None else (thick.lower, thick.upper),
+        "max_volume": (None, None) if common is None else common.bounds,
+    }
+    for key, (least, greatest) in figures.items():
+        most = getattr(request, key)
+        if most is not None:
+            yield _Limit(request.rule(key) or "", key, most, least, greatest)

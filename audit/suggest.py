@@ -84,7 +84,8 @@ def suggest(
     Raises what `check` and `check_poses` raise.
     """
     cache = BodyCache()
-    report = check(scene, replace(settings, depth=True, list_pruned=False), cache=cache)
+    measured = replace(settings, depth=True, thickness=False, list_pruned=False)
+    report = check(scene, measured, cache=cache)
     samples, issues = None, report.issues
     if poses:
         from satcheck.audit.samples import check_poses

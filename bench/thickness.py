@@ -25,9 +25,9 @@ from satcheck import core
 from satcheck.audit import Settings
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
-from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.settings import WORK_PER_SECOND
 from satcheck.scene import load_scene
 
 # What thickness/README.md grants: relative to the bounds, and relative to the size of the pair.

@@ -83,13 +83,13 @@ class BodyReport(Value, frozen=True, kw_only=True):
     """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
 
     An unreadable body has None everywhere but id, name and file. `sha256` is None, too, where the
-    scene was loaded without. `convex` is None where no pair
-    had to know; `parts` is None where nothing was decomposed. `resolution` is the precision of the
-    input in world units. `transform` places it, row-major 4x4, world = transform * (x, y, z, 1);
-    None: as in the file. `groups`, `static`: as the scene says. `shape`: the primitive that the
-    file states, in its own frame, as a scene file does; None: a mesh file. `units`: of its lengths
-    here; None: no input states any. `unit_scale`: what `transform` converts lengths of the file by;
-    None: nothing.
+    scene was loaded without. `convex` is None where no pair had to know; `parts` is None where
+    nothing was decomposed. `resolution` is the precision of the input, and `surface_tolerance` how
+    far its surface may be off, in world units. `transform` places it, row-major 4x4, world =
+    transform * (x, y, z, 1); None: as in the file. `groups`, `static`: as the scene says. `shape`:
+    the primitive that the file states, in its own frame, as a scene file does; None: a mesh file.
+    `units`: of its lengths here; None: no input states any. `unit_scale`: what `transform` converts
+    lengths of the file by; None: nothing.
     """
 
     id: str
@@ -106,6 +106,7 @@ class BodyReport(Value, frozen=True, kw_only=True):
     triangles: Count | None
     health: Health | None
     resolution: Length | None
+    surface_tolerance: Length | None = None
     convex: bool | None
     parts: Annotated[int, Meta(ge=1)] | None
     part_error: PartError | None

@@ -45,6 +45,7 @@ Undecided = Literal["relation", "inside", "limit", "motion", "cross-check"]
 Effect = Literal[
     "overlap",
     "depth",
+    "thickness",
     "distance",
     "volume",
     "contacts",
@@ -141,6 +142,13 @@ class Witness(Value, frozen=True):
     b: Vector
 
 
+class Ball(Value, frozen=True):
+    """World: proven to lie in both bodies."""
+
+    centre: Vector
+    radius: Length
+
+
 class Finding(Value, frozen=True, kw_only=True):
     """One pair.
 
@@ -148,8 +156,8 @@ class Finding(Value, frozen=True, kw_only=True):
     they move. placed_relation: as they are placed, of bodies that move. exact_relation: as they
     are placed, without the band (None where a capped ladder left it open, or where polygons do not
     show it of the curves that they stand for). tolerance: the touch band of this pair.
-    quality: of the weakest figure here. exact: proven, numbers to rounding; bounded: the relation
-    is proven, the depth or the gap is a proven interval; estimate: not proven.
+    quality: of the weakest of relation, depth and gap. exact: proven, numbers to rounding; bounded:
+    the relation is proven, the depth or the gap is a proven interval; estimate: not proven.
     rule: what decided the severity, where it was no matter of course: "clearance", or the name of a
     rule. undecided: what was asked and could not be decided; the severity is then a warning at
     least.
@@ -157,8 +165,11 @@ class Finding(Value, frozen=True, kw_only=True):
     and where it need not be measured to be more than the clearance. distance_bounds: contains the
     true gap, where polygons stand for curves in a check in a plane; the distance is then that of
     the polygons.
-    volume: what both have in common; volume_error: about how far off that is, not proven (0.0: the
-    volume is exactly 0.0). Neither weakens the quality.
+    thickness: of an overlap, the diameter of the largest ball that lies in both bodies: the upper
+    end of thickness_bounds, which contain it. ball: as thick as their lower end; None where that is
+    0. None, too, where nobody asked, and where a body is not closed. volume: what both have in
+    common; volume_error: about how far off that is, not proven (0.0: the volume is exactly 0.0).
+    None of these weakens the quality.
     depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
     as it had to be for the moved mesh to be verified free. motion: None where neither body moves
     against the other, or their boxes stay apart; relation, severity and undecided count it, figures
@@ -187,6 +198,9 @@ class Finding(Value, frozen=True, kw_only=True):
     mtv_moves: Literal["a"] | None = None
     mtv_verified: bool | None = None
     witness: Witness | None = None
+    thickness: Length | None = None
+    thickness_bounds: Interval | None = None
+    ball: Ball | None = None
     volume: Length | None = None
     volume_error: Length | None = None
     contacts: Contacts | None = None
@@ -201,7 +215,7 @@ class Finding(Value, frozen=True, kw_only=True):
         vectors = (self.normal, self.mtv, self.depth_bounds, self.distance_bounds)
         figures = (
             *(self.tolerance, self.distance, self.depth, self.volume, self.volume_error),
-            *chain.from_iterable(filter(None, vectors)),
+            *chain.from_iterable(filter(None, (*vectors, self.thickness_bounds))),
         )
         if not all(map(math.isfinite, filter(None, figures))):
             raise ValueError(f"the figures of a pair are finite numbers: {figures}")
@@ -256,15 +270,16 @@ class RuleReport(Value, frozen=True):
     """What the scene asks of the pairs with one body in each selector. None: the rule does not say.
 
     a, b: a glob of ids, or "group:" and a glob of groups; an id or group that is exactly the text
-    comes first. allowed: True: nothing is computed. max_depth, max_volume: an overlap of no more is
-    within its limit. clearance, tolerance: in the place of the global ones. severity: of the errors
-    of these pairs. where: it is written.
+    comes first. allowed: True: nothing is computed. max_depth, max_thickness, max_volume: an
+    overlap of no more is within its limit. clearance, tolerance: in the place of the global ones.
+    severity: of the errors of these pairs. where: it is written.
     """
 
     a: SelectorText
     b: SelectorText
     allowed: bool | None
     max_depth: Length | None
+    max_thickness: Length | None
     max_volume: Length | None
     clearance: Length | None
     tolerance: Length | None

@@ -15,6 +15,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     """Everything that can change an answer."""
 
     depth: bool
+    thickness: bool
     volume: bool
     volume_seconds: Length
     volume_megabytes: Count
@@ -23,6 +24,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     components: bool
     clearance: Length | None
     tolerance: Length | Literal["input-precision"]
+    surface_tolerance: Length | None
     accuracy: Accuracy
     method: Method
     fail_on: Literal["error", "warning", "note"]
@@ -32,6 +34,7 @@ class StatedSettings(Value, frozen=True, kw_only=True):
     list_pruned: bool | None
     depth_width: Length
     depth_budget: Length
+    thickness_width: Length
     part_threshold: Length
     part_seed: int
     part_seconds: Length

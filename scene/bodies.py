@@ -68,7 +68,8 @@ class Body(Struct, frozen=True):
     path: of the node within the file; None: all of the file. static: one of the surroundings, see
     `Scene.check_static`. pinned: stays where it is when a scene is pulled apart. units: that the
     world coordinates are in; None: unknown. unit_scale: what the transform converts
-    coordinates of the file by; None: nothing.
+    coordinates of the file by; None: nothing. surface_tolerance: how far its surface may be off,
+    world units; None: the scene does not say.
     as_given: the body whose outline this one is, in a check in a plane.
     """
 
@@ -83,6 +84,7 @@ class Body(Struct, frozen=True):
     pinned: bool = False
     units: str | None = None
     unit_scale: float | None = None
+    surface_tolerance: float | None = None
     as_given: Body | None = None
 
     def world_mesh(self) -> Mesh:

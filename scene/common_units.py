@@ -110,6 +110,9 @@ def _converted(body: Body, own: str | None, common: str | None) -> Body:
         transform=scaled_world(body.transform, ratio(own, common)),
         units=common,
         unit_scale=None if scale == 1.0 else scale,
+        surface_tolerance=None
+        if body.surface_tolerance is None
+        else body.surface_tolerance * ratio(own, common),
     )
 
 

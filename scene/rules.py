@@ -19,7 +19,7 @@ from satcheck.core.errors import SatcheckError
 
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
-LENGTHS = ("max_depth", "clearance", "tolerance")
+LENGTHS = ("max_depth", "max_thickness", "clearance", "tolerance")
 # The keys by which a rule asks something; `reason` explains and `where` finds them.
 KEYS = ("allowed", "max_volume", "severity", *LENGTHS)
 
@@ -119,6 +119,8 @@ class Rule(Struct, frozen=True, kw_only=True):
 
     allowed: they may overlap, nothing is computed; False takes an earlier permission back.
     max_depth: an overlap no deeper than this is within budget; the depth is computed.
+    max_thickness: so is one without a ball in both bodies thicker than this; the thickness is
+    computed.
     max_volume: so is one that shares no more than this; the volume is computed.
     clearance: the gap they must keep, in the place of the global one; 0.0: none.
     tolerance: half width of the touch band, in the place of the global one.
@@ -132,6 +134,7 @@ class Rule(Struct, frozen=True, kw_only=True):
     b: Selector
     allowed: bool | None = None
     max_depth: float | None = None
+    max_thickness: float | None = None
     max_volume: float | None = None
     clearance: float | None = None
     tolerance: float | None = None

@@ -75,7 +75,9 @@ def _span(body: Body) -> tuple[int, int] | None:
 def _scaled(body: Body, exponent: int) -> Body | Unreadable:
     scaled = _scaled_shape(body, exponent) or _scaled_placement(body, exponent)
     if scaled is not None:
-        return scaled
+        own = body.surface_tolerance
+        off = None if own is None else limit_times_power(own, exponent)
+        return replace(scaled, surface_tolerance=off)
     message = "beyond the range of numbers: its coordinates would lose digits"
     path = body.file.path
     reason = issue("out-of-range", message, body=body.id, file=path)

@@ -125,6 +125,7 @@ class SceneBuilder:
             entry.part,
             entry.pinned,
             entry.units,
+            entry.surface_tolerance,
         )
 
     def _part(
@@ -207,6 +208,7 @@ class SceneBuilder:
         node: str | None = None,
         pinned: bool = False,
         units: str | None = None,
+        surface_tolerance: float | None = None,
     ) -> str:
         """transform: of coordinates of the file. units: of them, in the place of what it states."""
         id_ = self._ids.unique(wanted)
@@ -215,9 +217,8 @@ class SceneBuilder:
         if isinstance(file, MeshFile):
             own = stated_unit(units or file.units) or self._inputs[-1].unit
             transform, shape = placing_mesh(file, transform), shape_of_mesh(file, shape)
-            self._bodies.append(
-                Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
-            )
+            body = Body(id_, name, file, transform, groups, static, shape, node, pinned, own)
+            self._bodies.append(replace(body, surface_tolerance=surface_tolerance))
         else:
             reason = issue(file.code, str(file), body=id_, file=path)
             self._unreadable.append(Unreadable(id_, path, reason, groups, node, static))

@@ -36,7 +36,12 @@ DIRECTION_ERROR = Fraction(1, 1000)
 ID_DIGITS = 12
 TOUCH_FRACTION = 1e-3  # the default touch band, of the smaller body's diagonal, at most
 DEPTH_FIGURES = ("depth", "depth_bounds", "normal", "mtv", "mtv_moves", "mtv_verified")
-ALL_FIGURES = (*DEPTH_FIGURES, "distance", "witness", "quality", "volume", "volume_error")
+THICKNESS_FIGURES = ("thickness", "thickness_bounds", "ball")
+ALL_FIGURES = (
+    *DEPTH_FIGURES,
+    *THICKNESS_FIGURES,
+    *("distance", "witness", "quality", "volume", "volume_error"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +114,7 @@ def check_figures(finding: Finding, a: Placed, b: Placed) -> None:
     _check_distance_bounds(finding, a, b, rounding)
     _check_witness(finding, (a, b), rounding)
     _check_quality(finding)
+    _check_thickness(finding)
     _check_volume(finding, a, b)
 
 
@@ -254,6 +260,21 @@ def _check_quality(finding: Finding) -> None:
     expected = "bounded" if wide or finding.distance_bounds is not None else "exact"
     if finding.quality != expected:
         raise Rejected(f"the quality that follows is {expected!r}")
+
+
+def _check_thickness(finding: Finding) -> None:
+    """Its figures agree; what they claim is not proven."""
+    bounds, ball = finding.thickness_bounds, finding.ball
+    if (bounds is None) is not (finding.thickness is None) or (bounds is None and ball is not None):
+        raise Rejected("a thickness comes with its bounds, and a ball with a thickness")
+    if bounds is None:
+        return
+    if finding.exact_relation is not None and finding.exact_relation not in OVERLAPS:
+        raise Rejected("bodies without a common interior have no thickness")
+    if not bounds[0] <= bounds[1] == finding.thickness:
+        raise Rejected("the thickness is the upper end of its bounds")
+    if 2 * (0.0 if ball is None else ball.radius) < bounds[0]:
+        raise Rejected("the ball is thinner than the lower end of the thickness")
 
 
 def _check_volume(finding: Finding, a: Placed, b: Placed) -> None:

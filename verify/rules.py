@@ -18,7 +18,8 @@ from satcheck.report.report import Exempt, RuleReport
 from satcheck.verify.bodies import Placed
 
 GROUP = "group:"
-NUMBERS = ("max_depth", "max_volume", "clearance", "tolerance")
+LIMITS = ("max_depth", "max_thickness", "max_volume")
+NUMBERS = (*LIMITS, "clearance", "tolerance")
 # Of findings, from the least; `silenced` is an error of a pair whose rule says `none`.
 SEVERITIES = ("none", "silenced", "note", "warning", "error")
 
@@ -35,6 +36,7 @@ class Request:
     clearance: float | None
     allow_open: bool
     max_depth: float | None = None
+    max_thickness: float | None = None
     max_volume: float | None = None
     severity: str | None = None
     names: Mapping[str, str] = field(default_factory=dict)
@@ -47,11 +49,11 @@ class Request:
     @property
     def limited(self) -> bool:
         """The pair may overlap, within limits."""
-        return self.max_depth is not None or self.max_volume is not None
+        return any(getattr(self, key) is not None for key in LIMITS)
 
 
 # The keys of a rule that replace settings.
-TERMS = frozenset(("tolerance", "clearance", "max_depth", "max_volume", "severity"))
+TERMS = frozenset((*NUMBERS, "severity"))
 
 Terms = dict[str, Any]  # key of a rule -> its value
 # The facts about a body that rules depend on: its sides of rules, its ignored groups, and whether

@@ -124,11 +124,14 @@ def _limited(finding: Finding, request: Request, proven: ProvenFigures) -> Judge
 
 
 def _limits(finding: Finding, request: Request, proven: ProvenFigures) -> Iterator[_Limit]:
-    if request.max_depth is not None:
-        low, high = finding.depth_bounds or (None, None)
-        most, depth = Fraction(request.max_depth), proven.depth_at_most
+    bounds = {"max_depth": finding.depth_bounds, "max_thickness": finding.thickness_bounds}
+    for key, interval in bounds.items():
+        if (limit := getattr(request, key)) is None:
+            continue
+        low, high = interval or (None, None)
+        most, depth = Fraction(limit), proven.depth_at_most  # which no overlap is thicker than
         within = depth is not None and depth <= most * (1 + proven.rounding)
-        yield _Limit("max_depth", most, _fraction(low), _fraction(high), within)
+        yield _Limit(key, most, _fraction(low), _fraction(high), within)
     if request.max_volume is not None:
         volume, error = _fraction(finding.volume), _fraction(finding.volume_error)
         least = greatest = None

@@ -36,10 +36,11 @@ class Pair(Struct, frozen=True):
 
     By default the tolerance is the sum of the input precisions of both bodies. It is limited, so
     that coarse coordinates far from the origin do not hide a whole body. It is at least the
-    deviation of polygons from the curves that they replace. closer, farther: with --planar, how
-    much closer (or deeper) and how much farther apart the bodies may be than their polygons; else
-    0.0. paths: the relative motion of the bodies; None: they do not move. alone: no other pair
-    needs these bodies.
+    deviation of polygons from the curves that they replace. off: how far the surfaces of A and B
+    may be off: half the tolerance, or the surface tolerance of the body if that is more. closer,
+    farther: with --planar, how much closer (or deeper) and how much farther apart the bodies may be
+    than their polygons; else 0.0. paths: the relative motion of the bodies; None: they do not move.
+    alone: no other pair needs these bodies.
     """
 
     a: PlacedBody
@@ -52,6 +53,7 @@ class Pair(Struct, frozen=True):
     alone: bool = False
     tolerance: float = 0.0  # __post_init__ sets it
     asked_gap: float = 0.0  # __post_init__ sets it
+    off: tuple[float, float] = (0.0, 0.0)  # __post_init__ sets it
     closer: float = 0.0  # __post_init__ sets it
     farther: float = 0.0  # __post_init__ sets it
 
@@ -60,6 +62,9 @@ class Pair(Struct, frozen=True):
         if tolerance is None:
             tolerance = self._precision()
         force_setattr(self, "tolerance", tolerance)
+        tolerances = (self.a.surface_tolerance, self.b.surface_tolerance)
+        off_a, off_b = (max(0.5 * tolerance, own) for own in tolerances)
+        force_setattr(self, "off", (off_a, off_b))
         files = (self.a.body.file, self.b.body.file) if self.settings.planar else ()
         closer = sum((file.deviation for file in files), 0.0)
         farther = sum((file.deviation for file in files if not file.inscribed), 0.0)
@@ -77,6 +82,11 @@ class Pair(Struct, frozen=True):
             size = min(diagonal(body.bounds, axes) for body in (self.a, self.b))
         written = min(self.a.resolution + self.b.resolution, TOUCH_FRACTION * size)
         return max(written, self.a.body.file.deviation + self.b.body.file.deviation)
+
+    @property
+    def excuses(self) -> bool:
+        """Whether surfaces may be off by more than the touch band."""
+        return max(self.off) > 0.5 * self.tolerance
 
     @property
     def wants_distance(self) -> bool:

@@ -81,6 +81,7 @@ class SharedMesh:
         "has_sheets",
         "largest",
         "shape",
+        "surface_tolerance",
         "triangles",
     )
 
@@ -88,6 +89,7 @@ class SharedMesh:
         """bounds: of the mesh, where known."""
         self.file = file
         self.triangles = file.mesh.triangle_count
+        self.surface_tolerance = settings.surface_tolerance
         self.largest = largest_coordinate(bounds or file.mesh.bounds)
         self.geometry = core.Geometry(
             file.mesh, file.health.solid, file.topology.plain_solid, settings.allow_open
@@ -129,6 +131,11 @@ class SharedMesh:
             return error
 
 
+def _surface_tolerance(body: Body, setting: float | None) -> float:
+    """That of the scene, or else of the check."""
+    return (setting or 0.0) if body.surface_tolerance is None else body.surface_tolerance
+
+
 def _curved(body: Body) -> CurvedShape | None:
     """ValueError if the transform does not give a shape of this kind."""
     if body.shape is None or not is_curved(body.shape):
@@ -147,7 +154,7 @@ def _checked(body: Body, shared: SharedMesh) -> Placed:
 
 class PlacedBody:
     """World frame. bounds: ((x, y, z), (x, y, z)), and their diagonal; resolution: the input
-    precision, world units.
+    precision, world units; surface_tolerance: how far its surface may be off.
 
     curved: the shape of a curved body; its mesh is then only inscribed, and its bounds enclose the
     shape. Most bodies of a large scene are far from all others, so all other data are made on
@@ -165,6 +172,7 @@ class PlacedBody:
         "resolution",
         "shared",
         "solid",
+        "surface_tolerance",
     )
 
     def __init__(self, body: Body, shared: SharedMesh, bounds: Box | None = None) -> None:
@@ -179,6 +187,7 @@ class PlacedBody:
         self.diagonal = diagonal(self.bounds)
         self.resolution = resolution_in_world(body.file, body.transform, shared.largest)
         self.solid = body.file.health.solid
+        self.surface_tolerance = _surface_tolerance(body, shared.surface_tolerance)
         self._geometry: core.PlacedGeometry | None = None
         self._checked: Placed | None = None
 

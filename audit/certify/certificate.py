@@ -65,6 +65,7 @@ def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
         pair.request.clearance,
         pair.settings.allow_open,
         pair.request.max_depth,
+        pair.request.max_thickness,
         pair.request.max_volume,
         pair.request.severity,
         pair.request.rules or {},

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from msgspec import Struct
@@ -10,7 +9,6 @@ from msgspec import Struct
 from satcheck import core
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.verdict import Verdict
-from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
 from satcheck.audit.figures.contacts import MAX_TRIANGLE_PAIRS
 from satcheck.audit.request.trace import Trace
 from satcheck.report.components import Component, Components, Passing
@@ -52,7 +50,7 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
     pair."""
     a, b, width = pair.a.surface(), pair.b.surface(), pair.settings.depth_width
     components = overlap.components
-    work = math.ceil(pair.settings.depth_budget * WORK_PER_SECOND)
+    work = pair.settings.work
     for place, hull in enumerate(core.component_balls(a, b, overlap)):
         component, ball = components[place], Ball(hull.lower, hull.upper, hull.centre)
         if component.resolved and ball.upper - ball.lower > width * ball.upper:

@@ -22,13 +22,9 @@ from satcheck.audit.ladder.cheap_bounds import gap_around, way_out_of_hulls
 from satcheck.audit.ladder.inner_bodies import depth_of_parts
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.tolerances import EXACT_WIDTH
-from satcheck.core.conventions import axis_across
 from satcheck.core.tolerances import UNIT_ROUNDOFF
 from satcheck.report.report import Vector
 
-# Steps of the search in a second of `depth_budget`: what a slow machine of today gets done, so that
-# the budget is not exceeded there. A number and not a clock: the same input, the same answer.
-WORK_PER_SECOND = 400_000_000
 # An interval on both sides of a limit is narrowed again, each time by this factor.
 NARROWER = 8
 
@@ -75,7 +71,7 @@ def _searched(
 ) -> tuple[float, float, Vector | None]:
     """Bounds and a way out that are narrow enough, also to decide a limit of the depth, as far as
     the budget goes."""
-    work, width = _budget(pair), pair.settings.depth_width
+    work, width = pair.settings.work, pair.settings.depth_width
     interval = search(pair, lower, upper, trace)
     way_out, upper = interval.way_out, min(upper, interval.bound)
     while interval.stop == "narrow" and width > EXACT_WIDTH and _straddles(pair, interval):
@@ -90,10 +86,6 @@ def _searched(
 def _straddles(pair: Pair, interval: core.DepthInterval) -> bool:
     limit = pair.request.max_depth
     return limit is not None and interval.lower <= limit < interval.upper
-
-
-def _budget(pair: Pair) -> int:
-    return math.ceil(pair.settings.depth_budget * WORK_PER_SECOND)
 
 
 def search(
@@ -113,8 +105,8 @@ def search(
         upper=upper,
         lower=min(lower, upper),
         width=pair.settings.depth_width if width is None else width,
-        work=_budget(pair) if work is None else work,
-        across=-1 if (plane := pair.settings.planar) is None else axis_across(plane),
+        work=pair.settings.work if work is None else work,
+        across=pair.settings.across,
     )
     reason = "" if interval.stop == "narrow" else "; the budget ended the search"
     trace.record(

@@ -1,11 +1,12 @@
 """The touch band: whether the signed distance of a pair is proven to be within the tolerance.
 
 A gap is within the band if it is at most the tolerance. An overlap is within the band if a verified
-translation of A, at most as long as the tolerance, ends it. Two convex bodies need no search. For
-others the quick proofs of the contrary come first: one crossing pair of triangles that is deeper, a
-wider gap around a body inside another. Then the core looks for a way out of the hulls or off the
-triangles that A crosses (`core/native/scene/way_within.hpp`). A wide band is searched as the depth
-is.
+translation of A, at most as long as the tolerance, ends it. The core looks for one out of the hulls
+or off the triangles that A crosses (`core/native/scene/way_within.hpp`). An overlap of closed
+bodies is within it, too, if no ball thicker than the tolerance lies in both; one point of such a
+ball is the quick proof of the contrary (`core/native/scene/thick_point.hpp`), else that is searched
+(`explained.py`). Of other bodies the proof is a crossing pair of triangles that is deeper, or a
+wider gap around a body inside another, and a wide band is searched as the depth is.
 """
 
 from __future__ import annotations
@@ -55,19 +56,21 @@ Side = Literal["open", "within", "deeper", "hidden"]
 
 class Band(Struct, frozen=True):
     """Whether an overlap is within the tolerance. side: as of core.Climb.band. move: a translation
-    of A, at most the tolerance long, after which it is free; None: none was found."""
+    of A, at most the tolerance long, after which it is free; None: none was found. why: it is
+    hidden."""
 
     side: Side
     move: Vector | None = None
+    why: str = "rounding hides whether the overlap is within the tolerance"
 
 
 def touch_band(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
     """For an overlap."""
-    if verdict.signed_distance is not None:  # no triangles are needed
-        return Band(_side_of_convex(pair, verdict, verdict.signed_distance))
+    if verdict.signed_distance is not None:
+        return _band_of_convex(pair, verdict, verdict.signed_distance, trace)
     if not pair.may("exact"):
         return Band("within" if estimate_is_within(pair, trace) else "open")
-    if pair.tolerance == 0:
+    if max(pair.off) == 0:
         return Band("deeper")
     if pair.curved:
         move = _move_off_mesh(pair, trace)
@@ -77,10 +80,30 @@ def touch_band(pair: Pair, verdict: Verdict, trace: Trace) -> Band:
     return _band_of_meshes(pair, verdict.climb, trace)
 
 
-def _side_of_convex(pair: Pair, verdict: Verdict, signed: core.PairResult | Signed) -> Side:
-    """The core knows that of meshes."""
-    if verdict.climb is not None:
-        return verdict.climb.band or "open"
+def _explained(pair: Pair, trace: Trace, nanoseconds: int = 0) -> Band | None:
+    """Of closed bodies, whatever the way out; None: not decided. nanoseconds: spent before."""
+    from satcheck.audit.figures.explained import explain, may_be_explained
+
+    if not may_be_explained(pair):
+        return None
+    side = explain(pair, trace, nanoseconds)
+    if side == "within" or side == "deeper":
+        return Band(side)
+    if side == "undecided" and pair.excuses:
+        return Band("hidden", why="whether a point lies deeper in both than the surface tolerance")
+    return None
+
+
+def _band_of_convex(
+    pair: Pair, verdict: Verdict, signed: core.PairResult | Signed, trace: Trace
+) -> Band:
+    climb = verdict.climb
+    if climb is not None and climb.thick is False and climb.band != "within":
+        return _explained(pair, trace) or Band(climb.band or "open")
+    return Band(_side_by_depth(pair, signed) if climb is None else climb.band or "open")
+
+
+def _side_by_depth(pair: Pair, signed: core.PairResult | Signed) -> Side:
     least, most = -(signed.upper or 0.0), -(signed.lower or 0.0)
     if pair.tolerance == 0 or least > pair.tolerance:
         return "deeper"
@@ -95,10 +118,17 @@ def _side_of_convex(pair: Pair, verdict: Verdict, signed: core.PairResult | Sign
 def _band_of_meshes(pair: Pair, climb: core.Climb, trace: Trace) -> Band:
     """What the core found, and where that leaves the band open, what a search finds."""
     cost = climb.band_nanoseconds
-    if climb.band == "deeper":
-        trace.add("touch-band", "deeper", f"{_band(pair)}: at least {climb.deepest:.3g} deep", cost)
-        return Band("deeper")
     band = Band(climb.band or "open", climb.way_out)
+    if climb.thick is False and band.side != "within":
+        explained = _explained(pair, trace, cost)
+        if explained is not None:
+            return explained
+    if band.side == "deeper":
+        deep = (
+            "a point lies deeper in both" if climb.thick else f"at least {climb.deepest:.3g} deep"
+        )
+        trace.add("touch-band", "deeper", f"{_band(pair)}: {deep}", cost)
+        return band
     if band.side != "within":
         band = _searched(pair, climb.least_depth or 0.0, trace) or band
     if band.move is not None:

@@ -22,6 +22,13 @@ class CommonVolume(Struct, frozen=True):
     error: float | None = None
     refusal: str | None = None
 
+    @property
+    def bounds(self) -> tuple[float, float] | tuple[None, None]:
+        """As far as the error tells; None: not known."""
+        if self.volume is None or self.error is None:
+            return None, None
+        return self.volume - self.error, self.volume + self.error
+
 
 NOTHING = CommonVolume(0.0, 0.0)
 
@@ -59,10 +66,9 @@ def _require_measurable(body: PlacedBody) -> None:
 
 def _measured(pair: Pair, verdict: Verdict, trace: Trace) -> CommonVolume:
     estimate = _estimated(pair, verdict, trace)
-    limit = pair.request.max_volume
-    if limit is None or estimate.volume is None or estimate.error is None:
+    limit, (least, greatest) = pair.request.max_volume, estimate.bounds
+    if limit is None or least is None or greatest is None:
         return estimate
-    least, greatest = estimate.volume - estimate.error, estimate.volume + estimate.error
     if is_within(limit, least, greatest) is not None:
         return estimate
     return _exact(pair, trace) or estimate

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from satcheck.audit.request.settings import Accuracy
     from satcheck.report.report import Effect
 
-    Request = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, bool]
+    Request = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, float, float, bool]
     Rung = Literal["aabb", "obb", "hull", "triangles"]
 
 # The last rung that the core climbs for each --accuracy. The core has no parts.
@@ -68,11 +68,13 @@ def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
     """Whether the pair needs computation after the climb."""
     if climb is None or pair.settings.accuracy == "parts" or pair.paths is not None:
         return True
-    if climb.band in ("open", "hidden") or not _EXTRAS.isdisjoint(pair.request.by):
+    if climb.band in ("open", "hidden") or climb.thick is False:
+        return True
+    if not _EXTRAS.isdisjoint(pair.request.by):
         return True
     return "depth" in pair.request.by and climb.relation in OVERLAPS
 
 
 def _request(pair: Pair) -> Request:
     a, b = pair.a.geometry, pair.b.geometry
-    return a, b, pair.asked_gap, pair.tolerance, pair.wants_distance
+    return a, b, pair.asked_gap, pair.tolerance, *pair.off, pair.wants_distance

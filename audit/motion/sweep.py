@@ -80,7 +80,8 @@ class _Answer:
     def _hit(self, upper: float) -> Sweep:
         pair, impact = self._pair, self._impact
         worst = None
-        if pair.pair.request.wants("depth"):
+        request = pair.pair.request
+        if request.wants("depth") or request.max_thickness is not None:
             worst = least_distance(pair) if pair.convex else deepest_pose(pair, upper)
         return Sweep(
             relation="penetrating",

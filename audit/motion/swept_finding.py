@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from satcheck.audit.bodies.pair import Pair, Paths
 from satcheck.audit.finding import Examined
 from satcheck.audit.motion.sweep import sweep
-from satcheck.audit.request.planner import Request
+from satcheck.audit.request.planner import LIMITS, Request
 from satcheck.audit.request.trace import Trace
 from satcheck.audit.severity import Judgement, by_rule, clearance_judgement
 from satcheck.audit.tolerances import EXACT_WIDTH
@@ -80,15 +80,16 @@ def _clearance(swept: Sweep, request: Request) -> Judgement | None:
 
 
 def _limited(swept: Sweep, pair: Pair) -> Judgement:
-    """The judgement of a pair that may overlap within limits. Volumes in motion are not
-    measured."""
+    """The judgement of a pair that may overlap within limits. Volumes and thicknesses in motion are
+    not measured; no overlap is thicker than it is deep."""
     request = pair.request
     depth = None if swept.worst is None else swept.worst.depth
-    rule = request.rule("max_depth") or request.rule("max_volume")
-    if request.max_depth is not None and depth is not None:
-        if depth[0] > request.max_depth:
+    rule = next(filter(None, map(request.rule, LIMITS)))
+    lengths = [most for most in (request.max_depth, request.max_thickness) if most is not None]
+    if lengths and depth is not None:
+        if request.max_depth is not None and depth[0] > request.max_depth:
             return Judgement("error", rule)
-        if depth[1] <= request.max_depth * (1 + EXACT_WIDTH) and request.max_volume is None:
+        if depth[1] <= min(lengths) * (1 + EXACT_WIDTH) and request.max_volume is None:
             return Judgement("note", rule)
     reason = "undecided: whether the overlap on the way is within its limits"
     return Judgement("warning", rule, "limit", reason)

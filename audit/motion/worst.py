@@ -129,7 +129,7 @@ def _least(pair: MovingPair, bounds: Bounds, enough: float | None) -> Worst | No
 def _depth_at(pair: MovingPair, t: float, budget: float) -> tuple[float, float]:
     """Proven bounds of the depth; 0.0 if the bodies do not overlap."""
     placed = pair.placed(t)
-    request = replace(placed.request, by={**placed.request.by, "depth": ALWAYS})
+    request = replace(placed.request, by={"overlap": ALWAYS, "depth": ALWAYS})
     settings = replace(placed.settings, depth_budget=budget)
     finding = examine(replace(placed, settings=settings, request=request), Trace()).finding
     if finding.relation not in OVERLAPS or finding.depth_bounds is None:

@@ -20,6 +20,7 @@ _EFFECT_OF_STAGE: dict[str, Effect] = {
     "depth": "depth",
     "search": "depth",
     "verify": "depth",
+    "thickness": "thickness",
     "distance": "distance",
     "volume": "volume",
     "contacts": "contacts",
@@ -66,6 +67,7 @@ class _Alike:
     def unanswered(self) -> set[Effect]:
         """What has nothing to show for its stage, because it was refused, for instance."""
         answers: dict[Effect, object] = {
+            "thickness": self.finding.thickness,
             "volume": self.finding.volume,
             "contacts": self.finding.contacts,
             "certificate": self.finding.certificate,
@@ -128,6 +130,7 @@ def _grouped(close: Iterable[tuple[Request, Finding]]) -> list[_Alike]:
             finding.at_rest,
             finding.exact_relation,
             finding.depth is None,
+            finding.thickness is None,
             finding.volume is None,
             finding.contacts is None,
             finding.certificate is None,

@@ -14,14 +14,18 @@ from satcheck.audit.request.rule_book import NO_TERMS, RuleBook, Terms
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.report.report import Effect
+from satcheck.report.settings import StatedSettings
 from satcheck.scene.rules import Rule, Severity
 
 # The key by which a rule asks for an effect.
 ASKING_KEYS: dict[Effect, str] = {
     "depth": "max_depth",
+    "thickness": "max_thickness",
     "distance": "clearance",
     "volume": "max_volume",
 }
+# The keys of what an overlap may have.
+LIMITS = ("max_depth", "max_thickness", "max_volume")
 ALWAYS = "always"
 MOTIONS = "the motions of the scene"
 FOR_MESHES = "by default, for mesh files alone"
@@ -32,14 +36,15 @@ class Request(Struct, frozen=True):
 
     by: effect -> the flags and rules that need it; no entry: none does.
     clearance: None where there is none to keep. tolerance: None: the input precision.
-    max_depth, max_volume: what an overlap is allowed; severity: of the errors of the pair; None:
-    as ever. rules: key -> the name of the rule that set it.
+    max_depth, max_thickness, max_volume: what an overlap is allowed; severity: of the errors of the
+    pair; None: as ever. rules: key -> the name of the rule that set it.
     """
 
     by: Mapping[Effect, str]
     clearance: float | None = None
     tolerance: float | None = None
     max_depth: float | None = None
+    max_thickness: float | None = None
     max_volume: float | None = None
     severity: Severity | None = None
     rules: Mapping[str, str] | None = None
@@ -54,7 +59,7 @@ class Request(Struct, frozen=True):
     @property
     def limited(self) -> bool:
         """The pair may overlap, within limits."""
-        return self.max_depth is not None or self.max_volume is not None
+        return not (self.max_depth is self.max_thickness is self.max_volume is None)
 
     def rule(self, key: str) -> str | None:
         """The name of the rule that set this key."""
@@ -93,10 +98,10 @@ class Planner:
         rules = (rule.name for rule in self._book.rules if key and _asks(rule, key))
         return tuple(dict.fromkeys(([flag] if flag else []) + list(rules)))
 
-    @property
-    def depth(self) -> bool:
-        """Whether the depth of every overlap is computed."""
-        return not self._composed if self.settings.depth is None else self.settings.depth
+    def stated(self) -> StatedSettings:
+        """The settings, and whether the depth and the thickness of every overlap are computed."""
+        asked = asked_by(self.settings, composed=self._composed)
+        return self.settings.stated(depth=asked.wants("depth"), thickness=asked.wants("thickness"))
 
     @property
     def lengths_differ(self) -> bool:
@@ -131,7 +136,7 @@ class Planner:
 def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Request:
     """What flags and rules ask together. A rule that sets a key stands above the flag, and a pair
     that may overlap within limits has no clearance to keep."""
-    limits = {"max_depth": terms.max_depth, "max_volume": terms.max_volume}
+    limits = {key: getattr(terms, key) for key in LIMITS}
     limited = any(limits.values())
     clearance = None if limited else settings.clearance
     if terms.clearance is not None and not limited:
@@ -142,9 +147,12 @@ def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = Fa
         "tolerance": terms.tolerance,
         "severity": terms.severity,
     }
+    thickness = settings.depth if settings.thickness is None else settings.thickness
     by: dict[Effect, str | None] = {
         "overlap": ALWAYS,
-        "depth": _who_wants_depth(settings, terms.max_depth, composed),
+        "depth": _who_wants_figure(settings.depth, terms.max_depth, composed),
+        "thickness": _who_wants_figure(thickness, terms.max_thickness, composed)
+        or _who_excuses(settings),
         "distance": None if clearance is None else _name(terms.clearance) or "--clearance",
         "volume": "--volume" if settings.volume else _name(terms.max_volume),
         "contacts": "--contacts" if settings.contacts else None,
@@ -156,19 +164,25 @@ def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = Fa
         by={effect: who for effect, who in by.items() if who},
         clearance=clearance,
         tolerance=_value(terms.tolerance, "tolerance", settings.tolerance),
-        max_depth=_value(terms.max_depth, "max_depth", None),
-        max_volume=_value(terms.max_volume, "max_volume", None),
+        **{key: _value(rule, key, None) for key, rule in limits.items()},
         severity=None if terms.severity is None else terms.severity.severity,
         rules={key: rule.name for key, rule in deciding.items() if rule is not None} or None,
     )
 
 
-def _who_wants_depth(settings: Settings, rule: Rule | None, composed: bool) -> str | None:
-    if settings.depth:
+def _who_wants_figure(setting: bool | None, rule: Rule | None, composed: bool) -> str | None:
+    """The depth or the thickness. rule: the one that limits it."""
+    if setting:
         return "--depth"
     if rule is not None:
         return rule.name
-    return FOR_MESHES if settings.depth is None and not composed else None
+    return FOR_MESHES if setting is None and not composed else None
+
+
+def _who_excuses(settings: Settings) -> str | None:
+    if settings.surface_tolerance is None or settings.thickness is False:
+        return None
+    return "--surface-tolerance"
 
 
 def _asks(rule: Rule, key: str) -> bool:

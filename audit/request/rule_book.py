@@ -24,6 +24,7 @@ class Terms(Struct, frozen=True):
 
     allowed: Rule | None = None
     max_depth: Rule | None = None
+    max_thickness: Rule | None = None
     max_volume: Rule | None = None
     clearance: Rule | None = None
     tolerance: Rule | None = None

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args, get_type_hints
 
 from msgspec import Struct, ValidationError, convert
 
-from satcheck.core.conventions import PLANES, Plane
+from satcheck.core.conventions import PLANES, Plane, axis_across
 from satcheck.core.errors import SatcheckError
 from satcheck.report.settings import Accuracy as Accuracy
 from satcheck.report.settings import Method as Method
@@ -20,11 +20,18 @@ METHODS: tuple[Method, ...] = get_args(Method)
 FailOn = Literal["error", "warning", "note"]
 FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
 
-# The depth interval of a concave pair is narrowed to this width, relative to its upper end.
+# The intervals of the depth of a concave pair, and of a thickness, are narrowed to this width,
+# relative to their upper ends.
 DEPTH_WIDTH = 0.01
-# Seconds, in work units of a slow machine, that narrowing the interval of one pair may take.
+THICKNESS_WIDTH = 0.01
+# Seconds, in work units of a slow machine, that narrowing one interval of a pair may take.
 DEPTH_BUDGET = 2.0
 MOST_BUDGET = 86400.0
+# Steps of a search in such a second: what a slow machine of today gets done, so that the budget is
+# not exceeded there. A number and not a clock: the same input, the same answer.
+WORK_PER_SECOND = 400_000_000
+# Of the budget of the depth, what a search of the thickness may spend.
+THICKNESS_SHARE = 0.125
 # Up to this many pairs a report lists all, those that the broad phase settled too, and a table has
 # a row for each.
 LISTED_PAIRS = 60
@@ -37,11 +44,14 @@ class Settings(Struct, frozen=True):
 
     depth: depth and MTV of overlapping pairs; None: of mesh files, and in a scene that places its
     bodies only where a rule asks.
+    thickness: of overlapping pairs; None: wherever the depth is no matter of a rule.
     volume: the volume that bodies have in common; volume_*: what a pair may cost.
     contacts: where surfaces meet; contact_points: how many points a pair may list.
     components: the connected components of each overlap, with their thickness.
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
+    surface_tolerance: how far the surfaces of bodies may be off where their scene does not say;
+    None: 0.
     accuracy: the highest rung of the ladder that may be climbed.
     method: of the convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster of them.
     Changes no relation, and no depth beyond its last digits.
@@ -51,14 +61,16 @@ class Settings(Struct, frozen=True):
     planar: bodies are their outlines in this plane, and answers lie in it; None: as they are.
     certificate: every proven finding carries evidence that `satcheck verify` checks.
     list_pruned: findings for pairs that the broad phase settled; None: up to LISTED_PAIRS pairs.
-    depth_width: relative width of a depth interval that is narrow enough.
-    depth_budget: what may be spent on one such interval, in seconds of a slow machine: it buys a
-    number of steps, not a time, so that the same input gives the same answer everywhere.
+    depth_width, thickness_width: relative width of an interval that is narrow enough.
+    depth_budget: what may be spent on one interval of a depth, in seconds of a slow machine, and an
+    eighth of it on one of a thickness: it buys a number of steps, not a time, so that the same
+    input gives the same answer everywhere.
     part_*: how concave meshes are split into convex parts, and what that may cost.
     jobs: threads over pairs, 0 for one per core. Changes no answer, nor does cache or timings.
     """
 
     depth: bool | None = None
+    thickness: bool | None = None
     volume: bool = False
     volume_seconds: float = 60.0
     volume_megabytes: int = 4096
@@ -67,6 +79,7 @@ class Settings(Struct, frozen=True):
     components: bool = False
     clearance: float | None = None
     tolerance: float | None = None
+    surface_tolerance: float | None = None
     accuracy: Accuracy = "exact"
     method: Method = "auto"
     fail_on: FailOn = "error"
@@ -79,6 +92,7 @@ class Settings(Struct, frozen=True):
     list_pruned: bool | None = None
     depth_width: float = DEPTH_WIDTH
     depth_budget: float = DEPTH_BUDGET
+    thickness_width: float = THICKNESS_WIDTH
     part_threshold: float = 0.05
     part_seed: int = 0
     part_seconds: float = 120.0
@@ -109,13 +123,14 @@ class Settings(Struct, frozen=True):
                 raise _refused(f"{name} is about bodies in space: not with planar")
         if self.contact_points < 0:
             raise _refused(f"contact_points must be 0 or more, not {self.contact_points!r}")
-        if not 0 < self.depth_width < 1:
-            raise _refused(f"depth_width must lie between 0 and 1, not {self.depth_width!r}")
+        for name in ("depth_width", "thickness_width"):
+            if not 0 < getattr(self, name) < 1:
+                raise _refused(f"{name} must lie between 0 and 1, not {getattr(self, name)!r}")
         if not 0 < self.depth_budget <= MOST_BUDGET:
             raise _refused(
                 f"depth_budget must lie between 0 and {MOST_BUDGET:g} s, not {self.depth_budget!r}"
             )
-        for name in ("clearance", "tolerance"):
+        for name in ("clearance", "tolerance", "surface_tolerance"):
             value = getattr(self, name)
             if value is not None and not (math.isfinite(value) and value >= 0):
                 raise _refused(f"{name} must be a finite length >= 0, not {value!r}")
@@ -125,11 +140,27 @@ class Settings(Struct, frozen=True):
         if self.jobs < 0:
             raise _refused(f"jobs must be 0 (one per core) or more, not {self.jobs!r}")
 
-    def stated(self, *, depth: bool) -> StatedSettings:
-        """Everything that can change an answer, and nothing that cannot. depth: whether it is
-        computed."""
+    @property
+    def work(self) -> int:
+        """The steps of one search of a depth."""
+        return math.ceil(self.depth_budget * WORK_PER_SECOND)
+
+    @property
+    def thickness_work(self) -> int:
+        """Those of one search of a thickness."""
+        return math.ceil(THICKNESS_SHARE * self.work)
+
+    @property
+    def across(self) -> int:
+        """The axis across the plane of the check; -1: it is in space."""
+        return -1 if self.planar is None else axis_across(self.planar)
+
+    def stated(self, *, depth: bool, thickness: bool) -> StatedSettings:
+        """Everything that can change an answer, and nothing that cannot. depth, thickness: whether
+        those of every overlap are computed."""
         return StatedSettings(
             depth=depth,
+            thickness=thickness,
             volume=self.volume,
             volume_seconds=self.volume_seconds,
             volume_megabytes=self.volume_megabytes,
@@ -138,6 +169,7 @@ class Settings(Struct, frozen=True):
             components=self.components,
             clearance=self.clearance,
             tolerance="input-precision" if self.tolerance is None else self.tolerance,
+            surface_tolerance=self.surface_tolerance,
             accuracy=self.accuracy,
             method=self.method,
             fail_on=self.fail_on,
@@ -147,6 +179,7 @@ class Settings(Struct, frozen=True):
             list_pruned=self.list_pruned,
             depth_width=self.depth_width,
             depth_budget=self.depth_budget,
+            thickness_width=self.thickness_width,
             part_threshold=self.part_threshold,
             part_seed=self.part_seed,
             part_seconds=self.part_seconds,

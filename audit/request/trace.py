@@ -29,6 +29,11 @@ class Trace:
         self.stages.append(Stage(stage, result, elapsed, detail))
         self._since = now
 
+    def add_since(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
+        """A stage of which so much ran elsewhere, before."""
+        self._since -= nanoseconds
+        self.record(stage, result, detail)
+
     def climbed(self, climb: Climb) -> None:
         """The rungs of the core, in its words."""
         self.stages += climb.stages(Stage)

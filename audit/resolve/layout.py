@@ -59,6 +59,7 @@ class Layout:
         self.settings = replace(
             settings,
             depth=True,
+            thickness=False,
             depth_width=WAY_OUT_WIDTH,
             depth_budget=WAY_OUT_BUDGET,
             contacts=False,

@@ -62,12 +62,15 @@ def state_of(pair: Pair, finding: Finding) -> PairState:
 
 
 def may_overlap(pair: Pair) -> float:
-    """How deep the bodies may overlap. If depth is an interval, the limit is reduced by its width,
-    so that the upper end stays below the limit. A limit of the volume gives no length."""
-    if pair.request.max_depth is None or pair.request.max_volume is not None:
+    """How deep the bodies may overlap; no overlap is thicker than it is deep. If depth is an
+    interval, the limit is reduced by its width, so that the upper end stays below the limit. A
+    limit of the volume gives no length."""
+    limits = [pair.request.max_depth, pair.request.max_thickness]
+    most = min((limit for limit in limits if limit is not None), default=0.0)
+    if pair.request.max_volume is not None:
         return 0.0
     width = 0.0 if pair.both_convex else pair.settings.depth_width
-    return pair.request.max_depth * (1 - width)
+    return most * (1 - width)
 
 
 def is_overlap_excused(finding: Finding) -> bool:

@@ -19,13 +19,12 @@ import numpy as np
 
 from satcheck import core
 from satcheck.audit.bodies.placed_body import PlacedBody
-from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
 from satcheck.audit.figures.verify import FREE
 from satcheck.audit.resolve.layout import Layout
 from satcheck.audit.resolve.pull_back import pull_back, swept
 from satcheck.audit.resolve.rounds import Rounds
 from satcheck.audit.resolve.walls import ORIGIN, BodyPair
-from satcheck.core.conventions import Vector, axis_across
+from satcheck.core.conventions import Vector
 
 # A body with more triangles around it is not tried.
 MOST_TRIANGLES = 500_000
@@ -130,8 +129,8 @@ def way_alone(layout: Layout, i: int, longest: float) -> Vector | None:
         upper=longest,
         lower=0.0,
         width=settings.depth_width,
-        work=math.ceil(settings.depth_budget * WORK_PER_SECOND),
-        across=-1 if settings.planar is None else axis_across(settings.planar),
+        work=settings.work,
+        across=settings.across,
     ).way_out
 
 

@@ -122,8 +122,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--depth/--no-depth",
     default=DEFAULTS.depth,
-    help="Find how deep bodies overlap, and the shortest way out.  [default: depth for mesh files "
-    "of one body each; otherwise only where a rule needs it]",
+    help="Find how deep and how thick overlaps are, and the shortest way out.  [default: depth for "
+    "mesh files of one body each; otherwise only where a rule needs it]",
 )
 @click.option(
     "--contacts",
@@ -143,6 +143,13 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Also report pairs with a gap smaller than this, and the gap.",
 )
 @tolerance_option
+@click.option(
+    "--surface-tolerance",
+    type=length,
+    help="How far the surfaces of closed bodies may be off. An overlap that no point shows, deeper "
+    "than this in both, counts as touching. satcheck suggest --surface-tolerance measures one.  "
+    "[default: as the scene says; else 0]",
+)
 @click.option(
     "--accuracy",
     type=click.Choice(ACCURACIES),
@@ -167,9 +174,18 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="SECONDS",
     default=DEFAULTS.depth_budget,
     show_default=True,
-    help="Stop narrowing after this much work on a pair. The work is counted in "
-    "steps, which a slow machine does in that many seconds, so the answer is the same on every "
-    "machine.",
+    help="Stop narrowing the depth of a pair after this much work, and its thickness after an "
+    "eighth of it. The work is counted in steps, which a slow machine does in that many seconds, "
+    "so the answer is the same on every machine.",
+)
+@click.option(
+    "--thickness-width",
+    type=click.FloatRange(0, 1, min_open=True, max_open=True),
+    metavar="RATIO",
+    default=DEFAULTS.thickness_width,
+    show_default=True,
+    help="Narrow the interval of the thickness of an overlap to this width, relative to its upper "
+    "end.",
 )
 @planar_option
 @split_option

@@ -14,7 +14,7 @@ from msgspec import Struct
 from rich.cells import cell_len, chop_cells
 
 from satcheck.cli.report.numbers import bounds, duration, number, vector
-from satcheck.cli.report.words import contacts, depth, in_motion
+from satcheck.cli.report.words import contacts, in_motion, interval
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -61,7 +61,7 @@ class Layout(Struct, frozen=True):
 
 def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool) -> list[Column]:
     """Columns that would be empty in every row are left out."""
-    known, some_deep = unit_of(units), any(finding.depth is not None for finding in findings)
+    known = unit_of(units)
     unit = f" ({known})" if known else ""
     placed = " as placed" if any(finding.motion is not None for finding in findings) else ""
 
@@ -75,12 +75,8 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column("B", lambda finding: finding.b),
         column("relation", lambda finding: finding.relation),
         column(f"gap{unit}", _gap, right=True, folds=True),
-        column(
-            f"depth{unit}",
-            lambda finding: depth(finding) or (_unasked(finding) if some_deep else ""),
-            right=True,
-            folds=True,
-        ),
+        column(f"thickness{unit}", _overlap("thickness", findings), right=True, folds=True),
+        column(f"depth{unit}", _overlap("depth", findings), right=True, folds=True),
         column(f"move A by{unit}", _mtv, folds=True),
         column(f"volume{placed}{f' ({known}^3)' if known else ''}", _volume, right=True),
         column(f"contact{placed}", contacts, folds=True),
@@ -156,8 +152,18 @@ def _gap(finding: Finding) -> str:
     return number(finding.distance) if between is None else bounds(*between)
 
 
-def _unasked(finding: Finding) -> str:
-    return "not asked" if finding.at_rest in OVERLAPS else ""
+def _overlap(figure: str, findings: Sequence[Finding]) -> Callable[[Finding], str]:
+    """The cell of the thickness or the depth; where any is known, it says why others are not."""
+    some = any(getattr(finding, figure) is not None for finding in findings)
+
+    def cell(finding: Finding) -> str:
+        text = interval(getattr(finding, f"{figure}_bounds"))
+        if text or not some or finding.at_rest not in OVERLAPS:
+            return text
+        tried = any(stage.stage == figure for stage in finding.plan)
+        return "not known" if tried else "not asked"
+
+    return cell
 
 
 def _volume(finding: Finding) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from satcheck.cli.report.lines import YELLOW
@@ -39,11 +39,12 @@ class Remark(NamedTuple):
 
 def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
     """One line a pair for the touch band and for what was not decided, one a body otherwise."""
+    tolerances = {body.id: body.surface_tolerance or 0.0 for body in report.bodies}
     lines = [
         Remark(line)
         for finding in shown
         for line in (
-            *_band(finding),
+            *_band(finding, tolerances),
             *_undecided(finding, report),
             *_ruled(finding, report),
             *_moving(finding, unit_of(report.units)),
@@ -63,13 +64,17 @@ def is_lost(body: BodyReport) -> bool:
     return body.triangles is None
 
 
-def _band(finding: Finding) -> list[str]:
-    """What touching is without its tolerance."""
+def _band(finding: Finding, tolerances: Mapping[str, float]) -> list[str]:
+    """What touching is without its tolerance. tolerances: of the surfaces of bodies."""
     if finding.at_rest != "touching" or finding.exact_relation in (None, "touching"):
         return []
-    verb = "are apart" if finding.exact_relation == "separated" else "overlap"
-    band = number(finding.tolerance or 0.0)
-    return [f"{finding.a} and {finding.b} {verb}, but by no more than the tolerance {band}"]
+    pair, band = f"{finding.a} and {finding.b}", number(finding.tolerance or 0.0)
+    if finding.exact_relation == "separated":
+        return [f"{pair} are apart, but by no more than the tolerance {band}"]
+    off = max(tolerances.get(id_, 0.0) for id_ in (finding.a, finding.b))
+    if off > 0.5 * (finding.tolerance or 0.0):
+        return [f"{pair} overlap, but no deeper than their surfaces may be off"]
+    return [f"{pair} overlap, but by no more than the tolerance {band}"]
 
 
 def _undecided(finding: Finding, report: Report) -> list[str]:
@@ -97,7 +102,11 @@ def _ruled(finding: Finding, report: Report) -> list[str]:
 def _limits(rule: RuleReport, unit: str | None, *, overlap: bool) -> list[str]:
     """What the rule asks of such a pair: `clearance 5 mm`, or what an overlap is held against."""
     asked = (
-        {"max_depth": (rule.max_depth, ""), "max_volume": (rule.max_volume, "^3")}
+        {
+            "max_depth": (rule.max_depth, ""),
+            "max_thickness": (rule.max_thickness, ""),
+            "max_volume": (rule.max_volume, "^3"),
+        }
         if overlap
         else {"clearance": (rule.clearance, "")}
     )

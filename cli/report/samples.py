@@ -11,7 +11,7 @@ from rich.text import Text
 
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.summary import samples_line
-from satcheck.cli.report.words import counted, depth, in_motion, issue_line, with_unit
+from satcheck.cli.report.words import counted, in_motion, interval, issue_line, with_unit
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -93,7 +93,7 @@ def _line(finding: Finding, unit: str | None) -> str:
 
 def _depth(finding: Finding, unit: str | None) -> str:
     known = finding.relation in OVERLAPS and finding.depth is not None
-    return f" {with_unit(depth(finding), unit)}" if known else ""
+    return f" {with_unit(interval(finding.depth_bounds), unit)}" if known else ""
 
 
 def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bool) -> Table:

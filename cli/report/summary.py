@@ -1,4 +1,4 @@
-"""The last line of a report: the number of bodies and pairs, the relations, the deepest overlap."""
+"""The last line of a report: the number of bodies and pairs, the relations, the worst overlap."""
 
 from __future__ import annotations
 
@@ -7,7 +7,14 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from satcheck.audit.summary import exempt_by
-from satcheck.cli.report.words import absent_words, counted, depth, is_hit, past_holes, with_unit
+from satcheck.cli.report.words import (
+    absent_words,
+    counted,
+    interval,
+    is_hit,
+    past_holes,
+    with_unit,
+)
 from satcheck.report.report import (
     CROSS_CHECK,
     INTERNAL_ERROR,
@@ -23,14 +30,18 @@ from satcheck.scene.units import unit_of
 if TYPE_CHECKING:
     from satcheck.audit.samples import Samples
     from satcheck.report.report import Finding, Issue, Report
+    from satcheck.report.values import Interval
 
 _DOUBTS = (UNITS_UNKNOWN, TOLERANCE_LARGE, SIZES_DIFFER)
 _WORDS = {"contains": "containing"}
+# A figure of overlaps, the most and the more of it.
+_THICKEST = ("thickness", "Thickest", "thicker")
+_DEEPEST = ("depth", "Deepest", "deeper")
 
 
 def summary_line(report: Report, *, offers_depth: bool = True) -> str:
-    """`3 bodies, 3 pairs: 2 separated, 1 penetrating. Depth 1 mm.` offers_depth: the command has
-    the option --depth."""
+    """`3 bodies, 3 pairs: 2 separated, 1 penetrating. Thickest overlap 0.6 mm (a, b), depth 1 mm.`
+    offers_depth: the command has the option --depth."""
     pairs = report.summary.pairs
     bodies = counted(len(report.bodies), "body", "bodies")
     if not pairs.asked:
@@ -144,28 +155,35 @@ def _hits(report: Report) -> list[str]:
 
 
 def _worst(report: Report, *, offers_depth: bool) -> list[str]:
-    """The deepest overlap; where only some have a depth, of how many it is the deepest."""
+    """The thickest overlap, or the deepest where no thickness is known."""
     overlaps = [f for f in report.findings if f.at_rest in OVERLAPS]
-    deep = [f for f in overlaps if f.depth is not None]
-    if not deep:
+    thick = [f for f in overlaps if f.thickness_bounds is not None]
+    deep = [f for f in overlaps if f.depth_bounds is not None]
+    if not (thick or deep):
         return ["Depth not asked: --depth."] if overlaps and offers_depth else []
-    worst = max(deep, key=lambda f: f.depth_bounds or (0.0, f.depth or 0.0))
-    figure = with_unit(depth(worst, bounded="at most "), unit_of(report.units))
-    if len(overlaps) == 1:
-        return [f"Depth {figure}."]
-    names = f"{worst.a} and {worst.b}"
-    sure = worst.depth_bounds is not None and all(
-        f is worst or (f.depth or 0.0) <= worst.depth_bounds[0] for f in deep
-    )
-    if len(deep) == len(overlaps):
-        first = "The deepest" if sure else "None is known to be deeper than"
-        return [f"{first}: {names}, {figure}." if sure else f"{first} {names}: {figure}."]
-    known = f"Depth known of {len(deep):,} of {len(overlaps):,} overlaps"
-    if len(deep) == 1:
-        return [f"{known}: {names}, {figure}."]
-    if sure:
-        return [f"{known}, the deepest of these: {names}, {figure}."]
-    return [f"{known}, none of these known to be deeper than {names}: {figure}."]
+    figure, most, more = _THICKEST if thick else _DEEPEST
+    known = [(_bounds(f, figure), f) for f in thick or deep]
+    (low, high), worst = max(known, key=lambda one: one[0])
+    unit = unit_of(report.units)
+    said = f"{_interval((low, high), unit)} ({worst.a}, {worst.b})"
+    if thick and worst.depth_bounds is not None:
+        said += f", depth {_interval(worst.depth_bounds, unit)}"
+    is_sure = all(other[1] <= low for other, f in known if f is not worst)
+    if len(known) == len(overlaps):
+        first = f"{most} overlap" if is_sure else f"No overlap is known to be {more} than"
+        return [f"{first} {said}."]
+    first = f"the {most.lower()}:" if is_sure else f"none of these known to be {more} than"
+    some = f"{figure.capitalize()} known of {len(known):,} of {len(overlaps):,} overlaps"
+    return [f"{some}, {first} {said}."]
+
+
+def _bounds(finding: Finding, figure: str) -> Interval:
+    proven: Interval = getattr(finding, f"{figure}_bounds")
+    return proven
+
+
+def _interval(proven: Interval, unit: str | None) -> str:
+    return with_unit(interval(proven, bounded="at most "), unit)
 
 
 def _left_open(report: Report) -> list[str]:

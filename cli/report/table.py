@@ -11,6 +11,7 @@ from satcheck.cli.report.lines import fitted, joined
 from satcheck.cli.report.remarks import is_lost, remarks
 from satcheck.cli.report.summary import summary_line
 from satcheck.cli.report.words import counted, past_holes
+from satcheck.report.report import OVERLAPS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -45,13 +46,18 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
 
 
 def _shown(report: Report) -> Sequence[Finding]:
-    """What could be examined; of more than LISTED_PAIRS only what is not plainly separated, at rest
-    and on the way."""
+    """What could be examined, the thickest overlaps first; of more than LISTED_PAIRS only what is
+    not plainly separated, at rest and on the way."""
     lost = {body.id for body in report.bodies if is_lost(body)}
     findings = [f for f in report.findings if f.a not in lost and f.b not in lost]
-    if len(findings) <= LISTED_PAIRS:
-        return findings
-    return [f for f in findings if _is_told(f)]
+    if len(findings) > LISTED_PAIRS:
+        findings = [f for f in findings if _is_told(f)]
+    return sorted(findings, key=_by_thickness)
+
+
+def _by_thickness(finding: Finding) -> float:
+    """The thickest overlaps come first; all else stays as it is."""
+    return -(finding.thickness or 0.0) if finding.at_rest in OVERLAPS else 0.0
 
 
 def _is_told(finding: Finding) -> bool:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.cli.report.numbers import at_most, bounds, number
 
 if TYPE_CHECKING:
     from satcheck.report.report import Finding, Issue
     from satcheck.report.sweep import Place
+    from satcheck.report.values import Interval
     from satcheck.scene import Issue as InputIssue
 
 # A lower bound below this share of the upper one is left out: it tells a person nothing.
@@ -33,16 +35,17 @@ def issue_line(issue: Issue | InputIssue) -> str:
     return f"{issue.severity}: {named}{issue.message} [{issue.code}]"
 
 
-def depth(finding: Finding, *, bounded: str = "<= ") -> str:
-    """The depth, with its proven bounds where they differ; empty when there is none.
+def interval(proven: Interval | None, *, bounded: str = "<= ") -> str:
+    """A figure with its proven bounds, as one number where they are the same but for rounding;
+    empty when there is none.
 
     bounded: what goes before a figure that has no lower bound worth showing.
     """
-    if finding.depth is None:
+    if proven is None:
         return ""
-    if finding.quality == "exact" or finding.depth_bounds is None:
-        return number(finding.depth)
-    low, high = finding.depth_bounds
+    low, high = proven
+    if high - low <= EXACT_WIDTH * high:
+        return number(high)
     return bounded + at_most(high) if low <= NEGLIGIBLE * high else bounds(low, high)
 
 

@@ -37,7 +37,8 @@ class BodyEntry(Struct, frozen=True):
     """One body as the scene file describes it.
 
     mesh: NO_MESH where there is a shape instead. part: what to take of the mesh file; None: all.
-    units: of the mesh, in the place of what its file states.
+    units: of the mesh, in the place of what its file states. surface_tolerance: in units of the
+    scene.
     """
 
     id: str
@@ -49,6 +50,7 @@ class BodyEntry(Struct, frozen=True):
     static: bool = False
     pinned: bool = False
     units: str | None = None
+    surface_tolerance: float | None = None
 
 
 class SceneFile(Struct, frozen=True):

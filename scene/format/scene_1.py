@@ -21,7 +21,7 @@ from satcheck.scene.format.motion_keys import read_motion
 from satcheck.scene.format.placement import KEYS as PLACEMENT_KEYS
 from satcheck.scene.format.placement import placement
 from satcheck.scene.format.problems import Problems, Wrong
-from satcheck.scene.format.rule_keys import read_rule
+from satcheck.scene.format.rule_keys import length_in, read_rule
 from satcheck.scene.format.table import Table, read_bodies
 from satcheck.scene.format.text import Parsed
 from satcheck.scene.format.values import boolean, known_unit, list_of, shown, text
@@ -34,7 +34,9 @@ _KEYS = frozenset(
         *("ignore_within_groups", "bodies", "rules", "motion"),
     )
 )
-_BODY_KEYS = PLACEMENT_KEYS | {"id", "mesh", "part", "shape", "groups", "static", "pinned", "units"}
+_BODY_KEYS = PLACEMENT_KEYS | {
+    *("id", "mesh", "part", "shape", "groups", "static", "pinned", "units", "surface_tolerance")
+}
 
 _texts = list_of("texts", text)
 
@@ -59,7 +61,7 @@ class _Reader:
         if "bodies" not in top:
             top.wrong('"bodies" is missing')
         units = top.read("units", text, None)
-        bodies = read_bodies(top, self._body)
+        bodies = read_bodies(top, lambda table: self._body(table, units))
         are_sound = not self._problems
         ignored = frozenset(top.read("ignore_within_groups", _texts, []))
         for key in ("$schema", "description"):  # for others, and still texts
@@ -79,7 +81,7 @@ class _Reader:
             ),
         )
 
-    def _body(self, table: Table) -> BodyEntry:
+    def _body(self, table: Table, units: str | None) -> BodyEntry:
         table.only(_BODY_KEYS)
         if ("mesh" in table) == ("shape" in table):
             table.wrong('one of "mesh" and "shape" is needed, and not both')
@@ -97,6 +99,7 @@ class _Reader:
             static=table.read("static", boolean, False),
             pinned=table.read("pinned", boolean, False),
             units=table.read("units", known_unit, None),
+            surface_tolerance=table.read("surface_tolerance", length_in(units), None),
         )
 
     def _rules(self, top: Table, units: str | None) -> tuple[Rule, ...]:

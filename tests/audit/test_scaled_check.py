@@ -30,6 +30,7 @@ MESHES = {
     "sheet": SHEET,
 }
 LENGTHS = {"tolerance", "distance", "depth", "depth_bounds", "mtv", "witness"}
+LENGTHS |= {"thickness", "thickness_bounds", "ball"}
 
 
 def times(value, exponent: int):

@@ -8,6 +8,7 @@ from satcheck.audit import Settings
 from satcheck.report.bodies import Health
 from satcheck.report.contacts import Contacts, ContactTotals, Curve, Patch
 from satcheck.report.report import (
+    Ball,
     BodyReport,
     Finding,
     Issue,
@@ -48,6 +49,12 @@ PENETRATING = Finding(
         Stage("hull", "penetrating", 11.5, "both are convex: nothing finer is needed"),
     ),
     baseline_state=None,
+)
+THICK = replace(
+    PENETRATING,
+    thickness=0.5,
+    thickness_bounds=(0.5, 0.5),
+    ball=Ball((1.5, 1.5, 1.5), 0.25),
 )
 SEPARATED = replace(
     PENETRATING,
@@ -202,7 +209,7 @@ def report(
     return Report(
         tool=Tool("satcheck", "0.1.0"),
         units=units,
-        settings=Settings().stated(depth=True),
+        settings=Settings().stated(depth=True, thickness=True),
         summary=Summary(
             verdict="fail" if found else "incomplete" if warned else "pass",
             pairs=PairCounts(len(findings), 0, len(findings) - undecided, 0, undecided),

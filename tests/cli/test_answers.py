@@ -21,7 +21,10 @@ def test_overlap_is_exit_1_and_a_table() -> None:
     assert ran.code == 1
     assert "penetrating" in ran.out
     assert "(-1, 0, 0)" in ran.out
-    assert ran.out.splitlines()[-1] == "2 bodies, 1 pair: 1 penetrating. Depth 1."
+    assert (
+        ran.out.splitlines()[-1]
+        == "2 bodies, 1 pair: 1 penetrating. Thickest overlap 1 (box, box_pushed), depth 1."
+    )
     assert ran.err == ""
 
 

@@ -110,7 +110,8 @@ def test_every_failure_is_counted_and_told_with_its_limit(tmp_path: Path) -> Non
     assert "hits at 1.5 mm of travel" in ran.out
     last = ran.out.splitlines()[-1]
     assert last.endswith(
-        "1 pair hits while moving. Depth 0.25 mm. 1 pair does not keep the clearance."
+        "1 pair hits while moving. Deepest overlap 0.25 mm (deep, deeper). "
+        "1 pair does not keep the clearance."
     )
 
 

@@ -29,6 +29,7 @@ from tests.cli.reports import (
     SEPARATED,
     SWEEP,
     SWEPT,
+    THICK,
     TOUCHING,
     UNDECIDED,
     report,
@@ -51,6 +52,15 @@ def test_a_row_says_it_all() -> None:
     row = next(line for line in shown(PENETRATING).splitlines() if "block_pushed" in line)
     cells = [cell.strip() for cell in row.strip("│").split("│")]
     assert cells == ["block", "block_pushed", "penetrating", "1", "(-1, 0, 0)", "exact", "11.8 us"]
+
+
+def test_the_thickest_overlaps_come_first() -> None:
+    thin = replace(THICK, b="thin", thickness=0.25, thickness_bounds=(0.25, 0.25))
+    lines = shown(SEPARATED, thin, TOUCHING, BOUNDED, THICK).splitlines()
+    names = [line.strip("│").split("│")[1].strip() for line in lines if line.startswith("│")]
+    assert names[1:] == ["block_pushed", "thin", "far", "flush", BOUNDED.b]
+    cells = [line.strip("│").split("│")[3].strip() for line in lines if line.startswith("│")]
+    assert cells == ["thickness", "0.5", "0.25", "", "", "not asked"]
 
 
 def test_figures_of_swept_pairs_are_those_as_placed() -> None:
@@ -236,31 +246,43 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
     ("findings", "sentence"),
     [
         ((SEPARATED,), "2 bodies, 1 pair: 1 separated. No collision."),
-        ((PENETRATING,), "2 bodies, 1 pair: 1 penetrating. Depth 1."),
+        (
+            (PENETRATING,),
+            "2 bodies, 1 pair: 1 penetrating. Deepest overlap 1 (block, block_pushed).",
+        ),
+        (
+            (THICK,),
+            "2 bodies, 1 pair: 1 penetrating. Thickest overlap 0.5 (block, block_pushed), depth 1.",
+        ),
+        (
+            (THICK, replace(THICK, thickness=0.7, thickness_bounds=(0.25, 0.7)), BOUNDED),
+            "2 bodies, 3 pairs: 2 penetrating, 1 containing. Thickness known of 2 of 3 overlaps, "
+            "none of these known to be thicker than 0.5 (block, block_pushed), depth 1.",
+        ),
         (
             (PENETRATING, BOUNDED, UNDECIDED),
             "2 bodies, 3 pairs: 1 penetrating, 1 containing, 1 indeterminate. "
-            "The deepest: a_rather_long_name and another_rather_long_name, 1.24123 .. 1.25001.",
+            "Deepest overlap 1.24123 .. 1.25001 (a_rather_long_name, another_rather_long_name).",
         ),
         (
             (PENETRATING, replace(BOUNDED, depth_bounds=(0.9, 1.2500004))),
             "2 bodies, 2 pairs: 1 penetrating, 1 containing. "
-            "None is known to be deeper than block and block_pushed: 1.",
+            "No overlap is known to be deeper than 1 (block, block_pushed).",
         ),
         (
             (PENETRATING, replace(BOUNDED, depth=None, depth_bounds=None, quality="exact")),
             "2 bodies, 2 pairs: 1 penetrating, 1 containing. "
-            "Depth known of 1 of 2 overlaps: block and block_pushed, 1.",
+            "Depth known of 1 of 2 overlaps, the deepest: 1 (block, block_pushed).",
         ),
         (
             (PENETRATING, BOUNDED, replace(PENETRATING, depth=None, depth_bounds=None)),
             "2 bodies, 3 pairs: 2 penetrating, 1 containing. Depth known of 2 of 3 overlaps, "
-            "the deepest of these: a_rather_long_name and another_rather_long_name, "
-            "1.24123 .. 1.25001.",
+            "the deepest: 1.24123 .. 1.25001 (a_rather_long_name, another_rather_long_name).",
         ),
         (
             (replace(BOUNDED, depth_bounds=(1e-9, 1.25)),),
-            "2 bodies, 1 pair: 1 containing. Depth at most 1.25.",
+            "2 bodies, 1 pair: 1 containing. "
+            "Deepest overlap at most 1.25 (a_rather_long_name, another_rather_long_name).",
         ),
         (
             (UNDECIDED,),
@@ -281,17 +303,20 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
         ),
         (
             (replace(ESTIMATE, severity="warning", undecided="relation"),),
-            "2 bodies, 1 pair: 1 possibly penetrating. Depth at most 2. "
+            "2 bodies, 1 pair: 1 possibly penetrating. "
+            "Deepest overlap at most 2 (block, perhaps). "
             "No collision found, but 1 pair is indeterminate.",
         ),
         (
             (replace(ESTIMATE, severity="note", rule="cell.toml:3"),),
-            "2 bodies, 1 pair: 1 overlapping in a way that is not proven. Depth at most 2. "
+            "2 bodies, 1 pair: 1 overlapping in a way that is not proven. "
+            "Deepest overlap at most 2 (block, perhaps). "
             "No collision beyond what rules allow.",
         ),
         (
             (replace(PENETRATING, severity="warning", undecided="limit", rule="cell.toml:3"),),
-            "2 bodies, 1 pair: 1 penetrating. Depth 1. "
+            "2 bodies, 1 pair: 1 penetrating. "
+            "Deepest overlap 1 (block, block_pushed). "
             "No collision beyond what rules allow was found, but 1 pair may exceed its limits.",
         ),
         (

@@ -12,7 +12,7 @@ from satcheck import core
 
 Matrix = tuple[float, ...]
 Corner = tuple[float, float, float]
-Question = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, bool]
+Question = tuple[core.PlacedGeometry, core.PlacedGeometry, float, float, float, float, bool]
 
 BOX = [(0, 2, 3), (0, 3, 1), (4, 5, 7), (4, 7, 6), (0, 1, 5), (0, 5, 4)]
 BOX += [(2, 6, 7), (2, 7, 3), (0, 4, 6), (0, 6, 2), (1, 3, 7), (1, 7, 5)]
@@ -52,7 +52,9 @@ def crowd(count: int) -> list[core.PlacedGeometry]:
 
 def questions(bodies: list[core.PlacedGeometry], tolerance: float = 1e-9) -> list[Question]:
     return [
-        (a, b, tolerance, tolerance, False) for k, a in enumerate(bodies) for b in bodies[k + 1 :]
+        (a, b, tolerance, tolerance, tolerance / 2, tolerance / 2, False)
+        for k, a in enumerate(bodies)
+        for b in bodies[k + 1 :]
     ]
 
 
@@ -113,7 +115,7 @@ def test_a_capped_climb_settles_nothing_that_it_cannot_prove() -> None:
     body = core.PlacedGeometry(shared, None, TWO_BOXES.bounds, 0.0)
     within_notch = boxes(((-0.5, 0.5, -0.5), (0.5, 1.5, 0.5)))
     other = core.PlacedGeometry(core.Geometry(within_notch, True), None, within_notch.bounds, 0.0)
-    request = (body, other, 0.0, 0.0, False)
+    request = (body, other, 0.0, 0.0, 0.0, 0.0, False)
     capped, whole = core.climb(request, last="hull"), core.climb(request)
     assert (capped.relation, capped.settled, capped.proven) == ("penetrating", False, False)
     assert (whole.relation, whole.settled, whole.proven) == ("separated", True, True)
@@ -123,10 +125,10 @@ def test_boxes_closer_than_asked_leave_the_pair_to_the_next_rung() -> None:
     a = core.PlacedGeometry(core.Geometry(CUBE, True), None, CUBE.bounds, 0.0)
     beside = boxes(((1.5, -1, -1), (3, 1, 1)))
     b = core.PlacedGeometry(core.Geometry(beside, True), None, beside.bounds, 0.0)
-    near = core.climb((a, b, 1.0, 0.0, False), last="aabb")
+    near = core.climb((a, b, 1.0, 0.0, 0.0, 0.0, False), last="aabb")
     assert (near.relation, near.settled, near.proven) == ("separated", False, True)
     assert near.gap_lower == near.box_gap > 0
-    far = core.climb((a, b, 0.25, 0.0, False))
+    far = core.climb((a, b, 0.25, 0.0, 0.0, 0.0, False))
     assert (far.relation, far.settled, far.gap_lower) == ("separated", True, far.box_gap)
 
 
@@ -138,7 +140,7 @@ def test_the_touch_band_of_two_convex_bodies_is_exact(tolerance: float, band: st
     a = core.PlacedGeometry(cube, None, CUBE.bounds, 0.0)
     into = boxes(((0.5, -0.75, -0.75), (3, 0.75, 0.75)))
     b = core.PlacedGeometry(core.Geometry(into, True), None, into.bounds, 0.0)
-    climb = core.climb((a, b, tolerance, tolerance, False))
+    climb = core.climb((a, b, tolerance, tolerance, tolerance / 2, tolerance / 2, False))
     assert (climb.relation, climb.band) == ("penetrating", band)
 
 
@@ -169,7 +171,7 @@ def test_arguments_are_checked() -> None:
     with pytest.raises(ValueError, match="a rung is"):
         core.Climbing([pair], "parts")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="lacks a body"):
-        core.Climbing([(pair[0], None, 0.0, 0.0, False)])  # type: ignore[list-item]
+        core.Climbing([(pair[0], None, 0.0, 0.0, 0.0, 0.0, False)])  # type: ignore[list-item]
     a, b = pair[0].surface(), pair[1].surface()
     with pytest.raises(IndexError):
         core.crossing_depth(a, b, 10**6, 0)

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from satcheck.audit.figures.concave_depth import WORK_PER_SECOND
-from satcheck.audit.request.settings import DEPTH_BUDGET
+from satcheck.audit.request.settings import DEPTH_BUDGET, WORK_PER_SECOND
 from satcheck.core import DepthInterval, Mesh, Surface, mesh_relation, search_depth
 from tests.core.voxel_solids import Cell, VoxelSolid, box
 from tests.oracles.free_directions import along, directions, is_free, sampled_depth

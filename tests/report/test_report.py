@@ -29,7 +29,7 @@ FINDING = Finding(
 REPORT = Report(
     tool=Tool("satcheck", "0.0.0"),
     units=None,
-    settings=Settings().stated(depth=True),
+    settings=Settings().stated(depth=True, thickness=True),
     summary=Summary("fail", PairCounts(1, 0, 1, 0, 0), {"penetrating": 1}),
     bodies=(),
     findings=(FINDING,),
@@ -56,6 +56,9 @@ FINDING_KEYS = [
     "mtv_moves",
     "mtv_verified",
     "witness",
+    "thickness",
+    "thickness_bounds",
+    "ball",
     "volume",
     "volume_error",
     "contacts",
@@ -107,5 +110,7 @@ def test_timings_can_be_left_out():
 def test_non_finite_numbers_are_refused(value):
     with pytest.raises(ValueError, match="finite"):
         replace(FINDING, depth=value)
+    with pytest.raises(ValueError, match="finite"):
+        replace(FINDING, thickness_bounds=(0.0, value))
     with pytest.raises(ValueError, match="finite"):
         replace(FINDING, mtv=(0.0, value, 0.0))

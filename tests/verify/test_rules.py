@@ -179,7 +179,7 @@ def test_brackets_read_the_same_as_by_the_solver(text: str) -> None:
 
 
 def stated_rule(a: str, b: str, allowed: bool | None, clearance: float | None = None) -> RuleReport:
-    return RuleReport(a, b, allowed, None, None, clearance, None, None, "", "")
+    return RuleReport(a, b, allowed, None, None, None, clearance, None, None, "", "")
 
 
 def _placed(body: Subject) -> Placed:

@@ -356,7 +356,7 @@ class PlacedGeometry:
 
 Rung = Literal["aabb", "obb", "hull", "triangles"]
 # a, b, asked_gap, tolerance, wants_distance
-Question = tuple[PlacedGeometry, PlacedGeometry, float, float, bool]
+Question = tuple[PlacedGeometry, PlacedGeometry, float, float, float, float, bool]
 
 class Climb:
     @property
@@ -387,6 +387,8 @@ class Climb:
     def hole(self) -> OpenHole | None: ...
     @property
     def band(self) -> Literal["open", "within", "deeper", "hidden"] | None: ...
+    @property
+    def thick(self) -> bool | None: ...
     @property
     def least_depth(self) -> float | None: ...
     @property

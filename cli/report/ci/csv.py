@@ -22,13 +22,15 @@ _FIELDS = (
     "rule",
     "undecided",
     "quality",
+    "thickness",
     "depth",
     "distance",
     "volume",
     "mtv_verified",
     "reason",
 )
-_COLUMNS = ("asset", *_FIELDS, "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
+_ENDS = ("thickness_lower", "depth_lower", "mtv_x", "mtv_y", "mtv_z", "file_a", "file_b")
+_COLUMNS = ("asset", *_FIELDS, *_ENDS)
 
 
 def render(reports: Mapping[str, Report]) -> str:
@@ -44,9 +46,9 @@ def render(reports: Mapping[str, Report]) -> str:
 
 def _values(finding: Finding) -> list[Any]:
     """An empty cell is a value that is not known or does not apply."""
-    lower = None if finding.depth_bounds is None else finding.depth_bounds[0]
+    bounds = (finding.thickness_bounds, finding.depth_bounds)
     return [
         *(getattr(finding, field) for field in _FIELDS),
-        lower,
+        *(None if interval is None else interval[0] for interval in bounds),
         *(finding.mtv or (None, None, None)),
     ]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 from urllib.parse import quote
 
 from satcheck.cli.report.numbers import number, vector
-from satcheck.cli.report.words import depth, in_motion, is_hit, with_unit
+from satcheck.cli.report.words import in_motion, interval, is_hit, with_unit
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -33,7 +33,8 @@ KINDS = {
 
 class Problem(NamedTuple):
     """kind: a key of KINDS, or the code of an issue. files: as given, of the bodies in their order,
-    at least one. id: that of the finding; of an issue its code and its body."""
+    at least one. id: that of the finding; of an issue its code and its body. size: the thickness
+    and the depth of an overlap."""
 
     level: Level
     kind: str
@@ -41,14 +42,15 @@ class Problem(NamedTuple):
     files: tuple[str, ...]
     bodies: tuple[str, ...]
     id: str
-    depth: float = 0.0
+    size: tuple[float, float] = (0.0, 0.0)
     state: BaselineState | None = None
 
 
 def problems(reports: Mapping[str, Report]) -> list[Problem]:
-    """Of all reports, the worst first: by level, then the deeper overlap."""
+    """Of all reports, the worst first: by level, then the thicker overlap, then the deeper one."""
     listed = [problem for report in reports.values() for problem in _of_report(report)]
-    return sorted(listed, key=lambda problem: (LEVELS.index(problem.level), -problem.depth))
+    listed.sort(key=lambda problem: problem.size, reverse=True)
+    return sorted(listed, key=lambda problem: LEVELS.index(problem.level))
 
 
 def _of_report(report: Report) -> list[Problem]:
@@ -62,10 +64,11 @@ def _of_report(report: Report) -> list[Problem]:
 
 
 def sentence(finding: Finding, unit: str | None) -> str:
-    """`box and lid: penetrating, depth 1 mm; moving box by (-1, 0, 0) ends the overlap.`"""
+    """`box and lid: penetrating, thickness 0.5 mm, depth 1 mm; moving box by (-1, 0, 0) ends the
+    overlap.`"""
     parts = [f"{finding.a} and {finding.b}: {finding.relation}"]
-    if finding.depth is not None:
-        parts.append(f"depth {with_unit(depth(finding), unit)}")
+    figures = {"thickness": finding.thickness_bounds, "depth": finding.depth_bounds}
+    parts += [f"{name} {with_unit(interval(f), unit)}" for name, f in figures.items() if f]
     if finding.distance is not None:
         parts.append(f"gap {with_unit(number(finding.distance), unit)}")
     if moving := in_motion(finding, unit):
@@ -117,7 +120,7 @@ def _of_finding(finding: Finding, level: Level, files: dict[str, str], unit: str
         tuple(files[body] for body in bodies),
         bodies,
         finding.id,
-        finding.depth or 0.0,
+        (finding.thickness or 0.0, finding.depth or 0.0),
         finding.baseline_state,
     )
 

@@ -29,7 +29,7 @@ namespace {
 using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 using Corner = std::array<double, 3>;
 using Box = std::pair<Corner, Corner>;
-using PairTuple = std::tuple<PlacedGeometry*, PlacedGeometry*, double, double, bool>;
+using PairTuple = std::tuple<PlacedGeometry*, PlacedGeometry*, double, double, double, double, bool>;
 
 Aabb to_aabb(const Box& box) {
   const auto& [low, high] = box;
@@ -45,9 +45,9 @@ Rung rung_from(const std::string& name) {
 }
 
 ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone = false) {
-  const auto& [a, b, asked_gap, tolerance, wants_distance] = pair;
+  const auto& [a, b, asked_gap, tolerance, depth_a, depth_b, wants_distance] = pair;
   if (!a || !b) throw std::invalid_argument("a pair lacks a body");
-  return {a, b, asked_gap, tolerance, wants_distance, alone, method};
+  return {a, b, asked_gap, tolerance, depth_a, depth_b, wants_distance, alone, method};
 }
 
 void bind_geometry(nb::module_& m) {
@@ -146,7 +146,8 @@ signed_distance  of two convex bodies, by their hulls; it decides everything abo
 crossing      indices of one triangle of each body that meet. point: a common point, rounded.
 band          whether a settled overlap is within the touch band: "within" or "deeper", both proven; "hidden": only
               rounding leaves it open; "open". The last two need a search.
-least_depth   a proven lower bound of the depth of an overlap that triangles decided, if the touch band is not 0.
+thick         whether a point of a deeper overlap of solids is known that lies deeper in both than depth_a and depth_b.
+least_depth   a proven lower bound of the depth of an overlap that triangles decided, unless it is thick or the band is 0.
 deepest       the greatest such bound. way_out: a translation of A within the band that frees it.
 gap           of separate surfaces. gap_of_holes: the fill of a hole may be this near, nearer than gap.
 box_gap       a proven lower bound of the gap of the world boxes; 0.0 if they meet.
@@ -165,6 +166,7 @@ band_nanoseconds  the time of the touch band or the gap. stages() describes the 
       .def_prop_ro("point", [](const Climb& c) { return c.triangles ? corner(c.triangles->point) : std::nullopt; })
       .def_prop_ro("hole", &hole_in_the_way, nb::rv_policy::reference_internal)
       .def_prop_ro("band", [](const Climb& c) { return band_word(c.verdict.band); })
+      .def_ro("thick", &Climb::thick)
       .def_ro("least_depth", &Climb::least_depth)
       .def_prop_ro("deepest", &deepest)
       .def_prop_ro("way_out", [](const Climb& c) { return c.way_within ? corner(c.way_within->move) : std::nullopt; })
@@ -220,10 +222,11 @@ void bind_climb(nb::module_& m) {
   bind_result(m);
   nb::class_<Climbing>(m, "Climbing", R"(Climbs with many pairs in threads, while the caller can do other work.
 
-A pair is (a, b, asked_gap, tolerance, wants_distance). A climb ends at a rung that proves a gap beyond asked_gap, or
-at the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band. wants_distance:
-measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken. alone: there is
-one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs.)")
+A pair is (a, b, asked_gap, tolerance, depth_a, depth_b, wants_distance). A climb ends at a rung that proves a gap
+beyond asked_gap, or at the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
+depth_a, depth_b: a point deeper than that in A and in B shows an overlap that no tolerance of the surfaces explains.
+wants_distance: measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken.
+alone: there is one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs.)")
       .def(nb::init<nb::list, const std::string&, unsigned, bool, const std::string&>(), "pairs"_a,
            "last"_a = "triangles", "threads"_a = 0, "alone"_a = false, "method"_a = "auto")
       .def("results", &Climbing::results,

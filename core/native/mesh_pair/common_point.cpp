@@ -66,7 +66,8 @@ std::optional<Vec3> first_inside(const Surface& a, const Surface& b, const MeshR
 
 }  // namespace
 
-std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation) {
+std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, const MeshRelation& relation,
+                                        double enough) {
   const std::optional<Vec3> start = first_inside(a, b, relation);
   if (!start) return std::nullopt;
   // Within the ball that reaches to the nearer surface no surface is crossed.
@@ -74,6 +75,7 @@ std::optional<CommonPoint> common_point(const Surface& a, const Surface& b, cons
   NearestPoint on_a = nearest_point(a, p), on_b = nearest_point(b, p);
   for (int step = 0; step < kClimbSteps; ++step) {
     const double depth = std::fmin(on_a.distance, on_b.distance);
+    if (depth > enough) break;
     const Vec3 from_a = unit_or_zero(p - on_a.point), from_b = unit_or_zero(p - on_b.point);
     const Vec3 away = on_a.distance < on_b.distance ? from_a : from_b;
     bool climbed = false;

@@ -10,6 +10,7 @@
 #include "convex/hulls_apart.hpp"
 #include "mesh_pair/open_surfaces.hpp"
 #include "scene/broad_phase.hpp"
+#include "scene/thick_point.hpp"
 #include "scene/touch_proof.hpp"
 
 namespace satcheck {
@@ -120,7 +121,14 @@ class Climber {
       make_both([](PlacedGeometry& body) { body.hull_shape(); });
       return climb_.both_convex ? convex_bodies_settle() : hulls_are_apart();
     });
-    if (climb_.both_convex && climb_.hulls->outcome == Outcome::penetrating && boxes_nest()) {
+    const bool overlap = climb_.both_convex && climb_.hulls->outcome == Outcome::penetrating;
+    if (overlap && request_.depth() > 0 && -climb_.hulls->lower > request_.tolerance) {
+      timed(kBand, [&] {
+        climb_.thick = has_thick_point(*request_.a->mesh(), *request_.b->mesh(), *climb_.hulls, request_.depth());
+        return true;
+      });
+    }
+    if (overlap && boxes_nest()) {
       timed(kNesting, [&] {
         climb_.nesting = mesh_relation(*request_.a->surface(), *request_.b->surface()).relation;
         return true;
@@ -210,15 +218,22 @@ class Climber {
     const Relation relation = climb_.triangles->relation;
     if (relation == Relation::separated) {
       timed(kBand, [&] { return measure_gap(); });
-    } else if (relation != Relation::touching && request_.tolerance > 0) {
-      timed(kBand, [&] {
-        climb_.least_depth = least_depth(*a_, *b_, largest_coordinate(), *climb_.triangles);
-        if (*climb_.least_depth > request_.tolerance) return true;
-        const auto crossing = crossing_of(*climb_.triangles);
-        climb_.way_within = find_way_within(*request_.a, *request_.b, request_.tolerance, crossing);
-        return true;
-      });
+    } else if (relation != Relation::touching && request_.depth() > 0) {
+      timed(kBand, [&] { return explain_overlap(); });
     }
+  }
+
+  // As far as that needs no search.
+  bool explain_overlap() {
+    const MeshRelation& relation = *climb_.triangles;
+    if (a_->solid && b_->solid) {
+      climb_.thick = has_thick_point(*a_, *b_, relation, largest_coordinate(), request_.depth());
+    }
+    if (climb_.thick.value_or(false) || request_.tolerance == 0) return true;
+    climb_.least_depth = least_depth(*a_, *b_, largest_coordinate(), relation);
+    if (*climb_.least_depth > request_.tolerance) return true;
+    climb_.way_within = find_way_within(*request_.a, *request_.b, request_.tolerance, crossing_of(relation));
+    return true;
   }
 
   // A gap that exceeds the touch band by more than rounding needs no figure.

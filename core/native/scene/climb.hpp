@@ -4,6 +4,7 @@
 // it tests the touch band, unless that needs a search. Then it derives the verdict.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "convex/narrow_phase.hpp"
@@ -17,16 +18,20 @@ namespace satcheck {
 
 enum class Rung : std::uint8_t { aabb, obb, hull, triangles };
 
-// One pair. asked_gap: the size of a larger gap is not needed. tolerance: half width of the touch band.
+// One pair. asked_gap: the size of a larger gap is not needed. tolerance: half width of the touch band. depth_a, depth_b:
+// a point deeper than this in closed bodies A and B shows an overlap that no tolerance of their surfaces explains.
 // wants_distance: measure every gap; else only gaps within the band.
 struct ClimbRequest {
   PlacedGeometry* a;
   PlacedGeometry* b;
-  double asked_gap, tolerance;
+  double asked_gap, tolerance, depth_a, depth_b;
   bool wants_distance;
   // No other pair needs these bodies, so data made for this pair serve no other.
   bool alone = false;
   MethodChoice method = MethodChoice::automatic;  // between the convex hulls
+
+  // A point deeper than this in both closed bodies is beyond every band.
+  double depth() const { return std::fmax(depth_a, depth_b); }
 };
 
 // sheared, unturned: why oriented boxes prove no more than the world boxes.
@@ -45,7 +50,10 @@ struct Climb {
   std::optional<PairResult> hulls;  // for two convex bodies with the depth; else the distance, or only the outcome
   std::optional<Relation> nesting;  // of two convex bodies that overlap and whose boxes nest
   std::optional<MeshRelation> triangles;
-  std::optional<double> least_depth;    // of an overlap that triangles decided, if the band is not 0
+  // For an overlap of solids deeper than the band: whether a point lies deeper in both than their tolerances reach. If
+  // none was met, the overlap may be thin; sheets were not looked for.
+  std::optional<bool> thick;
+  std::optional<double> least_depth;    // of an overlap that triangles decided, unless it is known to be thick
   std::optional<WayWithin> way_within;  // if least_depth does not prove an overlap deeper than the band
   std::optional<MeshDistance> gap;      // of separate surfaces
   std::optional<double> gap_of_holes;   // the fill of a hole may be this near, nearer than `gap`

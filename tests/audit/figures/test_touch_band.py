@@ -116,12 +116,14 @@ def test_boxes_that_only_touch_have_no_depth_on_any_rung(tmp_path, accuracy):
     assert (finding.reason is None) == proven
 
 
-def test_the_band_is_named_and_nothing_unproven_called_deeper(tmp_path):
+def test_the_band_is_named(tmp_path):
     scene = scene_of(tmp_path, a=bracket(), b=bracket())
     finding = only(check(scene, Settings(tolerance=1e-3, depth=False)))
     (stage,) = [stage for stage in finding.plan if stage.stage == "touch-band"]
-    assert stage.result == "not found"
-    assert stage.detail.startswith("tolerance 0.001, as asked")
+    assert (stage.result, stage.detail) == (
+        "deeper",
+        "tolerance 0.001, as asked: a point lies deeper in both",
+    )
 
 
 def test_default_band_never_swallows_a_body(tmp_path):

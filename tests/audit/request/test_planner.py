@@ -24,14 +24,19 @@ def test_only_the_overlap_is_a_matter_of_course_in_a_scene() -> None:
 
 
 def test_the_depth_of_mesh_files_is_asked_by_default() -> None:
-    assert asked_by(Settings()).by == {"overlap": ALWAYS, "depth": FOR_MESHES}
-    assert not asked_by(Settings(depth=False)).wants("depth")
+    assert asked_by(Settings()).by == {
+        "overlap": ALWAYS,
+        "depth": FOR_MESHES,
+        "thickness": FOR_MESHES,
+    }
+    assert asked_by(Settings(depth=False)).by == {"overlap": ALWAYS}
+    assert not asked_by(Settings(thickness=False)).wants("thickness")
 
 
 @pytest.mark.parametrize(
     ("settings", "effect", "flag"),
     [
-        ({"depth": True}, "depth", "--depth"),
+        ({"depth": True, "thickness": False}, "depth", "--depth"),
         ({"clearance": 1.0}, "distance", "--clearance"),
         ({"volume": True}, "volume", "--volume"),
         ({"contacts": True}, "contacts", "--contacts"),
@@ -44,10 +49,16 @@ def test_a_flag_asks_for_its_effect_alone(settings, effect, flag) -> None:
     assert asked.by == {"overlap": ALWAYS, effect: flag}
 
 
+def test_the_flag_of_the_depth_asks_for_the_thickness_too() -> None:
+    asked = asked_by(Settings(depth=True), composed=True)
+    assert asked.by == {"overlap": ALWAYS, "depth": "--depth", "thickness": "--depth"}
+
+
 @pytest.mark.parametrize(
     ("keys", "effect"),
     [
         ({"max_depth": 0.1}, "depth"),
+        ({"max_thickness": 0.1}, "thickness"),
         ({"max_volume": 0.1}, "volume"),
         ({"clearance": 1}, "distance"),
     ],
@@ -75,7 +86,7 @@ def test_a_clearance_of_nothing_is_none() -> None:
     assert not asked.wants("distance")
 
 
-@pytest.mark.parametrize("limit", ["max_depth", "max_volume"])
+@pytest.mark.parametrize("limit", ["max_depth", "max_thickness", "max_volume"])
 def test_what_may_overlap_keeps_no_clearance(limit) -> None:
     asked = asked_by(Settings(clearance=1.0), terms(clearance=2.0, **{limit: 0.1}))
     assert asked.limited
@@ -89,7 +100,7 @@ def test_pairs_of_one_kind_share_what_is_asked() -> None:
     assert planner.request(0, 1) is planner.request(0, 3)
     assert planner.request(0, 1).wants("depth")
     assert not planner.request(1, 2).wants("depth")
-    assert not planner.depth
+    assert not planner.stated().depth
 
 
 def test_no_pair_is_asked_further_than_its_reach() -> None:
@@ -110,7 +121,10 @@ def test_no_pair_is_asked_further_than_its_reach() -> None:
     assert Planner(Settings(), book).asked_gap(0, 1, 0.3) == 1.0  # the last rule decides
 
 
-@pytest.mark.parametrize(("effect", "key"), [("depth", "max_depth"), ("volume", "max_volume")])
+@pytest.mark.parametrize(
+    ("effect", "key"),
+    [("depth", "max_depth"), ("thickness", "max_thickness"), ("volume", "max_volume")],
+)
 def test_a_limit_of_nothing_asks_too(effect: str, key: str) -> None:
     """A clearance of 0 is none, but an overlap that must have no depth has one to be measured."""
     none = rule(where="none", clearance=0.0)

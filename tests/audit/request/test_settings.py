@@ -29,6 +29,6 @@ def test_refused(given):
 
 
 def test_what_changes_no_answer_is_not_in_the_report():
-    stated = Settings().stated(depth=True)
+    stated = Settings().stated(depth=True, thickness=True)
     assert not {"jobs", "cache", "timings"} & set(stated.__struct_fields__)
-    assert Settings(jobs=3, cache=False, timings=False).stated(depth=True) == stated
+    assert Settings(jobs=3, cache=False, timings=False).stated(depth=True, thickness=True) == stated

@@ -41,7 +41,7 @@ std::unique_ptr<PlacedGeometry> placed(const std::shared_ptr<Geometry>& shared, 
   return std::make_unique<PlacedGeometry>(shared, matrix, bounds_of(transform(*shared->mesh(), matrix)), 1e-9);
 }
 
-ClimbRequest asked(PlacedGeometry& a, PlacedGeometry& b, double gap = 1e-9) { return {&a, &b, gap, 1e-9, false}; }
+ClimbRequest asked(PlacedGeometry& a, PlacedGeometry& b, double gap = 1e-9) { return {&a, &b, gap, 1e-9, 5e-10, 5e-10, false}; }
 
 void the_lowest_rung_that_settles_ends_it() {
   const auto bar = geometry(box({-5, -0.5, -0.5}, {5, 0.5, 0.5}));
@@ -68,7 +68,7 @@ void what_triangles_find() {
   measured.wants_distance = true;
   CHECK(climb(measured, Rung::aabb, Rung::triangles).gap->distance == 1);
   const Climb deep = climb(asked(*outer, *stuck), Rung::aabb, Rung::triangles);
-  CHECK(deep.triangles->relation == Relation::penetrating && *deep.least_depth > 0 && !deep.gap);
+  CHECK(deep.triangles->relation == Relation::penetrating && deep.thick && *deep.thick && !deep.least_depth && !deep.gap);
   const Climb capped = climb(asked(*outer, *stuck), Rung::aabb, Rung::hull);
   CHECK(capped.hulls && !capped.triangles && !capped.least_depth);
   CHECK(shell->hierarchies() == 1 && cube->hierarchies() == 1);
@@ -154,7 +154,7 @@ void a_surface_cut_down_to_what_matters_answers_as_all_of_it() {
   for (const double x : {1.0, 1.49, 1.5, 2.0, 2.5, 3.0, 3.01, 3.5, 4.0, 4.9, 4.99}) {
     const auto a = as_in_file(lying), b = as_in_file(inspected(ring(150, 70, {x, 0.01, 0.02}, true)));
     for (const double gap : {0.0, 1e-9, 1e-2}) {
-      ClimbRequest request{a.get(), b.get(), gap, gap, false};
+      ClimbRequest request{a.get(), b.get(), gap, gap, gap / 2, gap / 2, false};
       const Climb among_many = climb(request, Rung::triangles, Rung::triangles);
       request.alone = true;
       const Climb alone = climb(request, Rung::triangles, Rung::triangles);

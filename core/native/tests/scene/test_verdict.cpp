@@ -10,7 +10,7 @@ using namespace satcheck;
 
 namespace {
 
-constexpr ClimbRequest kRequest{nullptr, nullptr, 0.5, 0.25, false};
+constexpr ClimbRequest kRequest{nullptr, nullptr, 0.5, 0.25, 0.125, 0.125, false};
 
 Verdict verdict(const Climb& climb) { return verdict_of(kRequest, climb); }
 

@@ -1,0 +1,81 @@
+"""Whether surfaces that may be off by a little explain an overlap of closed bodies.
+
+The surface of each body X may be off by e_X: by half of the touch band, or by its surface tolerance
+where that is more. An overlap is real where a point lies deeper than e_A in A and deeper than e_B
+in B. The core looks for such a point, or proves that there is none. Nothing is explained where all
+of a body is as thin as its own tolerance, and where one body passes through the other: enters it in
+one place and leaves it in another.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from satcheck import core
+from satcheck.audit.figures.thickness import why_not_thick
+from satcheck.audit.tolerances import EXACT_WIDTH
+
+if TYPE_CHECKING:
+    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.bodies.placed_body import PlacedBody
+    from satcheck.audit.request.trace import Trace
+
+STAGE = "touch-band"
+# Pairs of triangles that meet, at most, where it is asked whether a body passes through another.
+MOST_CROSSINGS = 100_000
+
+
+Explained = Literal["within", "deeper", "not excused", "undecided"]
+
+
+def may_be_explained(pair: Pair) -> bool:
+    return max(pair.off) > 0 and why_not_thick(pair) is None
+
+
+def explain(pair: Pair, trace: Trace, nanoseconds: int = 0) -> Explained:
+    """Of an overlap of closed bodies. nanoseconds: what was spent on the question before."""
+    result, detail = _decided(pair)
+    off = " and ".join(f"{length:.3g} in {body.id}" for length, body in _surfaces(pair))
+    trace.add_since(STAGE, result, f"{detail} {off}", nanoseconds)
+    return result
+
+
+def _decided(pair: Pair) -> tuple[Explained, str]:
+    for length, body in _surfaces(pair):
+        if not _search(pair, body, body, (length, length), 0.0).lower > 0:
+            return "not excused", f"{body.id} is not known to be thicker than its tolerance:"
+    through = core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
+    if through:
+        return "not excused", "one body passes through the other, which is no matter of"
+    # The band ends exactly, a surface tolerance to rounding.
+    limit = EXACT_WIDTH * max(pair.off) if pair.excuses else 0.0
+    interval = _search(pair, pair.a, pair.b, pair.off, limit)
+    if interval.lower > limit:
+        return "deeper", "a point lies deeper than"
+    if interval.upper > limit:
+        return "undecided", "no point was found, nor excluded, deeper than"
+    if through is None:
+        return (
+            "undecided",
+            "whether one body passes through the other is open; no point deeper than",
+        )
+    return "within", "no point lies deeper than"
+
+
+def _surfaces(pair: Pair) -> list[tuple[float, PlacedBody]]:
+    return list(zip(pair.off, (pair.a, pair.b), strict=True))
+
+
+def _search(
+    pair: Pair, a: PlacedBody, b: PlacedBody, off: tuple[float, float], limit: float
+) -> core.ThicknessInterval:
+    return core.search_thickness(
+        a.surface(),
+        b.surface(),
+        width=0.0,
+        work=pair.settings.thickness_work,
+        less_a=off[0],
+        less_b=off[1],
+        limit=limit,
+        across=pair.settings.across,
+    )

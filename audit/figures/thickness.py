@@ -1,0 +1,104 @@
+"""How thick an overlap is: the diameter of the largest ball that lies in both bodies.
+
+The core narrows a proven interval (`core.search_thickness`). Bodies that are not closed have no
+inside that holds a ball for certain, so that their overlaps have no thickness.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from satcheck import core
+from satcheck.audit.request.trace import Trace
+from satcheck.audit.tolerances import EXACT_WIDTH
+from satcheck.report.report import Ball
+
+if TYPE_CHECKING:
+    from satcheck.audit.bodies.pair import Pair
+    from satcheck.audit.bodies.placed_body import PlacedBody
+    from satcheck.audit.figures.depth import Depth
+
+STAGE = "thickness"
+
+
+class Thickness(Struct, frozen=True):
+    """World units: lower <= true thickness <= upper. ball: proven to lie in both bodies, as thick
+    as lower; None where that is 0."""
+
+    lower: float
+    upper: float
+    ball: Ball | None = None
+
+
+def why_not_thick(pair: Pair) -> str | None:
+    """Why an overlap has no thickness; None: it has one."""
+    if pair.curved:
+        return "a curved shape has no triangles"
+    if not pair.may("exact") and not (pair.may("hull") and pair.both_convex):
+        return f"found on triangles: not at --accuracy {pair.settings.accuracy}"
+    return _open(pair.a) or _open(pair.b)
+
+
+def _open(body: PlacedBody) -> str | None:
+    """Why the body is not closed; None: it is."""
+    if not body.solid:
+        return f"{body.id} has {'holes' if body.body.file.health.holes else 'no inside'}"
+    return f"{body.id} has sheets" if body.shared.has_sheets() else None
+
+
+def measure_thickness(pair: Pair, depth: Depth | None, trace: Trace) -> Thickness:
+    """Of an overlap of closed bodies. depth: where it is known; no overlap is thicker than that."""
+    settings, limit = pair.settings, pair.request.max_thickness
+    work = settings.thickness_work
+    interval = search(pair, trace, settings.thickness_width, work)
+    thickness = _thickness_of(interval)
+    if limit is not None and thickness.lower <= limit < thickness.upper and interval.work < work:
+        closer = search(pair, trace, EXACT_WIDTH, work - interval.work, limit)
+        thickness = _narrower(thickness, _thickness_of(closer))
+    if pair.closer:
+        thickness = _of_curves(pair, thickness)
+    most = math.inf if depth is None else max(depth.upper, thickness.lower)
+    return replace(thickness, upper=min(thickness.upper, most))
+
+
+def search(
+    pair: Pair, trace: Trace, width: float, work: int, limit: float | None = None
+) -> core.ThicknessInterval:
+    """limit: the search ends once the interval lies on one side of it."""
+    a, b = pair.a.surface(), pair.b.surface()
+    across = pair.settings.across
+    interval = core.search_thickness(a, b, width=width, work=work, limit=limit, across=across)
+    by = f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes of space"
+    if interval.stop == "work spent":
+        trace.record(STAGE, "budget spent", f"{by}; the budget ended the search")
+    else:
+        trace.record(STAGE, interval.stop, by)
+    return interval
+
+
+def _thickness_of(interval: core.ThicknessInterval) -> Thickness:
+    ball = None
+    if interval.centre is not None and interval.lower > 0:
+        ball = Ball(interval.centre, interval.radius)
+    return Thickness(max(interval.lower, 0.0), max(interval.upper, 0.0), ball)
+
+
+def _narrower(one: Thickness, other: Thickness) -> Thickness:
+    thicker = max(one, other, key=lambda thickness: thickness.lower)
+    return Thickness(thicker.lower, min(one.upper, other.upper), thicker.ball)
+
+
+def _of_curves(pair: Pair, thickness: Thickness) -> Thickness:
+    """In a check in a plane: of curves, from that of the polygons that stand for them. A point that
+    is deeper in a polygon than the curve may be off is in the body, and less deep by that much at
+    most; an inscribed polygon lies within its curve."""
+    files = [body.body.file for body in (pair.a, pair.b)]
+    less = max(0.0 if file.inscribed else file.deviation for file in files)
+    more = max(file.deviation for file in files)
+    lower = max(thickness.lower - 2 * less, 0.0)
+    ball = Ball(thickness.ball.centre, lower / 2) if thickness.ball and lower else None
+    return Thickness(lower, thickness.upper + 2 * more, ball)

@@ -1,0 +1,17 @@
+// A point deep in both of two bodies that overlap: the quick proof that a touch band does not explain the overlap.
+#pragma once
+
+#include "convex/narrow_phase.hpp"
+#include "mesh/surface.hpp"
+#include "mesh_pair/mesh_pair.hpp"
+
+namespace satcheck {
+
+// Whether a point was met that lies deeper than `least` in both solids. Where none was met there may be one.
+// relation: with a common interior. largest: no |coordinate| of the two is greater.
+bool has_thick_point(const Surface& a, const Surface& b, const MeshRelation& relation, double largest, double least);
+
+// The same of convex solids, by the planes of their triangles. hulls: their signed distance, of bodies that overlap.
+bool has_thick_point(const Mesh& a, const Mesh& b, const PairResult& hulls, double least);
+
+}  // namespace satcheck
