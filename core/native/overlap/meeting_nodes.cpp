@@ -1,6 +1,10 @@
 #include "overlap/meeting_nodes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "exact/point_in_triangle.hpp"
 
 namespace satcheck {
 namespace {
@@ -10,11 +14,6 @@ bool comes_before_along(const ExactPoint& p, const ExactPoint& q, int axis) {
   const double gap = q.rounded[axis] - p.rounded[axis];
   if (std::fabs(gap) > 2 * (p.error[axis] + q.error[axis])) return gap > 0;
   return (coordinate(q, axis) * p.w - coordinate(p, axis) * q.w).sign() > 0;
-}
-
-int widest_axis(Vec3 v) {
-  const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
-  return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ void MeetingNodes::sort_edges() {
     for (auto& [edge, nodes] : on_edge_[mesh]) {
       if (nodes.size() < 2) continue;
       const Vec3 way = vertices[edge.second] - vertices[edge.first];
-      const int axis = widest_axis(way);
+      const int axis = projection_axis(way);
       std::sort(nodes.begin(), nodes.end(), [&](std::uint32_t i, std::uint32_t k) {
         return i != k && comes_before_along(at(way[axis] > 0 ? i : k), at(way[axis] > 0 ? k : i), axis);
       });

@@ -1,6 +1,5 @@
 #include "overlap/passing.hpp"
 
-#include <set>
 #include <utility>
 
 namespace satcheck {
