@@ -8,11 +8,11 @@
 namespace satcheck {
 namespace {
 
-// What a height minus a dot product is off by, as a share of the scale: 3 products, 3 sums, a normal and a point below 2
-// times the scale, and once more for the sum of magnitudes.
-constexpr double kResidualError = 32 * kUnitRoundoff;
+// What a height minus a dot product is off by, as a share of the scale: 3 products and 3 sums, each at most 2
+// times the scale, and once more for the rounding of the point itself; rounded up.
+constexpr double kResidualError = 16 * kUnitRoundoff;
 // A corner may be this far off, as a share of the scale, before a split is refused.
-constexpr double kLargestError = 1e-12;
+constexpr double kLargestError = 2e-13;
 // Heights are tried in steps of this many times the distance that is too close, on both sides.
 constexpr double kStep = 3;
 constexpr int kTries = 7;

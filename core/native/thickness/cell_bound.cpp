@@ -9,6 +9,7 @@
 
 #include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
+#include "mesh/nearest_point.hpp"
 #include "thickness/matrix_game.hpp"
 
 namespace satcheck {
@@ -19,9 +20,9 @@ constexpr std::uint64_t kDistanceWork = 25, kFilterWork = 4, kGameWork = 100;
 
 // Functions that are added before a cell is split; while all are planes, and the bound is exact, many more.
 constexpr std::size_t kMostColumns = 14, kMostPlanes = 200;
-// A weighted sum of up to kMostPlanes values, each off by bodies.rounding() and below 4 times the scale, and the weights'
-// own sum: 2 * 200 roundoffs of that beside the values' own, in units of bodies.rounding(), rounded up.
-constexpr double kSumRounding = 8;
+// A weighted sum of values below 4 times the scale adds a roundoff of that for each value, and three for their weights;
+// bodies.rounding() has 256 roundoffs of the scale.
+constexpr double kSumRounding = 4.0 / 256;
 // A body may reach beyond a plane by this share of the bound.
 constexpr double kPlaneTolerance = 1e-3;
 // A cell is not refined further once this share of the way from its bound to what is enough is a gap that only splits close.
@@ -29,6 +30,14 @@ constexpr double kHopeless = 0.5;
 // A void next to few patches is split off, leaving a layer of this share of what is enough.
 constexpr std::size_t kFewPatches = 12;
 constexpr double kLayer = 0.25;
+// Where a column is the depth of the game's point, it counts this much although the bound may not rest on it.
+constexpr double kNearestWeight = 0.5;
+// Where axes and planes explain less than this share of a gap, the cell is halved across its longest axis.
+constexpr double kAlongAxes = 0.1;
+// A side of a cell that is steeper than this along an axis bounds the way along it.
+constexpr double kSteep = 1e-9;
+// From so many patches on, the tree of the surface has the nearest one sooner than a list.
+constexpr std::size_t kManyPatches = 256;
 // Cells with more corners are split along the axes only.
 constexpr std::size_t kManyCorners = 28;
 
@@ -45,6 +54,9 @@ class CellBound {
 
   void run() {
     floor_ = -std::fmax(bodies_.less(0), bodies_.less(1));
+    for (const Cell::Corner& corner : cell_.corners) middle_ = middle_ + corner.at;
+    middle_ = middle_ * (1.0 / static_cast<double>(cell_.corners.size()));
+    for (const Cell::Corner& corner : cell_.corners) radius_ = larger(radius_, norm(corner.at - middle_));
     for (int body = 0; body < 2; ++body) {
       if (is_outside(body)) {
         open_.bound = floor_;
@@ -52,7 +64,7 @@ class CellBound {
         return;
       }
     }
-    const double bound = solve() + kSumRounding * bodies_.rounding() + cell_.error;
+    const double bound = solve() + rounding_of_sum() + cell_.error;
     if (bound < open_.bound) {
       if (record_ != nullptr) record_->set_bound(open_.node, std::move(terms_));
       open_.bound = bound;
@@ -76,29 +88,31 @@ class CellBound {
     PatchList& near = open_.near[side];
     const Aabb around = reach_of(body);
     work_done += kFilterWork * near.size();
-    std::erase_if(near, [&](std::uint32_t i) { return !meet(bodies_.patch(body, i).box, around); });
+    std::erase_if(near, [&](std::uint32_t i) { return !meet(bodies_.box(body, i), around); });
     if (open_.inside[side]) return false;
-    for (const std::uint32_t i : near) met_[side] += may_meet(body, i);
-    if (met_[side] > 0) return false;
-    Vec3 middle;
-    for (const Cell::Corner& corner : cell_.corners) middle = middle + corner.at;
-    middle = middle * (1.0 / static_cast<double>(cell_.corners.size()));
-    if (bodies_.is_outside(body, middle)) return true;
-    open_.inside[side] = bodies_.is_inside(body, middle);
+    for (const std::uint32_t i : near) {
+      if (may_meet(body, i)) met_[side].push_back(i);
+    }
+    if (!met_[side].empty()) return false;
+    if (bodies_.is_outside(body, middle_)) return true;
+    open_.inside[side] = bodies_.is_inside(body, middle_);
     return false;
   }
 
   // Whether the patch may have a point in the interior of the cell.
   bool may_meet(int body, std::uint32_t number) const {
+    if (!meet(bodies_.box(body, number), box_)) return false;
     const Patch& patch = bodies_.patch(body, number);
-    if (!meet(patch.box, box_)) return false;
     work_done += kDistanceWork;
-    const double close = cell_.error + bodies_.rounding() / 4;
+    const double close = cell_.error + bodies_.rounding();
+    if (bodies_.patches(body).distance(patch, middle_) > radius_ + patch.slack + close) return false;
     const Vec3* outline = bodies_.patches(body).outlines.data() + patch.first;
     for (const HalfSpace& side : cell_.sides) {
       double least = INFINITY;
       for (std::uint32_t i = 0; i < patch.count; ++i) least = smaller(least, dot(side.normal, outline[i]));
-      if (least >= side.height + close) return false;
+      // Along an axis nothing is rounded.
+      const bool along_axis = (side.normal.x != 0) + (side.normal.y != 0) + (side.normal.z != 0) == 1;
+      if (least >= side.height + (along_axis ? 0 : close)) return false;
     }
     double low = INFINITY, high = -INFINITY;
     for (const Cell::Corner& corner : cell_.corners) {
@@ -112,8 +126,9 @@ class CellBound {
 
   double solve() {
     // A cut leaves the cell by no more than that.
-    floor_of_game_ = floor_ - norm(box_.max - box_.min) - bodies_.rounding();
-    game_.emplace(cell_.corners.size(), floor_of_game_);
+    const double diagonal = norm(box_.max - box_.min) + bodies_.rounding();
+    floor_of_game_ = floor_ - diagonal;
+    game_.emplace(cell_.corners.size(), floor_of_game_, diagonal + open_.bound - floor_);
     for (const Column& column : open_.columns) add(column.plane ? column : best_column(column.body, column.patch));
     if (columns_.empty() && !add_nearest(box_.min * 0.5 + box_.max * 0.5)) return INFINITY;
     double bound = INFINITY;
@@ -132,6 +147,8 @@ class CellBound {
       if (!only_planes_ && before < INFINITY && bound - depth_ < kHopeless * (bound - enough_)) return bound;
     }
   }
+
+  double rounding_of_sum() const { return bodies_.rounding() * (1 + kSumRounding * static_cast<double>(columns_.size() + 3)); }
 
   // The largest weighted sum at a corner.
   double proven() const {
@@ -170,23 +187,35 @@ class CellBound {
   Nearest nearest(int body, Vec3 p) const {
     Nearest best;
     double front = -INFINITY;
-    const PatchList& near = open_.near[static_cast<std::size_t>(body)];
-    work_done += kFilterWork * near.size();
     const Aabb at{p, p};
     const double tie = bodies_.rounding();
-    for (const std::uint32_t i : near) {
-      const Patch& patch = bodies_.patch(body, i);
+    const auto compare = [&](std::uint32_t i) {
       const double reach = best.depth + tie;
-      if (box_distance_squared(at, patch.box) > reach * reach) continue;
+      if (box_distance_squared(at, bodies_.box(body, i)) > reach * reach) return;
       work_done += kDistanceWork;
+      const Patch& patch = bodies_.patch(body, i);
       const double distance = bodies_.patches(body).distance(patch, p);
-      if (distance > best.depth + tie) continue;
+      if (distance > best.depth + tie) return;
       const double in_front = dot(patch.normal, p - patch.origin);
       if (distance < best.depth - tie || in_front > front) {
         front = in_front;
         best.patch = i;
       }
       best.depth = smaller(best.depth, distance);
+    };
+    const PatchList& near = open_.near[static_cast<std::size_t>(body)];
+    if (near.size() < kManyPatches || bodies_.in_plane()) {
+      work_done += kFilterWork * near.size();
+      for (const std::uint32_t i : near) compare(i);
+    } else {
+      const Surface& surface = bodies_.surface(body);
+      const double reach = nearest_point(surface, p).distance + 2 * tie;
+      const Vec3 wide{reach, reach, reach};
+      visit_box(surface.bvh, surface.mesh, {p - wide, p + wide}, [&](std::uint32_t t) {
+        const std::uint32_t i = bodies_.patches(body).patch_of[t];
+        if (i != kNoPatch) compare(i);
+        return true;
+      });
     }
     best.depth -= bodies_.less(body);
     return best;
@@ -228,7 +257,7 @@ class CellBound {
         cut = HalfSpace{patch.normal, dot(patch.normal, patch.origin)};
       }
     }
-    open_.cut = cut;
+    if (most >= kAlongAxes * gap_at_corners()) open_.cut = cut;
   }
 
   HalfSpace halving(Vec3 along) const {
@@ -240,17 +269,46 @@ class CellBound {
     return {along, (low + high) / 2};
   }
 
+  // Towards the game's point, from the nearest patch of the body in the cell.
   bool cut_off_void(int body) {
-    const auto side = static_cast<std::size_t>(body);
-    if (met_[side] == 0 || met_[side] > kFewPatches || !(nearest_[side].depth < INFINITY)) return false;
+    const PatchList& met = met_[static_cast<std::size_t>(body)];
+    if (met.size() > kFewPatches) return false;
     const ConvexPatches& patches = bodies_.patches(body);
-    const Vec3 on_wall = patches.nearest(patches.patches[nearest_[side].patch], point_);
-    const double distance = norm(point_ - on_wall);
-    const double layer = std::fmax(kLayer * enough_, 4 * bodies_.rounding());
-    if (!(distance > 4 * layer)) return false;
+    double distance = INFINITY;
+    Vec3 on_wall;
+    for (const std::uint32_t i : met) {
+      const Vec3 nearest = patches.nearest(patches.patches[i], point_);
+      if (norm(point_ - nearest) >= distance) continue;
+      distance = norm(point_ - nearest);
+      on_wall = nearest;
+    }
+    const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
+    if (!(distance > 4 * layer && distance < INFINITY)) return false;
     const Vec3 towards = (point_ - on_wall) * (1 / distance);
     open_.cut = HalfSpace{towards, dot(towards, on_wall) + layer};
     return true;
+  }
+
+  // What makes the bound larger than the depth of the game's point: columns that are not linear, those that the bound rests
+  // on and the one that is the depth of that point.
+  double weight_of_gap(std::size_t c) const {
+    const Column& column = columns_[c];
+    if (column.plane) return 0;
+    const Nearest& nearest = nearest_[static_cast<std::size_t>(column.body)];
+    const bool is_depth = nearest.depth <= depth_ && nearest.patch == column.patch;
+    return game_->column_weights()[c] + (is_depth ? kNearestWeight : 0);
+  }
+
+  // The weighted sum at a point of the cell, without the columns that are linear.
+  double curved_sum(Vec3 p) const {
+    double sum = 0;
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      const double weight = weight_of_gap(c);
+      if (weight <= 0) continue;
+      work_done += kDistanceWork;
+      sum += weight * bodies_.value(columns_[c], p);
+    }
+    return sum;
   }
 
   // By how much the weighted sum is above its value at the game's point because it is not linear along the axis.
@@ -263,21 +321,25 @@ class CellBound {
     }
     if (!(forward < INFINITY && backward < INFINITY && forward + backward > bodies_.rounding())) return 0;
     const double share = backward / (forward + backward);
-    double gap = 0;
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const double weight = game_->column_weights()[c];
-      if (weight <= 0 || columns_[c].plane) continue;
-      work_done += 3 * kDistanceWork;
-      gap += weight * (share * bodies_.value(columns_[c], point_ + along * forward) + (1 - share) * bodies_.value(columns_[c], point_ - along * backward) -
-                       bodies_.value(columns_[c], point_));
+    return share * curved_sum(point_ + along * forward) + (1 - share) * curved_sum(point_ - along * backward) - curved_sum(point_);
+  }
+
+  // By how much it is above that value at the corners that the game's point is between.
+  double gap_at_corners() const {
+    double gap = -curved_sum(point_);
+    for (std::size_t k = 0; k < cell_.corners.size(); ++k) {
+      const double share = game_->row_weights()[k];
+      for (std::size_t c = 0; c < columns_.size() && share > 0; ++c) {
+        gap += share * weight_of_gap(c) * values_[c * cell_.corners.size() + k];
+      }
     }
     return gap;
   }
 
   // The same because the patch's plane runs through the cell.
   double gap_at_plane(std::size_t c) const {
-    const double weight = game_->column_weights()[c];
-    if (weight <= 0 || columns_[c].plane) return 0;
+    const double weight = weight_of_gap(c);
+    if (weight <= 0) return 0;
     const Patch& patch = bodies_.patch(columns_[c].body, columns_[c].patch);
     double sum = 0, sum_of_sizes = 0;
     for (std::size_t k = 0; k < cell_.corners.size(); ++k) {
@@ -305,8 +367,6 @@ class CellBound {
     }
   }
 
-  static constexpr double kSteep = 1e-9;
-
   const TwoBodies& bodies_;
   const Mat3& axes_;
   OpenCell& open_;
@@ -316,7 +376,9 @@ class CellBound {
   ThicknessRecord* record_;
   Aabb box_;
   double floor_ = 0, floor_of_game_ = 0;
-  std::array<std::size_t, 2> met_{};  // patches that may meet the cell
+  Vec3 middle_;        // a point of the cell
+  double radius_ = 0;  // no point of it is farther from there
+  PatchLists met_;  // patches that may meet the cell
   std::optional<MatrixGame> game_;
   std::vector<Column> columns_;
   std::vector<double> values_;  // of each column at all corners

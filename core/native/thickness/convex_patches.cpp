@@ -44,6 +44,7 @@ class Merging {
   ConvexPatches run() {
     for (const Seam& seam : flat_seams()) merge(seam);
     ConvexPatches result;
+    result.patch_of.assign(mesh_.triangles.size(), kNoPatch);
     std::vector<std::vector<std::uint32_t>> members(triangles_.size());
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) members[sets_.find(i)].push_back(triangles_[i]);
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
@@ -134,12 +135,14 @@ class Merging {
   void append(ConvexPatches& result, std::uint32_t i, const std::vector<std::uint32_t>& members) const {
     Patch patch{normals_[i], mesh_.vertices[outlines_[i][0]], static_cast<std::uint32_t>(result.outlines.size()),
                 static_cast<std::uint32_t>(outlines_[i].size()), static_cast<std::uint32_t>(result.triangles.size()),
-                static_cast<std::uint32_t>(members.size()), {}, 0};
+                static_cast<std::uint32_t>(members.size()), 0};
+    Aabb& box = result.boxes.emplace_back();
     for (const std::uint32_t v : outlines_[i]) {
       result.outlines.push_back(mesh_.vertices[v]);
-      patch.box.include(mesh_.vertices[v]);
+      box.include(mesh_.vertices[v]);
     }
     patch.slack = members.size() > 1 ? 2 * deviation(i, outlines_[i]) : 0;
+    for (const std::uint32_t t : members) result.patch_of[t] = static_cast<std::uint32_t>(result.patches.size());
     result.triangles.insert(result.triangles.end(), members.begin(), members.end());
     result.patches.push_back(patch);
   }

@@ -13,14 +13,17 @@ struct Patch {
   std::uint32_t first;  // place of its outline in `outlines`
   std::uint32_t count;  // corners of its outline
   std::uint32_t first_triangle, triangle_count;  // place in `triangles`
-  Aabb box;
   double slack;  // no point of the patch is farther from its triangles, beside rounding
 };
 
+inline constexpr std::uint32_t kNoPatch = 0xffffffff;
+
 struct ConvexPatches {
   std::vector<Patch> patches;
+  std::vector<Aabb> boxes;               // of the patches
   std::vector<Vec3> outlines;            // counter-clockwise seen from the side of the normal
   std::vector<std::uint32_t> triangles;  // numbers in the mesh
+  std::vector<std::uint32_t> patch_of;   // each triangle of the mesh; kNoPatch: none
 
   // The distance from p to the patch, rounded: never below the true one by more than rounding.
   double distance(const Patch& patch, Vec3 p) const { return norm(nearest(patch, p) - p); }

@@ -15,8 +15,9 @@ namespace satcheck {
 // rounded and not proven best: what they prove has to be computed from them.
 class MatrixGame {
  public:
-  // floor: no payment is smaller than that.
-  MatrixGame(std::size_t rows, double floor);
+  // floor: no payment is smaller than that. unit: the size of their difference from
+  // it, 0: that of the first column.
+  MatrixGame(std::size_t rows, double floor, double unit = 0);
 
   void add(std::span<const double> payments);  // one a row
   void solve();
@@ -31,8 +32,7 @@ class MatrixGame {
   double price(std::span<const double> column) const;
 
   std::size_t rows_;
-  double floor_;
-  double unit_ = 0;                // the first column is scaled to a largest entry of 1
+  double floor_, unit_;
   std::vector<double> columns_;    // all shifted and scaled columns in a row
   std::vector<double> inverse_;    // rows_ x rows_, of the basis
   std::vector<std::size_t> basis_; // of each row: a column, or a slack from kSlack on

@@ -24,6 +24,9 @@ constexpr std::uint64_t kCellWork = 1000, kPollWork = 50'000'000;
 // Of work, until the components of the overlap are looked at.
 constexpr std::uint64_t kPatience = 40'000'000;
 
+// Bounds below this many roundings are not divided further: rounding keeps them above 0.
+constexpr double kNoise = 1024;
+
 // Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
 constexpr double kFlatness = 1e-7;
 
@@ -68,7 +71,7 @@ class Search {
 
   // A cell whose bound is no larger does not have to be divided.
   double enough() const {
-    const double narrow = best_ > 0 ? best_ / (1 - goal_.width) : best_;
+    const double narrow = std::fmax(best_ > 0 ? best_ / (1 - goal_.width) : best_, kNoise * bodies_.rounding());
     return goal_.limit ? std::fmax(narrow, *goal_.limit / 2) : narrow;
   }
 

@@ -121,7 +121,7 @@ std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, co
     double height = plane;
     for (const std::uint32_t other : near) {
       work_done += kSideWork;
-      const Aabb& around = patch(body, other).box;
+      const Aabb& around = this->box(body, other);
       if (other == number || dot(normal, farthest_corner(around, normal)) <= height || !meet(around, box)) continue;
       double farthest = -INFINITY;
       const Vec3* outline = patches(body).outlines.data() + patch(body, other).first;

@@ -29,10 +29,12 @@ class TwoBodies {
 
   // What is computed in float64 about points of the bodies is off by less.
   double rounding() const { return rounding_; }
+  bool in_plane() const { return across_ >= 0; }
   double scale() const { return scale_; }
   double less(int body) const { return less_[static_cast<std::size_t>(body)]; }
   const Surface& surface(int body) const { return *surfaces_[static_cast<std::size_t>(body)]; }
   const ConvexPatches& patches(int body) const { return patches_[static_cast<std::size_t>(body)]; }
+  const Aabb& box(int body, std::uint32_t i) const { return patches(body).boxes[i]; }
   const Patch& patch(int body, std::uint32_t i) const { return patches(body).patches[i]; }
 
   // Makes the patches of the triangles that are no farther than `reach` from the box. flatness: convex_patches.hpp.

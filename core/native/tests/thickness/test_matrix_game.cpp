@@ -16,7 +16,7 @@ struct Value {
 };
 
 Value value_of(const Columns& columns, double floor) {
-  MatrixGame game(columns[0].size(), floor);
+  MatrixGame game(columns[0].size(), floor, 1);
   for (const auto& column : columns) {
     game.add(column);
     game.solve();
