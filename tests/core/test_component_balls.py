@@ -110,14 +110,14 @@ def test_a_search_in_the_bounds_of_a_component(place: int) -> None:
 
 @pytest.mark.parametrize("swap", [False, True])
 def test_a_search_looks_at_the_components(swap: bool) -> None:
-    """A turned bolt in its hole: cells alone do not get there with ten times the work."""
+    """A turned bolt in its hole: cells alone would take many times the work to be so narrow."""
     alpha = math.pi / 24
     truth = 2 * (1 - math.cos(alpha)) * math.cos(alpha) / (1 + math.cos(alpha))
     bolt, hole = (of(mesh) for mesh in bolt_and_hole(24, turn=0.7))
     pair = (hole, bolt) if swap else (bolt, hole)
-    interval = search_thickness(*pair, width=0.01, work=100_000_000)
+    interval = search_thickness(*pair, width=1e-6, work=100_000_000)
     assert interval.stop == "narrow"
-    assert 0.99 * truth <= interval.lower <= truth + 1e-11
+    assert 0.999999 * truth <= interval.lower <= truth + 1e-11
     assert truth - 1e-11 <= interval.upper <= truth + 1e-11
     decided = search_thickness(*pair, width=0.0, work=100_000_000, limit=truth / 2)
     assert decided.stop == "decided"
