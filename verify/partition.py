@@ -18,7 +18,7 @@ import numpy as np
 
 from satcheck.report.certificate import Cells
 from satcheck.report.values import Vector
-from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, homogeneous, planar_hull
+from satcheck.verify.exact import Floats, IntVector, Point, Rejected, dot, homogeneous
 from satcheck.verify.world import Exact, Indices
 
 MOST_CELLS = 100_000
@@ -26,8 +26,8 @@ MOST_CELLS = 100_000
 CUT, OUTSIDE_A, OUTSIDE_B, BOUNDED = 3, 4, 5, 6
 # Triangles are looked through for each cell only where there are more than that.
 FEW = 32
-AXES = (1, 0, 0), (0, 1, 0), (0, 0, 1)
-# The corners of each face of a box, by their places in a product of its ends.
+# The corners of each face of a box, by their places in a product of its ends, each edge run once in
+# either direction.
 BOX = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 # Of points of the lattice, in integers. A point is (X, Y, Z, W), its coordinates times some W > 0;
 # the half-space (n, d) holds those with n . X <= d W.
@@ -57,9 +57,15 @@ class Frame:
         scale = lcm(*(c.denominator for c in (x, y, z, limit)))
         return int(x * scale), int(y * scale), int(z * scale), int(limit * scale)
 
+    def below(self, axis: int, end: float) -> HalfSpace:
+        """The points with p[axis] <= end."""
+        limit = self.origin[axis] + Fraction(end) * self.scale
+        x, y, z = (limit.denominator if k == axis else 0 for k in range(3))
+        return x, y, z, limit.numerator
+
     def box(self, low: Sequence[float], high: Sequence[float]) -> list[HalfSpace]:
         ends = enumerate(zip(low, high, strict=True))
-        sides = [(self.behind(AXES[k], y), reverse(self.behind(AXES[k], x))) for k, (x, y) in ends]
+        sides = [(self.below(k, y), reverse(self.below(k, x))) for k, (x, y) in ends]
         return [side for both in sides for side in both]
 
     def world(self, points: Floats) -> Floats:
@@ -108,11 +114,11 @@ class Cell:
         return [*frame.box(self.low, self.high), *self.cuts]
 
     def middle(self, frame: Frame) -> Point:
-        """A point inside."""
-        if self.faces is None:
-            ends = zip(self.low, self.high, strict=True)
-            middle = [(Fraction(low) + Fraction(high)) / 2 for low, high in ends]
-            return exactly(frame.point(middle))
+        """A point inside: about the middle, of few digits, or exactly."""
+        x, y, z = (Fraction(c) * frame.scale for c in self.rounded(frame).mean(axis=0).tolist())
+        about = homogeneous((x, y, z))
+        if all(height(space, about) < 0 for space in self.half_spaces(frame)):
+            return x, y, z
         corners = [exactly(p) for p in self.corners(frame)]
         x, y, z = (sum((p[k] for p in corners), Fraction()) / len(corners) for k in range(3))
         return x, y, z
@@ -172,7 +178,7 @@ class Partition:
         above = replace(cell, low=_with(cell.low, axis, place))
         if cell.faces is None:
             return [self._narrowed(below), self._narrowed(above)]
-        side = self.frame.behind(AXES[axis], place)
+        side = self.frame.below(axis, place)
         return [self._clipped(below, side), self._clipped(above, reverse(side))]
 
     def _cut(self, cell: Cell | None, cut: tuple[Vector, float] | None) -> list[Cell | None]:
@@ -223,12 +229,18 @@ def clip(faces: list[Polygon], space: HalfSpace) -> list[Polygon] | None:
         return None
     if max(heights.values()) <= 0:
         return faces
-    kept = [clipped(face, heights) for face in faces]
-    rim = {p for face in kept for p in face if heights.get(p, 0) == 0}
-    across = max(range(3), key=lambda k: abs(space[k]))
-    flat = {(q[across - 2], q[across - 1]): p for p in rim for q in (exactly(p),)}
-    cap = [flat[q] for q in planar_hull(flat)]
-    return [face for face in (*kept, cap) if len(face) > 2]
+    kept = [part for face in faces if len(part := clipped(face, heights)) > 2]
+    # The new face runs along the others, in the other direction.
+    after = {
+        p: q
+        for face in kept
+        for q, p in zip((face[-1], *face), face, strict=False)
+        if heights.get(q, 0) == 0 == heights.get(p, 0)
+    }
+    cap = [next(iter(after))]
+    while (p := after[cap[-1]]) != cap[0]:
+        cap.append(p)
+    return [*kept, cap]
 
 
 def clipped(polygon: Polygon, heights: dict[Corner, int]) -> Polygon:

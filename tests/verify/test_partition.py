@@ -30,6 +30,20 @@ def cells(*kinds: int, at: tuple[float, ...] = ()) -> Cells:
     return Cells(zero, zero, (1.0, 1.0, 1.0), (), kinds, at, (), ())
 
 
+def edges(faces: list[Polygon]) -> list[tuple[tuple[int, ...], tuple[int, ...]]]:
+    return [(face[k - 1], face[k]) for face in faces for k in range(len(face))]
+
+
+def test_each_edge_runs_once_in_either_direction() -> None:
+    faces: list[Polygon] | None = cube()
+    for space in ((1, 2, 3, 7), (-1, 1, 0, 1), (1, 1, 1, 3), (0, 0, -1, -1), (1, 0, 0, 1)):
+        assert faces is not None
+        run = edges(faces)
+        assert len(set(run)) == len(run)
+        assert {(q, p) for p, q in run} == set(run)
+        faces = clip(faces, space)
+
+
 def test_a_clipped_box_has_the_corners_that_are_left_and_those_of_the_cut() -> None:
     half = clip(cube(), (1, 0, 0, 1))
     assert corners(half) == set(product((0, 1), (0, 2), (0, 2)))
