@@ -191,7 +191,8 @@ class Certificate(Value, frozen=True):
     relation: proves exact_relation. mtv: proves that A, moved by mtv, has no common interior with
     B. depth: of convex bodies. distance: of meshes of which one is not convex, a point of either
     boundary, as far apart as the bodies; all triangles that could be nearer are looked at again.
-    cover: of the lower end of a concave depth. gap: points that show how close separated bodies
+    cover: of the lower end of a concave depth. thickness: of its upper end; a ball shows the lower
+    one. gap: points that show how close separated bodies
     are, where that makes them touching or near. band: of an overlap that is called touching.
     """
 
@@ -200,5 +201,6 @@ class Certificate(Value, frozen=True):
     depth: DepthProof | UnsetType = UNSET
     distance: Ends | UnsetType = UNSET
     cover: Cover | UnsetType = UNSET
+    thickness: Cells | UnsetType = UNSET
     gap: Ends | UnsetType = UNSET
     band: Band | UnsetType = UNSET

@@ -19,8 +19,8 @@ class Checked(Value, frozen=True):
     """One finding of the report.
 
     outcome: open: the report says that the pair is indeterminate, which claims nothing. no file:
-    that of a body is missing, so nothing is known. reason: why it is not accepted. depth, mtv: the
-    depth, and the way out, are proven too. left: fields of the finding that say something which is
+    that of a body is missing, so nothing is known. reason: why it is not accepted. depth, mtv,
+    thickness: that figure is proven too. left: fields of the finding that say something which is
     not proven.
     """
 
@@ -31,6 +31,7 @@ class Checked(Value, frozen=True):
     reason: str | None = None
     depth: bool = False
     mtv: bool = False
+    thickness: bool = False
     left: tuple[str, ...] = ()
 
 

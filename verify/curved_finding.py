@@ -57,7 +57,7 @@ def check_curved(
         )
 
     most = proven_depth(finding, proven)
-    check_severity(finding, request, ProvenFigures(most, keeps, EXACT_WIDTH))
+    check_severity(finding, request, ProvenFigures(most, most, keeps, EXACT_WIDTH))
     return proven
 
 

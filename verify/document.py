@@ -159,7 +159,8 @@ class _Report:
         if proven is None:
             return Checked(a, b, relation, "open", str(finding.reason))
         left = _left(finding, proven)
-        return Checked(a, b, relation, "accepted", None, proven.depth, proven.mtv, left)
+        thick = finding.thickness is not None and proven.ball and proven.thickness
+        return Checked(a, b, relation, "accepted", None, proven.depth, proven.mtv, thick, left)
 
     def _list(self, *names: str) -> tuple[Placed, Placed]:
         """The bodies of a finding, from now on one of the pairs that are listed."""
@@ -232,6 +233,7 @@ class _Report:
 def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
     """The fields of an accepted finding that have a value and are not proven."""
     bounds, overlap = finding.depth_bounds, finding.exact_relation in OVERLAPS
+    least = finding.thickness_bounds and finding.thickness_bounds[0]
     is_left = {
         "undecided": finding.undecided == "limit",
         "distance": finding.distance is not None and not proven.distance,
@@ -240,6 +242,9 @@ def _left(finding: Finding, proven: ProvenFields) -> tuple[str, ...]:
         "depth_bounds": bounds is not None and bounds[0] > 0 and not proven.depth,
         "normal": finding.normal is not None and not proven.normal,
         "mtv": finding.mtv is not None and not proven.mtv,
+        "thickness": finding.thickness is not None and not proven.thickness,
+        "thickness_bounds": bool(least) and not proven.ball,
+        "ball": finding.ball is not None and not proven.ball,
         "volume": overlap and finding.volume is not None,
         "volume_error": overlap and finding.volume_error is not None,
         "contacts": finding.contacts is not None and not proven.contacts,

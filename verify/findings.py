@@ -37,6 +37,7 @@ from satcheck.verify.polytope import inner_radius_exceeds
 from satcheck.verify.relations import Pair, pair_of, prove
 from satcheck.verify.rules import Request
 from satcheck.verify.severity import ProvenFields, ProvenFigures, check_severity, proven_depth
+from satcheck.verify.thickness import at_most, holds_ball
 from satcheck.verify.way_out import check_mtv, prove_way_out
 
 
@@ -73,6 +74,13 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     proven = ProvenFields(
         depth or (covered and mtv), mtv, distance or exact == "touching", directed or mtv
     )
+    most = proven_depth(finding, replace(proven, depth=depth))
+    thickest = _check_thickness(finding, certificate, pair, request, most)
+    proven = replace(
+        proven,
+        ball=finding.thickness_bounds is not None and request.across is None,
+        thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
+    )
     if relation != exact:
         near = max(clearance - error.farther, Fraction(0))
         _check_band(finding, certificate, pair, (a, b), tolerance, near, proven)
@@ -89,13 +97,12 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
             error,
         )
 
-    most = proven_depth(finding, replace(proven, depth=depth))
     slack = rounding.of(tolerance)
     if relation == "near":
         prove_apart(certificate, pair, (a, b), max(tolerance - slack, Fraction(0)))
     if relation in OVERLAPS and most is not None and most + slack < tolerance:
         raise Rejected("the overlap is within the tolerance: the bodies touch")
-    check_severity(finding, request, ProvenFigures(most, keeps, EXACT_WIDTH))
+    check_severity(finding, request, ProvenFigures(most, thickest, keeps, EXACT_WIDTH))
     return proven
 
 
@@ -156,6 +163,35 @@ def _check_cover(finding: Finding, certificate: Certificate, pair: Pair) -> bool
         raise Rejected("a cover, and no depth")
     depth_is_at_least(certificate.cover, pair.a, pair.b, Fraction(finding.depth_bounds[0]))
     return True
+
+
+def _check_thickness(
+    finding: Finding,
+    certificate: Certificate,
+    pair: Pair,
+    request: Request,
+    depth: Fraction | None,
+) -> Fraction | None:
+    """An upper bound of the thickness, as far as one is proven. Rejects a ball that is not in both
+    bodies. depth: a bound of the depth; no overlap is thicker than it is deep."""
+    cells = certificate.thickness
+    if finding.thickness is None or request.across is not None:
+        if not isinstance(cells, UnsetType):
+            raise Rejected("cells, and no thickness in space")
+        return depth
+    if finding.ball is not None:
+        for body in (pair.a, pair.b):
+            holds_ball(body, finding.ball.centre, Fraction(finding.ball.radius))
+    if isinstance(cells, UnsetType):
+        return depth
+    thickness = Fraction(finding.thickness)
+    at_most(cells, pair.a, pair.b, thickness / 2, (Fraction(0), Fraction(0)))
+    return thickness if depth is None else min(thickness, depth)
+
+
+def _granted(figure: float | None, rounding: Rounding) -> Fraction:
+    length = Fraction(figure or 0)
+    return length + rounding.of(length)
 
 
 def depth_at_most(n: Point, pair: Pair, length: Fraction) -> bool:

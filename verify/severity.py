@@ -20,13 +20,16 @@ CLEARANCE = "clearance"
 
 @dataclass(frozen=True, slots=True)
 class ProvenFields:
-    """Which fields of an accepted finding are proven."""
+    """Which fields of an accepted finding are proven. ball: with the lower end of the thickness.
+    thickness: its upper end."""
 
     depth: bool = False
     mtv: bool = False
     distance: bool = False
     normal: bool = False
     contacts: bool = False
+    ball: bool = False
+    thickness: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,11 +45,12 @@ class Judgement:
 class ProvenFigures:
     """What a judgement needs besides the relation.
 
-    depth_at_most: a proven upper bound of the depth. keeps: whether the gap has at least this
+    depth_at_most, thickness_at_most: proven upper bounds. keeps: whether the gap has at least this
     length; None: undecided. rounding: the relative width that a limit is granted.
     """
 
     depth_at_most: Fraction | None
+    thickness_at_most: Fraction | None
     keeps: Callable[[Fraction], bool | None]
     rounding: Fraction
 
@@ -124,13 +128,16 @@ def _limited(finding: Finding, request: Request, proven: ProvenFigures) -> Judge
 
 
 def _limits(finding: Finding, request: Request, proven: ProvenFigures) -> Iterator[_Limit]:
-    bounds = {"max_depth": finding.depth_bounds, "max_thickness": finding.thickness_bounds}
-    for key, interval in bounds.items():
+    intervals = {
+        "max_depth": (finding.depth_bounds, proven.depth_at_most),
+        "max_thickness": (finding.thickness_bounds, proven.thickness_at_most),
+    }
+    for key, (interval, bound) in intervals.items():
         if (limit := getattr(request, key)) is None:
             continue
         low, high = interval or (None, None)
-        most, depth = Fraction(limit), proven.depth_at_most  # which no overlap is thicker than
-        within = depth is not None and depth <= most * (1 + proven.rounding)
+        most = Fraction(limit)
+        within = bound is not None and bound <= most * (1 + proven.rounding)
         yield _Limit(key, most, _fraction(low), _fraction(high), within)
     if request.max_volume is not None:
         volume, error = _fraction(finding.volume), _fraction(finding.volume_error)

@@ -15,6 +15,7 @@ from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.curved import curved_certificate
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
+from satcheck.audit.certify.thickness import cells
 from satcheck.audit.certify.values import (
     AXES,
     NoCertificate,
@@ -28,6 +29,7 @@ from satcheck.core.conventions import axis_across
 from satcheck.report.certificate import (
     AxisProof,
     Band,
+    Cells,
     Certificate,
     Cover,
     DepthProof,
@@ -40,9 +42,10 @@ from satcheck.report.certificate import (
     SameProof,
     SurfacesProof,
 )
-from satcheck.report.report import OVERLAPS
+from satcheck.report.report import OVERLAPS, Finding
 from satcheck.report.values import Vector
 from satcheck.verify import Rejected
+from satcheck.verify.bodies import Placed
 from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector
 from satcheck.verify.figures import rounding_of
@@ -77,11 +80,19 @@ def certified(pair: Pair, examined: Examined) -> Certificate | NoCertificate:
         certificate = _Maker(pair, examined).certificate()
     if isinstance(certificate, NoCertificate):
         return certificate
+    why = _refusal(replace(finding, certificate=certificate), a, b, request)
+    if why is not None and certificate.thickness is not UNSET:  # it may be that alone
+        certificate = replace(certificate, thickness=UNSET)
+        why = _refusal(replace(finding, certificate=certificate), a, b, request)
+    return certificate if why is None else NoCertificate(f"what was found does not prove it: {why}")
+
+
+def _refusal(finding: Finding, a: Placed, b: Placed, request: Request) -> str | None:
     try:
-        check_finding(replace(finding, certificate=certificate), a, b, request)
+        check_finding(finding, a, b, request)
     except Rejected as why:
-        return NoCertificate(f"what was found does not prove it: {why}")
-    return certificate
+        return str(why)
+    return None
 
 
 class _Maker:
@@ -118,6 +129,7 @@ class _Maker:
             depth=or_unset(self._depth()),
             distance=or_unset(self._distance()),
             cover=or_unset(self._cover()),
+            thickness=or_unset(self._cells()),
             gap=or_unset(gap),
             band=or_unset(band),
         )
@@ -244,6 +256,16 @@ class _Maker:
         if bounds is None or self.placed.convex:
             return None
         return cover(self.placed, Fraction(bounds[0]))
+
+    def _cells(self) -> Cells | None:
+        """Of an overlap that is thinner than it is deep."""
+        answer, finding = self.examined.answer, self.finding
+        thickness = None if answer is None else answer.thickness
+        if thickness is None or thickness.proof is None or self.across is not None:
+            return None
+        if finding.mtv_verified and finding.depth is not None and thickness.upper >= finding.depth:
+            return None
+        return cells(thickness.proof)
 
     def _mtv(self) -> Proof | None:
         if not self.finding.mtv_verified or self.finding.mtv is None:

@@ -27,11 +27,12 @@ STAGE = "thickness"
 
 class Thickness(Struct, frozen=True):
     """World units: lower <= true thickness <= upper. ball: proven to lie in both bodies, as thick
-    as lower; None where that is 0."""
+    as lower; None where that is 0. proof: of upper, where certificates are asked for."""
 
     lower: float
     upper: float
     ball: Ball | None = None
+    proof: core.ThicknessProof | None = None
 
 
 def why_not_thick(pair: Pair) -> str | None:
@@ -70,8 +71,15 @@ def search(
 ) -> core.ThicknessInterval:
     """limit: the search ends once the interval lies on one side of it."""
     a, b = pair.a.surface(), pair.b.surface()
-    across = pair.settings.across
-    interval = core.search_thickness(a, b, width=width, work=work, limit=limit, across=across)
+    interval = core.search_thickness(
+        a,
+        b,
+        width=width,
+        work=work,
+        limit=limit,
+        across=pair.settings.across,
+        prove=pair.settings.certificate,
+    )
     by = f"from {interval.lower:.6g} to {interval.upper:.6g} by {interval.boxes} boxes of space"
     if interval.stop == "work spent":
         trace.record(STAGE, "budget spent", f"{by}; the budget ended the search")
@@ -84,12 +92,13 @@ def _thickness_of(interval: core.ThicknessInterval) -> Thickness:
     ball = None
     if interval.centre is not None and interval.lower > 0:
         ball = Ball(interval.centre, interval.radius)
-    return Thickness(max(interval.lower, 0.0), max(interval.upper, 0.0), ball)
+    return Thickness(max(interval.lower, 0.0), max(interval.upper, 0.0), ball, interval.proof)
 
 
 def _narrower(one: Thickness, other: Thickness) -> Thickness:
     thicker = max(one, other, key=lambda thickness: thickness.lower)
-    return Thickness(thicker.lower, min(one.upper, other.upper), thicker.ball)
+    thinner = min(one, other, key=lambda thickness: thickness.upper)
+    return Thickness(thicker.lower, thinner.upper, thicker.ball, thinner.proof)
 
 
 def _of_curves(pair: Pair, thickness: Thickness) -> Thickness:

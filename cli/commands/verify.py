@@ -34,6 +34,8 @@ from satcheck.verify import Checked, Rejected, Verification, parse, verify
 MOST_BYTES = 1 << 30
 # At most this many files that are not there are named.
 MOST_NAMED = 3
+# The figures that a certificate may prove, in the words of the last line.
+_FIGURES = {"depth": ("depth",), "thickness": ("thickness",) * 2, "mtv": ("way out", "ways out")}
 # Outcomes that are not "accepted", in the words of the last line.
 _CALLED: dict[Outcome, str] = {
     "rejected": "rejected",
@@ -177,11 +179,10 @@ def _summary(result: Verification) -> str:
         parts.append(f"{counted(result.pruned, 'pair')} apart by their boxes")
     if result.exempt:
         parts.append(f"{counted(result.exempt, 'pair')} exempt by the scene, not checked")
-    depths, moves = sum(f.depth for f in accepted), sum(f.mtv for f in accepted)
     proven = [
         counted(count, *words)
-        for count, words in ((depths, ("depth",)), (moves, ("way out", "ways out")))
-        if count
+        for key, words in _FIGURES.items()
+        if (count := sum(getattr(f, key) for f in accepted))
     ]
     extra = f" Also proven: {', '.join(proven)}." if proven else ""
     return ", ".join(parts) + "." + extra

@@ -30,7 +30,10 @@ def test_an_honest_report_is_accepted(tmp_path: Path) -> None:
     VALIDATOR.validate(json.loads(path.read_text("utf-8")))
     ran = satcheck("verify", str(path))
     assert (ran.code, ran.err) == (0, "")
-    assert ran.out == f"1 verdict accepted. Also proven: 1 depth, 1 way out.\n{NOT_COVERED}"
+    assert (
+        ran.out
+        == f"1 verdict accepted. Also proven: 1 depth, 1 thickness, 1 way out.\n{NOT_COVERED}"
+    )
 
 
 def test_paths_start_at_the_root(tmp_path: Path) -> None:

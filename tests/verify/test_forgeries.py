@@ -70,7 +70,8 @@ def false_values(path: Place, value: Any) -> Iterator[Any]:
     elif isinstance(value, int):
         yield from (value + 1, value - 1)
     elif isinstance(value, float):
-        yield from (value + 0.125, value * 1.5 + 1.0, -value - 0.25, 1e9)
+        beside = () if "centre" in path else (value + 0.125,)  # where a ball may be as true
+        yield from (*beside, value * 1.5 + 1.0, -value - 0.25, 1e9)
     elif isinstance(value, str):
         yield from (word for word in WORDS.get(str(path[-1]), ()) if word != value)
     elif isinstance(value, list):
@@ -115,8 +116,8 @@ def is_no_lie(path: Place, value: Any, forged: Any) -> bool:
         return True
     if path == ("summary", "by_relation") and isinstance(forged, dict):
         return {k: n for k, n in forged.items() if n} == {k: n for k, n in value.items() if n}
-    # A lower end that is lower still, of a depth that stays an interval.
-    is_lower_end = path[-2:] == ("depth_bounds", 0)
+    # A lower end that is lower still, of an interval.
+    is_lower_end = path[-2:] in (("depth_bounds", 0), ("thickness_bounds", 0))
     return is_lower_end and isinstance(forged, float) and 0 <= forged <= value
 
 
@@ -208,6 +209,28 @@ def is_shallow(made: Json) -> None:
     made["findings"][0].update(depth=0.25, depth_bounds=[0.25, 0.25], quality="exact")
 
 
+def is_thinner(made: Json) -> None:
+    low, high = made["findings"][0]["thickness_bounds"]
+    thin = (low + high) / 2
+    made["findings"][0].update(thickness=thin, thickness_bounds=[low, thin])
+
+
+def is_thicker(made: Json) -> None:
+    """By a ball of the radius of the upper end, and more."""
+    _, high = made["findings"][0]["thickness_bounds"]
+    made["findings"][0].update(thickness=2 * high, thickness_bounds=[1.01 * high, 2 * high])
+    made["findings"][0]["ball"]["radius"] = 0.505 * high
+
+
+def is_elsewhere(made: Json) -> None:
+    made["findings"][0]["ball"]["centre"] = [3.0, 3.0, 2.0]  # in the notch
+
+
+def merely_touches(made: Json) -> None:
+    made["findings"][0].update(relation="touching", severity="note")
+    made["summary"].update(verdict="pass")
+
+
 def meets(made: Json) -> None:
     contacts = honest("touching")["findings"][0]["contacts"]
     made["findings"][0].update(contacts=contacts)
@@ -243,6 +266,10 @@ TOGETHER = {
     "a depth below the way out": ("concave", is_shallow),
     "contacts of bodies that are apart": ("apart", meets),
     "a common part of bodies that are apart": ("apart", has_a_component),
+    "a thickness below what the cells show": ("thinner than deep", is_thinner),
+    "a ball that is too large": ("thinner than deep", is_thicker),
+    "a ball outside of a body": ("thinner than deep", is_elsewhere),
+    "an overlap that is called a touch for being thin": ("thinner than deep", merely_touches),
 }
 
 
