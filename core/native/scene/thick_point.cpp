@@ -52,6 +52,7 @@ bool has_thick_point(const Mesh& a, const Mesh& b, const PairResult& hulls, doub
   for (int step = 0; step < kSteps && more > 0; ++step, more *= 0.5) {
     const Wall of_a = nearest_wall(a, p), of_b = nearest_wall(b, p);
     const Wall& wall = of_a.room < of_b.room ? of_a : of_b;
+    if (!std::isfinite(wall.room)) break;  // without witnesses there is no place to start from
     if (wall.room > least) return true;
     p = p + wall.inward * (least + more - wall.room);
   }

@@ -34,6 +34,12 @@ void a_body_inside_another() {
   CHECK(!convex_thick(a, b, 0.5) && !thick(a, b, 0.5));
 }
 
+void without_witnesses_nothing_is_claimed() {
+  PairResult hulls;
+  hulls.lower = hulls.upper = -1;
+  CHECK(!has_thick_point(box({0, 0, 0}, {1, 1, 1}), box({0, 0, 0}, {1, 1, 1}), hulls, 1e-9));
+}
+
 // Deep, as the way out is long, and thin.
 void a_needle_through_a_box() {
   const Mesh a = box({0, 0, 0}, {1, 1, 1}), b = box({-1, 0.5, 0.5}, {2, 0.5 + 1e-3, 0.5 + 1e-3});
@@ -46,4 +52,5 @@ UNIT(thick_point) {
   boxes_overlap_in_a_slab();
   a_body_inside_another();
   a_needle_through_a_box();
+  without_witnesses_nothing_is_claimed();
 }
