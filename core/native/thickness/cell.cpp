@@ -73,7 +73,8 @@ std::vector<double> heights(const Cell& cell, const HalfSpace& plane) {
 }
 
 // The part where sign * (normal . p - height) <= 0.
-std::optional<Cell> part(const Cell& cell, const HalfSpace& plane, const std::vector<double>& beyond, double sign, double scale) {
+std::optional<Cell> part(const Cell& cell, const HalfSpace& plane, const std::vector<double>& beyond, double sign,
+                         double scale) {
   Cell result{cell.sides, {}, 0};
   const std::uint64_t bit = std::uint64_t{1} << cell.sides.size();
   result.sides.push_back({plane.normal * sign, plane.height * sign});

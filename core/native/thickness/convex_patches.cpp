@@ -30,7 +30,8 @@ struct Seam {
 class Merging {
  public:
   Merging(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, double flatness)
-      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), outlines_(triangles.size()), normals_(triangles.size()) {
+      : mesh_(mesh), triangles_(triangles), flatness_(flatness), sets_(triangles.size()), outlines_(triangles.size()),
+        normals_(triangles.size()) {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       const Triangle& t = mesh.triangles[triangles[i]];
       outlines_[i] = {t[0], t[1], t[2]};
@@ -83,7 +84,8 @@ class Merging {
 
   void add_seam(std::vector<Seam>& seams, const Edge& a, const Edge& b) const {
     if (!(dot(normals_[a.triangle], normals_[b.triangle]) > 0)) return;
-    if (deviation(a.triangle, outlines_[b.triangle]) > flatness_ || deviation(b.triangle, outlines_[a.triangle]) > flatness_) return;
+    if (deviation(a.triangle, outlines_[b.triangle]) > flatness_) return;
+    if (deviation(b.triangle, outlines_[a.triangle]) > flatness_) return;
     const std::uint32_t from = a.upward ? a.low : a.high, to = a.upward ? a.high : a.low;
     seams.push_back({norm_squared(mesh_.vertices[from] - mesh_.vertices[to]), from, to, a.triangle, b.triangle});
   }
@@ -92,7 +94,9 @@ class Merging {
   double deviation(std::uint32_t plane, const std::vector<std::uint32_t>& outline) const {
     const Vec3 origin = mesh_.vertices[mesh_.triangles[triangles_[plane]][0]];
     double most = 0;
-    for (const std::uint32_t v : outline) most = std::fmax(most, std::fabs(dot(normals_[plane], mesh_.vertices[v] - origin)));
+    for (const std::uint32_t v : outline) {
+      most = std::fmax(most, std::fabs(dot(normals_[plane], mesh_.vertices[v] - origin)));
+    }
     return most;
   }
 
@@ -101,14 +105,16 @@ class Merging {
     if (p == q) return;
     const std::uint32_t kept = std::min(p, q);
     std::vector<std::uint32_t> joined = joined_outline(outlines_[p], outlines_[q], seam);
-    if (joined.empty() || deviation(kept, joined) > flatness_ || !is_convex_at(joined, kept, seam.from) || !is_convex_at(joined, kept, seam.to)) return;
+    if (joined.empty() || deviation(kept, joined) > flatness_) return;
+    if (!is_convex_at(joined, kept, seam.from) || !is_convex_at(joined, kept, seam.to)) return;
     sets_.unite(p, q);
     outlines_[kept] = std::move(joined);
     outlines_[std::max(p, q)].clear();
   }
 
   // Empty where they share more than the seam, or have too many corners.
-  static std::vector<std::uint32_t> joined_outline(const std::vector<std::uint32_t>& p, const std::vector<std::uint32_t>& q, const Seam& seam) {
+  static std::vector<std::uint32_t> joined_outline(const std::vector<std::uint32_t>& p, const std::vector<std::uint32_t>& q,
+                                                   const Seam& seam) {
     if (p.size() + q.size() > kMostCorners + 2) return {};
     for (const std::uint32_t v : q) {
       if (v != seam.from && v != seam.to && std::find(p.begin(), p.end(), v) != p.end()) return {};

@@ -16,7 +16,8 @@ constexpr int kPivotsPerRow = 8;
 }  // namespace
 
 MatrixGame::MatrixGame(std::size_t rows, double floor, double unit)
-    : rows_(rows), floor_(floor), unit_(unit), inverse_(rows * rows, 0.0), basis_(rows), basic_(rows, 1.0), prices_(rows, 0.0), step_(rows) {
+    : rows_(rows), floor_(floor), unit_(unit), inverse_(rows * rows, 0.0), basis_(rows),
+      basic_(rows, 1.0), prices_(rows, 0.0), step_(rows) {
   for (std::size_t i = 0; i < rows; ++i) {
     inverse_[i * rows + i] = 1;
     basis_[i] = kSlack + i;

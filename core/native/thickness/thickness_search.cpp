@@ -158,7 +158,9 @@ class Search {
   void divide(OpenCell& parent) {
     std::optional<Halves> halves;
     if (parent.cut) halves = split(parent.cell, *parent.cut, bodies_.scale());
-    for (int axis = 0; axis < 3 && !halves; ++axis) halves = split(parent.cell, longest_cut(parent.cell, axis), bodies_.scale());
+    for (int axis = 0; axis < 3 && !halves; ++axis) {
+      halves = split(parent.cell, longest_cut(parent.cell, axis), bodies_.scale());
+    }
     if (!halves) {  // nothing is left to divide
       dropped_ = std::fmax(dropped_, parent.bound);
       return;
