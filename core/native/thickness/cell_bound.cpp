@@ -112,7 +112,7 @@ class CellBound {
       for (std::uint32_t i = 0; i < patch.count; ++i) least = smaller(least, dot(side.normal, outline[i]));
       // Along an axis nothing is rounded.
       const bool along_axis = (side.normal.x != 0) + (side.normal.y != 0) + (side.normal.z != 0) == 1;
-      if (least >= side.height + (along_axis ? 0 : close)) return false;
+      if (least - patch.slack >= side.height + (along_axis ? 0 : close)) return false;
     }
     double low = INFINITY, high = -INFINITY;
     for (const Cell::Corner& corner : cell_.corners) {

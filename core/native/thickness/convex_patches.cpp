@@ -148,6 +148,8 @@ class Merging {
       box.include(mesh_.vertices[v]);
     }
     patch.slack = members.size() > 1 ? 2 * deviation(i, outlines_[i]) : 0;
+    const Vec3 bulge{patch.slack, patch.slack, patch.slack};
+    box = {box.min - bulge, box.max + bulge};
     for (const std::uint32_t t : members) result.patch_of[t] = static_cast<std::uint32_t>(result.patches.size());
     result.triangles.insert(result.triangles.end(), members.begin(), members.end());
     result.patches.push_back(patch);

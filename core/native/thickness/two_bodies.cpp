@@ -122,12 +122,13 @@ std::optional<Column> TwoBodies::plane_column(int body, std::uint32_t number, co
     for (const std::uint32_t other : near) {
       work_done += kSideWork;
       const Aabb& around = this->box(body, other);
+      const double bulge = patch(body, other).slack;  // of its triangles, beyond its outline; the box has it
       if (other == number || dot(normal, farthest_corner(around, normal)) <= height || !meet(around, box)) continue;
       double farthest = -INFINITY;
       const Vec3* outline = patches(body).outlines.data() + patch(body, other).first;
       for (std::uint32_t i = 0; i < patch(body, other).count; ++i) farthest = larger(farthest, dot(normal, outline[i]));
       if (farthest > plane + tolerance) farthest = farthest_in(body, other, box, normal);
-      height = larger(height, farthest);
+      height = larger(height, farthest + bulge);
       if (height > plane + tolerance) break;
     }
     if (height > plane + tolerance) continue;
