@@ -32,7 +32,6 @@ ThicknessInterval checked_search(const Surface& a, const Surface& b, double widt
   if (!(less_b >= 0 && std::isfinite(less_b))) throw std::invalid_argument("less_b must be a finite length >= 0");
   if (limit && !std::isfinite(*limit)) throw std::invalid_argument("limit must be finite");
   if (across < -1 || across > 2) throw std::invalid_argument("across must be an axis, 0 to 2, or -1");
-  if (within && (less_a > 0 || less_b > 0)) throw std::invalid_argument("within a box nothing is taken from distances");
   if (within && prove) throw std::invalid_argument("within a box nothing is proven of the pair");
   const auto box = within ? std::optional(Aabb{finite_point(within->first), finite_point(within->second)}) : std::nullopt;
   return search_thickness(a, b, {width, work, less_a, less_b, limit, across, prove, box, raise_interrupts});

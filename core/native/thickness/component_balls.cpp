@@ -19,9 +19,6 @@ namespace {
 // as many again, and a distance from a triangle up to 120 of it. Rounded up.
 constexpr double kHeightRoundoffs = 256;
 
-// Of triangles that meet; more take longer than they are worth.
-constexpr std::size_t kMostPairs = 100'000;
-
 // Planes that meet in one corner of a polytope and count are few; more rounds only repeat rounding.
 constexpr int kMostRounds = 100;
 
@@ -121,18 +118,6 @@ std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& 
     interval.lower = 2 * interval.radius;
   }
   return intervals;
-}
-
-std::optional<ThicknessInterval> thickest_component(const Surface& a, const Surface& b) {
-  const OverlapComponents overlap = overlap_components(a, b, kMostPairs);
-  if (!overlap.resolved) return std::nullopt;
-  ThicknessInterval thickest;
-  for (const ThicknessInterval& ball : component_balls(a, b, overlap)) {
-    const double upper = larger(thickest.upper, ball.upper);
-    if (ball.lower > thickest.lower) thickest = ball;
-    thickest.upper = upper;
-  }
-  return thickest;
 }
 
 }  // namespace satcheck

@@ -1,7 +1,6 @@
 // The thickness of the components of an overlap, without a search.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "overlap/overlap_components.hpp"
@@ -13,8 +12,5 @@ namespace satcheck {
 // convex, as slivers between facets are. centre: of that ball; lower: how thick the overlap of the solids is around it,
 // and 0 where it does not lie in both, or may belong to another component.
 std::vector<ThicknessInterval> component_balls(const Surface& a, const Surface& b, const OverlapComponents& overlap);
-
-// The thickness of the whole overlap by these; nothing where the components are not resolved.
-std::optional<ThicknessInterval> thickest_component(const Surface& a, const Surface& b);
 
 }  // namespace satcheck

@@ -13,7 +13,7 @@
 #include "mesh/surface_order.hpp"
 #include "mesh_pair/moved_surface.hpp"
 #include "thickness/cell_bound.hpp"
-#include "thickness/component_balls.hpp"
+#include "thickness/component_search.hpp"
 
 namespace satcheck {
 namespace {
@@ -22,7 +22,7 @@ namespace {
 constexpr std::uint64_t kCellWork = 1000, kPollWork = 50'000'000;
 
 // Of work, until the components of the overlap are looked at.
-constexpr std::uint64_t kPatience = 40'000'000;
+constexpr std::uint64_t kPatience = 10'000'000;
 
 // Bounds below this many roundings are not divided further: rounding keeps them above 0.
 constexpr double kNoise = 1024;
@@ -218,40 +218,29 @@ ThicknessInterval search_either_way(const Surface& a, const Surface& b, const Th
   return interval;
 }
 
-// Both are intervals of the same overlap.
-ThicknessInterval narrower(ThicknessInterval interval, const ThicknessInterval& other, const ThicknessGoal& goal) {
-  const double upper = smaller(interval.upper, other.upper);
-  interval.work += other.work;
-  interval.boxes += other.boxes;
-  if (other.lower > interval.lower) {
-    interval.lower = other.lower;
-    interval.found = other.found;
-    interval.centre = other.centre;
-    interval.radius = other.radius;
-  }
-  interval.upper = larger(upper, interval.lower);
-  const bool decided = goal.limit && (interval.lower > *goal.limit || interval.upper <= *goal.limit);
-  const bool narrow = interval.upper - interval.lower <= goal.width * interval.upper;
-  interval.stop = decided ? ThicknessStop::decided : narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
-  return interval;
+ThicknessStop stop_of(const ThicknessInterval& interval, const ThicknessGoal& goal) {
+  if (goal.limit && (interval.lower > *goal.limit || interval.upper <= *goal.limit)) return ThicknessStop::decided;
+  const bool narrow = interval.upper - interval.lower <= goal.width * std::fabs(interval.upper);
+  return narrow ? ThicknessStop::narrow : ThicknessStop::work_spent;
 }
 
 }  // namespace
 
-// Many small components, as between the facets of a bolt and those of its hole, take a search long, and their hulls tell
-// at once how thick they are.
+// Many small components, as between the facets of a bolt and those of its hole, take one search of all of them long.
 ThicknessInterval search_thickness(const Surface& a, const Surface& b, const ThicknessGoal& goal) {
   if (!a.solid || !b.solid) throw std::invalid_argument("the thickness of an overlap needs two solids");
-  const bool of_the_overlap = goal.less_a == 0 && goal.less_b == 0 && goal.across < 0 && !goal.prove && !goal.within;
-  if (!of_the_overlap || goal.work <= kPatience) return search_either_way(a, b, goal);
+  const bool has_components = goal.across < 0 && !goal.prove && !goal.within;
+  if (!has_components || goal.work <= kPatience) return search_either_way(a, b, goal);
   ThicknessGoal next = goal;
   next.work = kPatience;
-  ThicknessInterval interval = search_either_way(a, b, next);
-  if (interval.stop != ThicknessStop::work_spent) return interval;
-  if (const auto thickest = thickest_component(a, b)) interval = narrower(interval, *thickest, goal);
-  if (interval.stop != ThicknessStop::work_spent) return interval;
+  const ThicknessInterval first = search_either_way(a, b, next);
+  if (first.stop != ThicknessStop::work_spent) return first;
   next.work = goal.work - kPatience;
-  return narrower(interval, search_either_way(a, b, next), goal);
+  const auto search = [&](const ThicknessGoal& of_one) { return search_either_way(a, b, of_one); };
+  std::optional<ThicknessInterval> interval = search_components(a, b, next, first, search);
+  if (!interval) return search_either_way(a, b, goal);
+  interval->stop = stop_of(*interval, goal);
+  return *interval;
 }
 
 }  // namespace satcheck

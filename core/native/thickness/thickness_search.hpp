@@ -25,7 +25,7 @@ struct ThicknessGoal {
   int across = -1;
   bool prove = false;  // write down why no point lies deeper; not along an axis
   // The box of a component of the overlap, world frame: its balls lie in it. One of another component may be found that
-  // has its centre in the box. Lengths e_A and e_B have to be 0.
+  // has its centre in the box.
   std::optional<Aabb> within = {};
   std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
 };
