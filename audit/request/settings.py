@@ -31,7 +31,7 @@ MOST_BUDGET = 86400.0
 # not exceeded there. A number and not a clock: the same input, the same answer.
 WORK_PER_SECOND = 400_000_000
 # Of the budget of the depth, what a search of the thickness may spend.
-THICKNESS_SHARE = 0.125
+THICKNESS_SHARE = 0.5
 # Up to this many pairs a report lists all, those that the broad phase settled too, and a table has
 # a row for each.
 LISTED_PAIRS = 60
@@ -62,8 +62,8 @@ class Settings(Struct, frozen=True):
     certificate: every proven finding carries evidence that `satcheck verify` checks.
     list_pruned: findings for pairs that the broad phase settled; None: up to LISTED_PAIRS pairs.
     depth_width, thickness_width: relative width of an interval that is narrow enough.
-    depth_budget: what may be spent on one interval of a depth, in seconds of a slow machine, and an
-    eighth of it on one of a thickness: it buys a number of steps, not a time, so that the same
+    depth_budget: what may be spent on one interval of a depth, in seconds of a slow machine, and
+    half of it on one of a thickness: it buys a number of steps, not a time, so that the same
     input gives the same answer everywhere.
     part_*: how concave meshes are split into convex parts, and what that may cost.
     jobs: threads over pairs, 0 for one per core. Changes no answer, nor does cache or timings.

@@ -174,8 +174,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="SECONDS",
     default=DEFAULTS.depth_budget,
     show_default=True,
-    help="Stop narrowing the depth of a pair after this much work, and its thickness after an "
-    "eighth of it. The work is counted in steps, which a slow machine does in that many seconds, "
+    help="Stop narrowing the depth of a pair after this much work, and its thickness after "
+    "half of it. The work is counted in steps, which a slow machine does in that many seconds, "
     "so the answer is the same on every machine.",
 )
 @click.option(
