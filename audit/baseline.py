@@ -1,31 +1,46 @@
 """Findings beside a baseline: which are new, unchanged, worse, and which known ones are gone.
 
 An unchanged finding does not fail a check. A finding is worse if its relation is graver than the
-known one, or if its depth or gap is proven to be worse by more than the precision of the input (the
-touch band of the pair).
+known one, or if a figure is proven to be worse, a length by more than the precision of the input
+(the default touch band of the pair). It is unchanged if no figure can be worse.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import get_args
 
 from msgspec.structs import replace
 
 from satcheck.audit.severity import fails
 from satcheck.audit.summary import verdict_of
-from satcheck.report.baseline import Baseline, BaselineState, KnownFinding, StatedBaseline
-from satcheck.report.report import OVERLAPS, Finding, Relation, Report
+from satcheck.audit.tolerances import is_within, keeps
+from satcheck.report.baseline import (
+    Baseline,
+    BaselineState,
+    Figure,
+    KnownFinding,
+    KnownRelation,
+    StatedBaseline,
+)
+from satcheck.report.report import OVERLAPS, SEVERITIES, Finding, Report
+from satcheck.report.values import Interval
 
 # From the mildest to the gravest.
-_GRAVITY: dict[Relation, int] = {
+_GRAVITY: dict[KnownRelation, int] = {
     "separated": 0,
-    "touching": 1,
     "near": 1,
-    "penetrating": 2,
-    "contains": 3,
-    "inside": 3,
-    "coincident": 4,
+    "touching": 2,
+    "penetrating": 3,
+    "contains": 4,
+    "inside": 4,
+    "coincident": 5,
 }
+_FIGURES: tuple[Figure, ...] = get_args(Figure)
+_OF_OVERLAPS: tuple[Figure, ...] = ("depth", "thickness", "volume")
+_OF_MOTIONS: tuple[Figure, ...] = ("motion_depth", "motion_distance")
+# The less, the worse.
+_GAPS: tuple[Figure, ...] = ("distance", "motion_distance")
 
 
 def beside_baseline(report: Report, baseline: Baseline, file: str, asset: str = "") -> Report:
@@ -50,13 +65,17 @@ def known_findings(report: Report, asset: str = "", reason: str = "") -> list[Kn
             asset=asset,
             a=finding.a,
             b=finding.b,
+            severity=finding.severity,
             relation=finding.relation,
-            depth=finding.depth,
-            distance=finding.distance,
+            units=report.units,
             reason=reason,
+            **{name: bounds[name not in _GAPS] for name, bounds in _bounds(finding).items()},
         )
         for finding in report.findings
         if fails(finding, report.settings.fail_on)
+        and finding.relation != "indeterminate"
+        and finding.severity != "silenced"
+        and finding.severity != "none"
     ]
 
 
@@ -71,17 +90,48 @@ def absent_from(report: Report, baseline: Baseline, asset: str = "") -> list[Kno
     return [
         known
         for known in baseline.findings
-        if known.asset == asset and {known.a, known.b} <= usable and known.key[1] not in still
+        if known.asset == asset
+        and {known.a, known.b} <= usable
+        and known.key[1] not in still
+        and _would_fail(known, report)
     ]
 
 
-def updated(baseline: Baseline, found: Iterable[KnownFinding]) -> Baseline:
-    """With the figures of these findings, in the order of their names; reasons are kept."""
+def _would_fail(known: KnownFinding, report: Report) -> bool:
+    """Whether the settings of this report may show the finding as it is known."""
+    if SEVERITIES.index(known.severity) > SEVERITIES.index(report.settings.fail_on):
+        return False
+    if known.units != report.units or (known.moves and not report.motions):
+        return False
+    if known.relation in OVERLAPS or (known.relation == "touching" and known.severity == "note"):
+        return True
+    gap = max(known.distance or 0.0, known.motion_distance or 0.0)
+    clearances = (report.settings.clearance, *(rule.clearance for rule in report.rules))
+    return any(clearance is not None and clearance > gap for clearance in clearances)
+
+
+def updated(baseline: Baseline, findings: Iterable[KnownFinding]) -> Baseline:
+    """With these findings, in the order of their names. Of a known one the worse figures and the
+    reason are kept; figures in other units are replaced."""
     known = {each.key: each for each in baseline.findings}
-    for each in found:
-        old = known.get(each.key)
-        known[each.key] = replace(each, reason=old.reason) if old and old.reason else each
+    for each in findings:
+        known[each.key] = _merged(known.get(each.key), each)
     return _sorted(known.values())
+
+
+def _merged(old: KnownFinding | None, new: KnownFinding) -> KnownFinding:
+    if old is None:
+        return new
+    if old.units != new.units:
+        return replace(new, reason=old.reason or new.reason)
+    figures: dict[str, float | None] = {}
+    for name in _FIGURES:
+        known = [each for each in (old.figure(name), new.figure(name)) if each is not None]
+        figures[name] = (min if name in _GAPS else max)(known, default=None)
+    graver = max(old, new, key=lambda each: _GRAVITY[each.relation])
+    severity = min(old.severity, new.severity, key=SEVERITIES.index)
+    reason = old.reason or new.reason
+    return replace(old, relation=graver.relation, severity=severity, reason=reason, **figures)
 
 
 def pruned(baseline: Baseline, absent: Sequence[KnownFinding]) -> Baseline:
@@ -102,20 +152,70 @@ def _with_state(
     if not fails(finding, report.settings.fail_on):
         return finding
     before = known.get((asset, frozenset((finding.a, finding.b))))
-    state: BaselineState = "new" if before is None else _compared(before, finding)
+    state: BaselineState = "new" if before is None else _compared(before, finding, report)
     return replace(finding, baseline_state=state)
 
 
-def _compared(before: KnownFinding, now: Finding) -> BaselineState:
-    if now.undecided is not None or _GRAVITY[now.relation] > _GRAVITY[before.relation]:
+def _compared(before: KnownFinding, now: Finding, report: Report) -> BaselineState:
+    if now.relation == "indeterminate":
+        return "undecided"
+    if _GRAVITY[now.relation] > _GRAVITY[before.relation]:
         return "worse"
-    band = now.tolerance or 0.0
-    if now.relation in OVERLAPS and before.depth is not None:
-        if now.depth_bounds is None:
-            return "unmeasured"
-        return "worse" if now.depth_bounds[0] > before.depth + band else "unchanged"
-    if now.relation == "near" and before.distance is not None:
-        if now.distance is None:
-            return "unmeasured"
-        return "worse" if now.distance < before.distance - band else "unchanged"
-    return "unchanged"
+    if now.undecided is not None or before.units != report.units:
+        return "undecided"
+    bounds, band = _bounds(now), _band(now, report)
+    kept = [
+        _is_no_worse(name, before.figure(name), bounds.get(name), band)
+        for name in _figures_to_compare(before, now)
+    ]
+    return "worse" if False in kept else "undecided" if None in kept else "unchanged"
+
+
+def _figures_to_compare(before: KnownFinding, now: Finding) -> list[Figure]:
+    """Figures that one of them has, and those of a motion, unless the relation is milder now."""
+    names: set[Figure] = set()
+    if now.at_rest in OVERLAPS:
+        names.update(_OF_OVERLAPS)
+    if now.relation in OVERLAPS:
+        names.add("motion_depth")
+    elif before.relation in ("separated", "near"):
+        names.update(_GAPS)
+    stated = {name for name in _FIGURES if before.figure(name) is not None} | _bounds(now).keys()
+    if now.motion is not None:
+        motion: Figure = "motion_depth" if now.relation in OVERLAPS else "motion_distance"
+        stated.add(motion)
+    return sorted(names & stated)
+
+
+def _is_no_worse(
+    name: Figure, known: float | None, bounds: Interval | None, band: float
+) -> bool | None:
+    """None: not known."""
+    if known is None or bounds is None:
+        return None
+    if name in _GAPS:
+        return keeps(known - band, *bounds)
+    return is_within(known if name == "volume" else known + band, *bounds)
+
+
+def _band(finding: Finding, report: Report) -> float:
+    """The precision of the input. 0 where a user may have set another tolerance."""
+    is_set = report.settings.tolerance != "input-precision"
+    if is_set or any(rule.tolerance is not None for rule in report.rules):
+        return 0.0
+    return finding.tolerance or 0.0
+
+
+def _bounds(finding: Finding) -> dict[Figure, Interval]:
+    """Of the figures that were computed. The error of a volume is an estimate."""
+    gap, volume, error = finding.distance, finding.volume, finding.volume_error or 0.0
+    worst = None if finding.motion is None else finding.motion.worst
+    bounds: dict[Figure, Interval | None] = {
+        "depth": finding.depth_bounds,
+        "thickness": finding.thickness_bounds,
+        "volume": None if volume is None else (max(volume - error, 0.0), volume + error),
+        "distance": finding.distance_bounds or (None if gap is None else (gap, gap)),
+        "motion_depth": None if worst is None else worst.depth,
+        "motion_distance": None if worst is None else worst.distance,
+    }
+    return {name: interval for name, interval in bounds.items() if interval is not None}

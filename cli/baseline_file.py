@@ -8,13 +8,22 @@ from pathlib import Path
 import msgspec
 
 from satcheck.core.errors import SatcheckError
-from satcheck.report.baseline import Baseline
+from satcheck.report.baseline import SCHEMA, Baseline
+
+
+class _Head(msgspec.Struct, frozen=True):
+    schema: str
 
 
 def read_baseline(path: Path) -> Baseline:
     """Raises SatcheckError: `unreadable-file`, `bad-baseline`."""
     try:
-        return msgspec.json.decode(path.read_bytes(), type=Baseline)
+        text = path.read_bytes()
+        schema = msgspec.json.decode(text, type=_Head).schema
+        if schema != SCHEMA and schema.startswith(SCHEMA.rstrip("1")):
+            reason = "of another version of satcheck: write it again"
+            raise SatcheckError("bad-baseline", reason, file=str(path))
+        return msgspec.json.decode(text, type=Baseline)
     except OSError as error:
         reason = f"cannot be read: {error.strerror}"
         raise SatcheckError("unreadable-file", reason, file=str(path)) from None
@@ -24,5 +33,6 @@ def read_baseline(path: Path) -> Baseline:
 
 def asset_key(asset: str, baseline: Path) -> str:
     """The name of an asset in a baseline: relative to the folder of the baseline, with `/`, so that
-    it does not depend on where the command runs."""
-    return Path(os.path.relpath(asset, baseline.parent)).as_posix()
+    it does not depend on where the command runs, nor on links that lead to a folder."""
+    file = Path(asset).parent.resolve() / Path(asset).name
+    return Path(os.path.relpath(file, baseline.parent.resolve())).as_posix()

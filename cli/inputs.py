@@ -47,7 +47,9 @@ class Inputs(Struct, frozen=True):
         return (self.seed or 0) if self.sample else None
 
 
-def refuse_early(inputs: Inputs, output: Path | None, option: str = "-o") -> None:
+def refuse_early(
+    inputs: Inputs, output: Path | None, baseline: Path | None = None, option: str = "-o"
+) -> None:
     """What can be seen to fail before any work is done. option: that names the output."""
     if not inputs.paths:
         raise click.UsageError("give two or more mesh files, or a scene file")
@@ -55,7 +57,8 @@ def refuse_early(inputs: Inputs, output: Path | None, option: str = "-o") -> Non
         return
     if not output.absolute().parent.is_dir():
         raise cannot_write(str(output), "its folder does not exist")
-    if any(_is_same_file(output, path) for path in (*inputs.paths, *inputs.pose)):
+    known = () if baseline is None else (str(baseline),)
+    if any(_is_same_file(output, path) for path in (*inputs.paths, *inputs.pose, *known)):
         raise click.UsageError(f"{option} {output} would overwrite an input")
 
 

@@ -4,31 +4,51 @@ from __future__ import annotations
 
 from typing import Literal
 
-from satcheck.report.values import Length, Relation, Value
+from satcheck.report.values import Length, Value
 
 SCHEMA: Literal["satcheck.baseline/1"] = "satcheck.baseline/1"
-# Of a finding beside a baseline. unchanged: known, and not worse. unmeasured: known with a figure
-# that this check did not compute.
-BaselineState = Literal["new", "unchanged", "worse", "unmeasured"]
+# Of a finding beside a baseline. unchanged: known, and proven to be no worse. undecided: known, but
+# whether it is worse is not known.
+BaselineState = Literal["new", "unchanged", "worse", "undecided"]
+KnownRelation = Literal[
+    "separated", "near", "touching", "penetrating", "contains", "inside", "coincident"
+]
+Figure = Literal["depth", "thickness", "volume", "distance", "motion_depth", "motion_distance"]
 
 
 class KnownFinding(Value, frozen=True, kw_only=True):
     """asset: of `satcheck each`, relative to the folder of the baseline; "" of other checks. a, b:
-    ids of bodies. relation, depth, distance: as accepted, in the units of the scene; the depth is
-    an upper bound. reason: why it is accepted, for people."""
+    ids of bodies. severity, relation and figures: as accepted. units: of the figures; None:
+    unknown. depth, thickness, volume: upper ends. distance: the lower end. motion_depth,
+    motion_distance: of the worst pose of a motion. reason: why the finding is accepted, for
+    people."""
 
     asset: str = ""
     a: str
     b: str
-    relation: Relation
+    severity: Literal["error", "warning", "note"]
+    relation: KnownRelation
+    units: str | None = None
     depth: Length | None = None
+    thickness: Length | None = None
+    volume: Length | None = None
     distance: Length | None = None
+    motion_depth: Length | None = None
+    motion_distance: Length | None = None
     reason: str = ""
 
     @property
     def key(self) -> tuple[str, frozenset[str]]:
         """The same in either order of the bodies."""
         return self.asset, frozenset((self.a, self.b))
+
+    @property
+    def moves(self) -> bool:
+        return self.motion_depth is not None or self.motion_distance is not None
+
+    def figure(self, name: Figure) -> float | None:
+        figure: float | None = getattr(self, name)
+        return figure
 
 
 class Baseline(Value, frozen=True, kw_only=True):

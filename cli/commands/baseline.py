@@ -57,7 +57,7 @@ def write(file: Path, reports: Sequence[Path], reason: str) -> None:
 @reports_argument
 @reason_option
 def update(file: Path, reports: Sequence[Path], reason: str) -> None:
-    """Add new findings of reports and take over worse figures. Reasons are kept."""
+    """Add new findings of reports, and take over figures that are worse or were not known."""
     _update(file, read_baseline(file), reports, reason)
 
 
@@ -85,11 +85,12 @@ def _update(file: Path, baseline: Baseline, reports: Sequence[Path], reason: str
 
 
 def _write(file: Path, before: Baseline, after: Baseline) -> None:
-    old, new = ({each.key for each in baseline.findings} for baseline in (before, after))
+    old, new = ({each.key: each for each in baseline.findings} for baseline in (before, after))
+    changed = sum(each != new.get(key, each) for key, each in old.items())
     write_file(file, json_document(after))
     Document().write(
-        f"{file}: {counted(len(new), 'finding')}, {len(new - old):,} added, "
-        f"{len(old - new):,} removed\n"
+        f"{file}: {counted(len(new), 'finding')}, {len(new.keys() - old):,} added, "
+        f"{changed:,} changed, {len(old.keys() - new):,} removed\n"
     )
 
 

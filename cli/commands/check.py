@@ -267,7 +267,7 @@ def command(
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
-    refuse_early(inputs, output)
+    refuse_early(inputs, output, baseline)
     if form == PICTURE:
         options["contacts"] = True  # where the surfaces cross
     known = None if baseline is None else read_baseline(baseline)

@@ -81,7 +81,7 @@ def command(
     """
     inputs = Inputs.taken_from(options)
     form = form_of(form, output, REPORT_FORMATS)
-    refuse_early(inputs, output)
+    refuse_early(inputs, output, baseline)
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     files = _files(inputs.paths, changed_since, planar=options["planar"] is not None)

@@ -8,9 +8,10 @@ from rich import box
 from rich.table import Table
 from rich.text import Text
 
+from satcheck.cli.report.beside_baseline import beside_baseline
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.ci.problems import problems
-from satcheck.cli.report.words import absent_words, counted
+from satcheck.cli.report.words import counted
 from satcheck.report.assets import ASSET_VERDICTS
 
 if TYPE_CHECKING:
@@ -56,17 +57,7 @@ def summary_line(report: AssetsReport) -> str:
         if count
     ]
     line = f"{report.verdict.upper()}: {counted(counts.total, 'asset')}: {', '.join(parts)}."
-    return " ".join([line, *_beside_baseline(report)])
-
-
-def _beside_baseline(report: AssetsReport) -> list[str]:
-    """`Baseline: 2 known findings; 1 more passes now: satcheck baseline prune.`"""
-    stated = [asset.report.baseline for asset in report.assets if asset.report.baseline]
-    if not stated:
-        return []
-    accepted = sum(asset.report.summary.accepted for asset in report.assets)
-    absent = sum(len(baseline.absent) for baseline in stated)
-    return [f"Baseline: {counted(accepted, 'known finding')}{absent_words(absent)}."]
+    return " ".join([line, *beside_baseline(asset.report for asset in report.assets)])
 
 
 def _table(assets: list[Asset], *, unicode: bool) -> Table:

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from satcheck.audit.summary import exempt_by
+from satcheck.cli.report.beside_baseline import beside_baseline
 from satcheck.cli.report.words import (
-    absent_words,
     counted,
     interval,
     is_hit,
@@ -59,7 +59,7 @@ def summary_line(report: Report, *, offers_depth: bool = True) -> str:
             *_hits(report),
             *_worst(report, offers_depth=offers_depth),
             *_left_open(report),
-            *_beside_baseline(report),
+            *beside_baseline([report]),
             *_cross_check(report),
             *_errors(report),
             *doubts(report.issues),
@@ -209,6 +209,8 @@ def _left_open(report: Report) -> list[str]:
         )
     ruled = any(map(_is_ruled, report.findings))
     none = "No collision beyond what rules allow" if ruled else "No collision"
+    if report.summary.accepted:
+        none = "No new or worse finding"
     was = " was" if ruled else ""
     return [f"{none}{was} found, but {' and '.join(limits)}." if limits else f"{none}."]
 
@@ -230,18 +232,6 @@ def _why_failed(report: Report) -> list[str]:
     if any(finding.relation in OVERLAPS for finding in report.findings):
         return []
     return [f"Failed by --fail-on {report.settings.fail_on}."]
-
-
-def _beside_baseline(report: Report) -> list[str]:
-    """`Baseline: 2 known findings, 1 new, 1 worse; 1 more known finding passes now.`"""
-    if report.baseline is None:
-        return []
-    states = Counter(finding.baseline_state for finding in report.findings)
-    parts = [f"{counted(states['unchanged'], 'known finding')}"]
-    parts += [
-        f"{count:,} {state}" for state in ("new", "worse", "unmeasured") if (count := states[state])
-    ]
-    return [f"Baseline: {', '.join(parts)}{absent_words(len(report.baseline.absent))}."]
 
 
 def _cross_check(report: Report) -> list[str]:

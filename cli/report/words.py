@@ -22,12 +22,6 @@ def counted(count: int, singular: str, plural: str | None = None) -> str:
     return f"{count:,} {singular if count == 1 else plural or singular + 's'}"
 
 
-def absent_words(absent: int) -> str:
-    """`; 1 more passes now: satcheck baseline prune`, of known findings; empty without any."""
-    verb = "passes" if absent == 1 else "pass"
-    return f"; {absent:,} more {verb} now: satcheck baseline prune" if absent else ""
-
-
 def issue_line(issue: Issue | InputIssue) -> str:
     """`warning: l_bracket: 2 open edges [open-mesh]`, as it also goes to stderr."""
     where = issue.body or issue.file

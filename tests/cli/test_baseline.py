@@ -10,15 +10,35 @@ import pytest
 from msgspec.structs import replace
 
 from satcheck.audit.baseline import absent_from, beside_baseline, known_findings, updated
+from satcheck.cli.baseline_file import asset_key
 from satcheck.report.baseline import Baseline, KnownFinding
-from satcheck.report.report import Finding, Relation
+from satcheck.report.report import Finding, Relation, Report, RuleReport
+from satcheck.report.sweep import WorstPose
 from tests.cli.process import SAMPLES, Ran, satcheck
-from tests.cli.reports import BOUNDED, PENETRATING, SEPARATED, UNDECIDED, report
+from tests.cli.reports import (
+    BOUNDED,
+    HIT,
+    PENETRATING,
+    SEPARATED,
+    THICK,
+    TOUCHING,
+    UNDECIDED,
+    report,
+)
 
 DEEPER = replace(BOUNDED, relation="penetrating")
 KNOWN = KnownFinding(
-    a=DEEPER.a, b=DEEPER.b, relation="penetrating", depth=DEEPER.depth, reason="a press fit"
+    a=DEEPER.a,
+    b=DEEPER.b,
+    severity="error",
+    relation="penetrating",
+    depth=DEEPER.depth,
+    reason="a press fit",
 )
+CLOSE = replace(SEPARATED, severity="error", relation="near", distance=0.5)
+TOUCH = replace(CLOSE, severity="error", relation="touching", distance=None)
+SHARED = replace(PENETRATING, volume=2.0, volume_error=0.5)
+RULE = RuleReport("*", "*", None, None, None, None, None, None, None, "", "a.toml:1")
 
 
 def state(known: KnownFinding, finding: Finding) -> str | None:
@@ -26,23 +46,89 @@ def state(known: KnownFinding, finding: Finding) -> str | None:
     return judged.findings[0].baseline_state
 
 
-def at_least(depth: float) -> Finding:
-    return replace(DEEPER, depth_bounds=(depth, 2.0), depth=2.0)
+def after(before: Finding, now: Finding) -> str | None:
+    return beside(report(before), report(now))
+
+
+def beside(before: Report, now: Report) -> str | None:
+    known = Baseline(findings=tuple(known_findings(before)))
+    return beside_baseline(now, known, "b.json").findings[0].baseline_state
+
+
+def deep(least: float, most: float) -> Finding:
+    return replace(DEEPER, depth_bounds=(least, most), depth=most)
+
+
+def swept(**figures: tuple[float, float]) -> Finding:
+    assert HIT.motion is not None
+    worst = WorstPose(0.5, (), **figures)
+    return replace(HIT, motion=replace(HIT.motion, worst=worst))
 
 
 def test_no_worse_than_known_is_unchanged() -> None:
     assert DEEPER.depth is not None
     assert DEEPER.tolerance is not None
     assert state(KNOWN, DEEPER) == "unchanged"
-    assert state(KNOWN, at_least(DEEPER.depth + DEEPER.tolerance)) == "unchanged"
-    assert state(KNOWN, at_least(DEEPER.depth + 2 * DEEPER.tolerance)) == "worse"
+    within, beyond = (DEEPER.depth + times * DEEPER.tolerance for times in (1, 2))
+    assert state(KNOWN, deep(within, within)) == "unchanged"
+    assert state(KNOWN, deep(within, beyond)) == "undecided"
+    assert state(KNOWN, deep(beyond, beyond)) == "worse"
+
+
+def test_a_tolerance_that_a_user_sets_is_no_precision() -> None:
+    wide = replace(DEEPER, tolerance=1.0)
+    deeper = replace(wide, depth_bounds=(1.5, 1.5), depth=1.5)
+    before, now = report(wide), report(deeper)
+    assert beside(before, now) == "unchanged"
+    set_by_option = replace(now, settings=replace(now.settings, tolerance=1.0))
+    assert beside(before, set_by_option) == "worse"
+    assert beside(before, replace(now, rules=(replace(RULE, tolerance=1.0),))) == "worse"
+
+
+@pytest.mark.parametrize(
+    ("before", "now", "expected"),
+    [
+        (THICK, THICK, "unchanged"),
+        (THICK, replace(THICK, thickness_bounds=(0.6, 0.6)), "worse"),
+        (THICK, PENETRATING, "undecided"),
+        (PENETRATING, THICK, "undecided"),
+        (SHARED, SHARED, "unchanged"),
+        (SHARED, replace(SHARED, volume=2.25), "undecided"),
+        (SHARED, replace(SHARED, volume=3.5), "worse"),
+        (CLOSE, CLOSE, "unchanged"),
+        (CLOSE, replace(CLOSE, distance=0.25), "worse"),
+        (CLOSE, replace(CLOSE, distance=None), "undecided"),
+        (CLOSE, TOUCH, "worse"),
+        (TOUCH, CLOSE, "unchanged"),
+    ],
+)
+def test_each_figure_counts(before: Finding, now: Finding, expected: str) -> None:
+    assert after(before, now) == expected
+
+
+def test_a_motion_counts_as_its_worst_pose() -> None:
+    assert after(HIT, HIT) == "undecided"
+    known = swept(depth=(0.5, 0.75))
+    assert after(known, known) == "unchanged"
+    assert after(known, swept(depth=(0.8, 0.9))) == "worse"
+    assert after(known, swept(depth=(0.5, 0.9))) == "undecided"
+    near = replace(swept(distance=(0.5, 0.75)), relation="near")
+    assert after(near, near) == "unchanged"
+    assert after(near, replace(swept(distance=(0.1, 0.2)), relation="near")) == "worse"
+
+
+def test_figures_in_other_units_are_not_compared() -> None:
+    in_mm, in_m = report(DEEPER, units="mm"), report(DEEPER, units="m")
+    assert beside(in_mm, in_m) == "undecided"
+    known = Baseline(findings=tuple(known_findings(in_mm)))
+    assert updated(known, known_findings(in_m)).findings[0].units == "m"
 
 
 @pytest.mark.parametrize(
     ("before", "now", "expected"),
     [
         ("penetrating", "contains", "worse"),
-        ("near", "penetrating", "worse"),
+        ("touching", "penetrating", "worse"),
         ("coincident", "penetrating", "unchanged"),
     ],
 )
@@ -55,7 +141,7 @@ def test_the_order_of_the_bodies_does_not_matter() -> None:
 
 
 def test_a_depth_that_is_not_measured_again_is_not_accepted() -> None:
-    assert state(KNOWN, replace(DEEPER, depth=None, depth_bounds=None)) == "unmeasured"
+    assert state(KNOWN, replace(DEEPER, depth=None, depth_bounds=None)) == "undecided"
 
 
 def test_what_passes_or_is_open_has_no_state() -> None:
@@ -82,9 +168,43 @@ def test_a_finding_is_absent_only_if_its_pair_was_checked() -> None:
     assert absent_from(report(UNDECIDED), baseline) == []
 
 
-def test_an_update_keeps_reasons() -> None:
-    new = replace(KNOWN, depth=9.0, reason="")
-    assert updated(Baseline(findings=(KNOWN,)), [new]).findings == (replace(KNOWN, depth=9.0),)
+def test_a_gap_is_absent_only_if_the_check_would_show_it() -> None:
+    touch, near = (replace(finding, b="soup") for finding in (TOUCHING, CLOSE))
+    known = Baseline(
+        findings=(
+            *known_findings(fails_on_notes(report(replace(touch, severity="note")))),
+            *known_findings(report(near)),
+        )
+    )
+    checked = report(replace(SEPARATED, b="soup"))
+    assert absent_from(checked, known) == []
+    assert absent_from(fails_on_notes(checked), known) == [known.findings[0]]
+    small, large = (
+        replace(checked, rules=(replace(RULE, clearance=most),)) for most in (0.25, 1.0)
+    )
+    assert absent_from(small, known) == []
+    assert absent_from(large, known) == [known.findings[1]]
+
+
+def fails_on_notes(checked: Report) -> Report:
+    return replace(checked, settings=replace(checked.settings, fail_on="note"))
+
+
+def test_an_update_keeps_reasons_and_the_worse_figures() -> None:
+    known = replace(KNOWN, distance=0.5, volume=1.0)
+    new = replace(KNOWN, depth=9.0, distance=0.75, thickness=2.0, reason="")
+    expected = replace(known, depth=9.0, thickness=2.0)
+    assert updated(Baseline(findings=(known,)), [new]).findings == (expected,)
+    better = replace(KNOWN, relation="near", depth=0.5)
+    assert updated(Baseline(findings=(known,)), [better]).findings == (known,)
+
+
+def test_links_to_folders_do_not_change_a_key(tmp_path: Path) -> None:
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "link").symlink_to(tmp_path / "parts")
+    known = tmp_path / "known.json"
+    assert asset_key(str(tmp_path / "link" / "a.glb"), known) == "parts/a.glb"
+    assert asset_key(str(tmp_path / "parts" / "a.glb"), tmp_path / "link" / "b.json") == "a.glb"
 
 
 class Repository:
@@ -118,7 +238,12 @@ def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     assert repository.gate().code == 0
 
     shutil.copy(SAMPLES / "rack.3mf", tmp_path)
-    assert repository.gate().code == 1
+    failed = repository.gate()
+    assert failed.code == 1
+    assert "1 known finding, 1 new" in failed.out
+    unmeasured = repository.run("each", ".", "--no-depth", "--baseline", "known.json")
+    assert unmeasured.code == 1
+    assert "1 undecided. Undecided: run with the options of the baseline" in unmeasured.out
     repository.report()
     repository.run("baseline", "update", "known.json", "report.json", "--reason", "to be mended")
     assert repository.known() == ["gripper.glb", "rack.3mf"]
@@ -132,9 +257,44 @@ def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     assert "0 removed" in repository.run("baseline", "prune", "known.json", "report.json").out
 
 
-@pytest.mark.parametrize("text", ["{}", "[]", "{", '{"schema": "satcheck.baseline/2"}'])
-def test_what_is_no_baseline(text: str, tmp_path: Path) -> None:
+INDETERMINATE = {"a": "x", "b": "y", "severity": "error", "relation": "indeterminate"}
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("{}", "`schema`"),
+        ("[]", "no baseline"),
+        ("{", "no baseline"),
+        ('{"schema": "satcheck.baseline/2"}', "another version of satcheck: write it again"),
+        ('{"schema": "satcheck.report/1"}', "no baseline"),
+        (json.dumps({"schema": "satcheck.baseline/1", "findings": [INDETERMINATE]}), "relation"),
+    ],
+)
+def test_what_is_no_baseline(text: str, said: str, tmp_path: Path) -> None:
     path = tmp_path / "b.json"
     path.write_text(text)
     ran = satcheck("box.obj", "cube.off", "--baseline", str(path))
-    assert (ran.code, "bad-baseline" in ran.err) == ((0, False) if text == "{}" else (2, True))
+    assert ran.code == 2
+    assert "bad-baseline" in ran.err
+    assert said in ran.err
+
+
+@pytest.mark.parametrize("command", [("each", "."), ("box.obj", "cube.off")])
+def test_a_report_does_not_overwrite_its_baseline(command: tuple[str, ...], tmp_path: Path) -> None:
+    path = tmp_path / "b.json"
+    path.write_text('{"schema": "satcheck.baseline/1"}')
+    ran = satcheck(*command, "--baseline", str(path), "-o", str(path))
+    assert (ran.code, "would overwrite an input" in ran.err) == (2, True)
+
+
+def test_an_accepted_finding_is_named_and_not_verified(tmp_path: Path) -> None:
+    first, second, known = (str(tmp_path / name) for name in ("a.json", "b.json", "known.json"))
+    pair = ("box.obj", "box_pushed.stl", "--certificate")
+    satcheck(*pair, "-o", first)
+    assert satcheck("verify", first).code == 0
+    satcheck("baseline", "write", known, first)
+    ran = satcheck(*pair, "--baseline", known, "-o", second)
+    assert (ran.code, "No new or worse finding." in ran.err) == (0, True)
+    verified = satcheck("verify", second)
+    assert (verified.code, "a baseline accepts findings" in verified.out) == (1, True)

@@ -66,7 +66,7 @@ _BASELINE_STATES = {
     "new": "new",
     "unchanged": "unchanged",
     "worse": "updated",
-    "unmeasured": "updated",
+    "undecided": "updated",
 }
 
 
