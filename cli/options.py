@@ -68,6 +68,8 @@ def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMAT
 
     Raises click.UsageError for a name that promises another kind of document.
     """
+    if form is not None and form not in forms:
+        raise click.UsageError(f"--format {form}: this command writes {', '.join(forms)}")
     if form is not None or output is None:
         return form or "table"
     ending = output.suffix.lower()

@@ -269,7 +269,8 @@ def command(
         )
     refuse_early(inputs, output, baseline)
     if form == PICTURE:
-        options["contacts"] = True  # where the surfaces cross
+        # Where the surfaces cross, in checks that can say so.
+        options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed=form == "json")

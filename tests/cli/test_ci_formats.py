@@ -114,7 +114,9 @@ def test_github_annotations() -> None:
     lines = render({"all": MIXED}, "github").splitlines()
     assert lines[0].startswith("::error file=block.obj,line=1,title=satcheck%3A overlap::block and")
     assert [line.split(" ")[0] for line in lines[3:6]] == ["::warning", "::warning", "::notice"]
-    assert lines[-1].startswith("all: ")
+    assert lines[-1].startswith("satcheck: all: ")
+    only = render({"satcheck": MIXED}, "github").splitlines()[-1]
+    assert only.startswith("satcheck: 6 bodies")
 
 
 def test_a_name_cannot_forge_an_annotation() -> None:
@@ -124,6 +126,38 @@ def test_a_name_cannot_forge_an_annotation() -> None:
     )
     assert len(text.splitlines()) == 2
     assert "file=a%2Cb%3Ac.obj" in text.replace("%252C", "%2C").replace("%253A", "%3A")
+
+
+def test_an_annotation_names_the_plain_path() -> None:
+    text = of_block(replace(BLOCK, file="50% a.obj"), "github")
+    assert "file=50%25 a.obj,line=1" in text
+
+
+def test_an_incomplete_suite_has_an_error() -> None:
+    summary = replace(report(SEPARATED).summary, verdict="incomplete")
+    incomplete = replace(report(SEPARATED), summary=summary, issues=())
+    document = JUnitXml.fromstring(render({"all": incomplete}, "junit").encode())
+    assert document.errors == 1
+
+
+@pytest.mark.parametrize("form", ["sarif", "github", "markdown"])
+def test_messages_name_the_asset_of_several(form: str) -> None:
+    colon = "\\:" if form == "markdown" else ":"
+    reports = {name: scene_report(PENETRATING) for name in ("first", "second")}
+    text = render(reports, form)
+    for name in reports:
+        assert f"{name}{colon} block and block" in text
+    assert f"first{colon} block and" not in render({"first": reports["first"]}, form)
+
+
+def test_markdown_calls_an_unreadable_asset_an_error() -> None:
+    assert "- **error** all: " in render({"all": MIXED}, "markdown")
+
+
+def test_sarif_text_is_no_link() -> None:
+    body = replace(BLOCK, id=r"[a](b)\c")
+    result = json.loads(of_block(body, "sarif"))["runs"][0]["results"][0]
+    assert result["message"]["text"].startswith(r"\[a\](b)\\c and ")
 
 
 def test_markdown_shows_names_as_text() -> None:
@@ -137,7 +171,11 @@ def test_markdown_shows_names_as_text() -> None:
 
 def test_csv() -> None:
     rows = list(csv.DictReader(io.StringIO(render({"all": MIXED}, "csv"), newline="")))
-    assert [row["b"] for row in rows] == [finding.b for finding in MIXED.findings]
+    assert [row["b"] for row in rows] == [*(finding.b for finding in MIXED.findings), ""]
+    error = rows[-1]
+    assert (error["id"], error["severity"], error["reason"]) == (
+        MISSING.code, "error", MISSING.message
+    )  # fmt: skip
     assert (rows[3]["depth"], rows[3]["mtv_x"], rows[3]["file_b"]) == (
         "1.0", "-1.0", "block_pushed.obj"
     )  # fmt: skip

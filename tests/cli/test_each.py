@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import shlex
 import shutil
 import subprocess
 from pathlib import Path
@@ -11,8 +13,9 @@ import pytest
 from jsonschema import Draft202012Validator
 from junitparser import JUnitXml
 
+from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.schema import text
-from tests.cli.process import SAMPLES, satcheck
+from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
 
 
 @pytest.fixture
@@ -96,7 +99,8 @@ def test_changed_since_a_revision(assets: Path) -> None:
     git(assets, "commit", "-q", "-m", "first")
     arguments = ("each", str(assets), "--changed-since", "HEAD", "--format", "json")
     unchanged = satcheck(*arguments)
-    assert (unchanged.code, unchanged.out) == (0, "")
+    assert (unchanged.code, verdicts(unchanged.out)) == (0, {})
+    assert satcheck(*arguments[:-2]).out == ""
     with (assets / "props" / "box.obj").open("a") as file:
         file.write("# changed\n")
     shutil.copy(SAMPLES / "cube.off", assets / "new.off")
@@ -105,8 +109,91 @@ def test_changed_since_a_revision(assets: Path) -> None:
     }  # fmt: skip
 
 
+@pytest.mark.parametrize("form", CI_FORMATS)
+def test_without_a_changed_asset_there_is_a_document(form: str, assets: Path) -> None:
+    git(assets, "init", "-q")
+    git(assets, "add", ".")
+    git(assets, "commit", "-q", "-m", "first")
+    output = assets / ".report"
+    ran = satcheck(
+        "each", str(assets), "--changed-since", "HEAD", "--format", form, "-o", str(output)
+    )
+    assert ran.code == 0
+    text = output.read_text()
+    if form == "sarif":
+        assert json.loads(text)["runs"][0]["results"] == []
+    if form == "junit":
+        assert JUnitXml.fromstring(text.encode()).tests == 0
+
+
 def test_an_unknown_revision_is_an_error(assets: Path) -> None:
     git(assets, "init", "-q")
     ran = satcheck("each", str(assets), "--changed-since", "nowhere")
     assert ran.code == 2
-    assert "nowhere" in ran.err
+    assert "no revision nowhere: give a branch" in ran.err
+
+
+def test_an_output_never_replaces_an_asset(assets: Path) -> None:
+    mesh = assets / "props" / "box.obj"
+    before = mesh.read_bytes()
+    ran = satcheck("each", str(assets), "--format", "json", "-o", str(mesh))
+    assert ran.code == 2
+    assert "would overwrite an input" in ran.err
+    assert mesh.read_bytes() == before
+
+
+def test_errors_and_the_summary_go_to_stderr(assets: Path) -> None:
+    (assets / "broken.obj").write_text("f 1 2 3\n")
+    quiet = satcheck("each", "-q", str(assets))
+    assert quiet.out == ""
+    assert "satcheck: error: " in quiet.err
+    assert "broken.obj" in quiet.err
+    output = assets / "report.json"
+    told = satcheck("each", str(assets), "-o", str(output)).err
+    assert told.splitlines()[-1].endswith(f"Report: {output}")
+
+
+def test_a_pattern_with_two_stars_in_a_name_is_refused(assets: Path) -> None:
+    ran = satcheck("each", "props/**.obj", cwd=assets)
+    assert ran.code == 2
+    assert "write props/**/*.obj" in ran.err
+    assert satcheck("each", "props/**/*.obj", cwd=assets).code == 0
+
+
+@on_posix
+def test_a_pipe_is_not_read(assets: Path) -> None:
+    os.mkfifo(assets / "pipe.json")
+    ran = satcheck("each", str(assets), "--format", "json")
+    assert verdicts(ran.out)["pipe.json"] == "error"
+
+
+def test_a_length_without_known_units_is_an_error_of_the_asset(assets: Path) -> None:
+    ran = satcheck("each", str(assets), "--clearance", "1mm", "--format", "json")
+    document = json.loads(ran.out)
+    issues = {Path(each["file"]).name: each["report"]["issues"] for each in document["assets"]}
+    assert [issue["code"] for issue in issues["box.obj"]] == ["bad-setting"]
+    assert "--units" in issues["box.obj"][0]["message"]
+
+
+@on_posix
+def test_a_closed_standard_input_is_wrong_usage() -> None:
+    line = shlex.join(command("each", "-")) + " <&-"
+    ran = subprocess.run(
+        line, shell=True, capture_output=True, text=True, env=environment(), check=False
+    )
+    assert ran.returncode == 2
+    assert "standard input is closed" in ran.stderr
+
+
+def test_names_may_end_with_nul(assets: Path) -> None:
+    odd = assets / "a\u2028b.obj"
+    shutil.copy(SAMPLES / "box.obj", odd)
+    for end in ("\0", "\n"):
+        ran = satcheck("each", "-", "--format", "json", stdin=f"{odd}{end}")
+        assert verdicts(ran.out) == {odd.name: "pass"}
+
+
+def test_a_page_is_of_one_check(assets: Path) -> None:
+    ran = satcheck("each", str(assets), "--format", "html")
+    assert ran.code == 2
+    assert "--format html" in ran.err

@@ -93,6 +93,32 @@ def test_bodies_without_findings_are_boxes_in_a_large_scene(
     assert extent == pytest.approx(far["size"], rel=1e-7)
 
 
+def test_what_cannot_be_drawn_is_told() -> None:
+    """A pair with a body that cannot be read, and the issue of that body."""
+    scene = load_scene([str(SAMPLES / name) for name in (*PUSHED, "missing.obj")])
+    data = picture_data(check(scene), scene)
+    undrawn = [f["names"] for f in data["findings"] if None in (f["a"], f["b"])]
+    assert undrawn == ["box and missing", "box_pushed and missing"]
+    assert any("missing.obj" in text for text in data["issues"])
+
+
+def test_coordinates_beyond_the_renderer_have_no_picture(tmp_path: Path) -> None:
+    text = "v 0 0 0\nv {0} 0 0\nv 0 {0} 0\nv 0 0 {0}\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    (tmp_path / "a.obj").write_text(text.format("1e100"))
+    (tmp_path / "b.obj").write_text(text.format("2e100"))
+    output = tmp_path / "out.html"
+    names = (str(tmp_path / "a.obj"), str(tmp_path / "b.obj"))
+    assert satcheck(*names, "-o", str(output)).code == 1
+    data = page_data(output.read_text())
+    assert (data["drawn"], data["bodies"], len(data["findings"])) == (False, [], 1)
+
+
+@pytest.mark.parametrize("more", [("--planar", "xy"), ("--accuracy", "hull")])
+def test_a_check_without_contacts_has_a_page(more: tuple[str, ...], tmp_path: Path) -> None:
+    ran = satcheck(*more, *PUSHED, "-o", str(tmp_path / "out.html"))
+    assert ran.code == 1
+
+
 def test_names_are_never_markup(tmp_path: Path) -> None:
     for name in PUSHED:
         text = (SAMPLES / name).read_bytes()

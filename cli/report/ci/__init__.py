@@ -27,6 +27,6 @@ FORMATS: dict[str, tuple[str, ...]] = {
 
 
 def render(reports: Mapping[str, Report], form: str) -> str:
-    """Of one report at least."""
+    """Without any report the document is an empty one of its format."""
     module = import_module(f"{__name__}.{form}")
     return cast("Callable[[Mapping[str, Report]], str]", module.render)(reports)

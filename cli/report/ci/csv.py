@@ -1,4 +1,5 @@
-"""CSV (RFC 4180): a row for each finding that the reports list."""
+"""CSV (RFC 4180): a row for each finding that the reports list, and for each error of
+an input."""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from satcheck.report.report import Finding, Report
+    from satcheck.report.report import Finding, Issue, Report
 
 # Columns that are fields of a finding with one value.
 _FIELDS = (
@@ -41,7 +42,22 @@ def render(reports: Mapping[str, Report]) -> str:
         files = {body.id: body.file for body in report.bodies}
         for finding in report.findings:
             writer.writerow([name, *_values(finding), files[finding.a], files[finding.b]])
+        errors = [issue for issue in report.issues if issue.severity == "error"]
+        writer.writerows(_of_issue(name, issue, files) for issue in errors)
     return text.getvalue()
+
+
+def _of_issue(asset: str, issue: Issue, files: Mapping[str, str]) -> list[str | None]:
+    """Its code is the id."""
+    cells = {
+        "asset": asset,
+        "id": issue.code,
+        "a": issue.body,
+        "severity": issue.severity,
+        "reason": issue.message,
+        "file_a": issue.file or files.get(issue.body or ""),
+    }
+    return [cells.get(column) for column in _COLUMNS]
 
 
 def _values(finding: Finding) -> list[Any]:

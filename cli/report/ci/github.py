@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from satcheck.cli.report.ci.problems import problems, uri
+from satcheck.cli.report.ci.problems import near, problems
 from satcheck.cli.report.summary import summary_line
 
 if TYPE_CHECKING:
@@ -20,11 +20,16 @@ def render(reports: Mapping[str, Report]) -> str:
     lines = []
     for problem in problems(reports):
         title = f"satcheck: {problem.kind}"
-        values = {"file": uri(problem.files[0]), "line": "1", "title": title}
+        values = {"file": near(problem.files[0]), "line": "1", "title": title}
         properties = ",".join(f"{name}={_property(value)}" for name, value in values.items())
         lines.append(f"::{_COMMANDS[problem.level]} {properties}::{_data(problem.message)}\n")
-    lines += [f"{_data(name)}: {_data(summary_line(r))}\n" for name, r in reports.items()]
+    lines += [f"{_own(f'{name}: {summary_line(r)}')}\n" for name, r in reports.items()]
     return "".join(lines)
+
+
+def _own(line: str) -> str:
+    """Its begin is ours: a name at the begin of a line could form a command."""
+    return _data(line if line.startswith("satcheck: ") else f"satcheck: {line}")
 
 
 def _data(text: str) -> str:

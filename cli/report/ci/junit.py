@@ -2,7 +2,7 @@
 
 A finding that fails is a failure, an undecided question an error, a finding that a baseline holds
 is skipped; others pass. The pairs that the report does not list are one test case together, and so
-is an asset without pairs.
+is an asset without pairs. An incomplete report has an error case at least.
 """
 
 from __future__ import annotations
@@ -47,6 +47,8 @@ def _suite(name: str, report: Report) -> ElementTree.Element:
         if issue.severity == "error":
             case = _case(suite, issue.file or name, issue.body or issue.file or issue.code)
             _say(case, "error", issue.code, issue_line(issue))
+    if report.summary.verdict == "incomplete" and suite.find("testcase/error") is None:
+        _say(_case(suite, name, "incomplete"), "error", "incomplete", summary_line(report))
     if not len(suite):
         _case(suite, name, "no pair")
     ElementTree.SubElement(suite, "system-out").text = _clean(summary_line(report))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from satcheck.cli.report.ci.problems import problems
 from satcheck.cli.report.summary import summary_line
 from satcheck.cli.report.words import counted
+from satcheck.report.assets import asset
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,7 +24,7 @@ def render(reports: Mapping[str, Report]) -> str:
     listed = problems(reports)
     lines = ["## satcheck", ""]
     for name, report in reports.items():
-        verdict = report.summary.verdict
+        verdict = asset(name, report).verdict
         lines.append(f"- **{verdict}** {_text(name)}: {_text(summary_line(report))}")
     if listed:
         lines += ["", "| severity | kind | what |", "|---|---|---|"]

@@ -47,10 +47,21 @@ class Problem(NamedTuple):
 
 
 def problems(reports: Mapping[str, Report]) -> list[Problem]:
-    """Of all reports, the worst first: by level, then the thicker overlap, then the deeper one."""
-    listed = [problem for report in reports.values() for problem in _of_report(report)]
+    """Of all reports, the worst first: by level, then the thicker overlap, then the deeper one.
+    With several reports each message names its asset."""
+    listed = [
+        _naming(asset, problem) if len(reports) > 1 else problem
+        for asset, report in reports.items()
+        for problem in _of_report(report)
+    ]
     listed.sort(key=lambda problem: problem.size, reverse=True)
     return sorted(listed, key=lambda problem: LEVELS.index(problem.level))
+
+
+def _naming(asset: str, problem: Problem) -> Problem:
+    message = problem.message
+    named = message if message.startswith(asset) else f"{asset}: {message}"
+    return problem._replace(message=named)
 
 
 def _of_report(report: Report) -> list[Problem]:
@@ -96,11 +107,15 @@ def kind_of(finding: Finding) -> str:
 def uri(file: str) -> str:
     """Relative to the current folder if the file lies in it, otherwise a file URI. Links are not
     followed: the name is stable."""
+    path = Path(near(file))
+    return path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))
+
+
+def near(file: str) -> str:
+    """The path relative to the current folder if the file lies in it, otherwise absolute."""
     path = Path(os.path.normpath(Path.cwd() / file))
-    try:
-        return quote(os.fsencode(path.relative_to(Path.cwd()).as_posix()))
-    except ValueError:
-        return path.as_uri()
+    inside = path.is_relative_to(Path.cwd())
+    return (path.relative_to(Path.cwd()) if inside else path).as_posix()
 
 
 def _level(finding: Finding) -> Level | None:

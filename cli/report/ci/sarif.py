@@ -6,8 +6,10 @@ Meshes have no lines, so each location is line 1 of the file.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
+from satcheck.audit.summary import tool
 from satcheck.cli.report.ci.problems import KINDS, Problem, problems, uri
 from satcheck.cli.report.json import document
 
@@ -21,18 +23,20 @@ SCHEMA = (
 )
 # GitHub refuses a run with more results.
 MOST_RESULTS = 25_000
+# What makes a link in a message.
+_MARKUP = re.compile(r"([\\\[\]])")
 
 
 def render(reports: Mapping[str, Report]) -> str:
     listed = problems(reports)
-    any_report = next(iter(reports.values()))
+    driver = tool()
     kept = listed[:MOST_RESULTS]
     kinds = list(dict.fromkeys(problem.kind for problem in kept))
     run = {
         "tool": {
             "driver": {
-                "name": any_report.tool.name,
-                "semanticVersion": any_report.tool.version,
+                "name": driver.name,
+                "semanticVersion": driver.version,
                 "rules": [_rule(kind) for kind in kinds],
             }
         },
@@ -78,7 +82,7 @@ def _result(problem: Problem, rule: int) -> dict[str, Any]:
         "ruleId": problem.kind,
         "ruleIndex": rule,
         "level": problem.level,
-        "message": {"text": problem.message},
+        "message": {"text": _MARKUP.sub(r"\\\1", problem.message)},
         "locations": locations[:1],
         "relatedLocations": locations[1:],
         "partialFingerprints": {"satcheckId/v1": problem.id},

@@ -15,6 +15,7 @@ from msgspec import to_builtins
 
 from satcheck.cli.report.ci.problems import sentence
 from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.words import issue_line
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.units import unit_of
 
@@ -31,12 +32,14 @@ if TYPE_CHECKING:
     Floats = npt.NDArray[np.float64]
 
 MOST_TRIANGLES = 300_000
+LARGEST = 1e18  # a coordinate whose square the renderer can hold: it has float32
 STEPS = 65535  # of a coordinate, from one side of the box to the other
 
 
 def picture_data(report: Report, scene: Scene) -> dict[str, Any]:
-    """Lengths in units of the scene, relative to the middle of all bodies."""
-    bodies = list(scene.bodies)
+    """Lengths in units of the scene, relative to the middle of all bodies. A body that cannot be
+    drawn has no number."""
+    bodies = list(scene.bodies) if _can_be_drawn(scene) else []
     met = {id_ for finding in report.findings if _is_listed(finding) for id_ in _ids(finding)}
     simple = sum(body.file.mesh.triangle_count for body in bodies) > MOST_TRIANGLES
     boxes = [np.array(body.world_mesh().bounds) for body in bodies]
@@ -61,11 +64,19 @@ def picture_data(report: Report, scene: Scene) -> dict[str, Any]:
         ],
         "meshes": meshes.packed,
         "findings": [
-            _shown(finding, numbers, middle, unit_of(report.units))
-            for finding in findings
-            if finding.a in numbers and finding.b in numbers
+            _shown(finding, numbers, middle, unit_of(report.units)) for finding in findings
         ],
+        "issues": [issue_line(issue) for issue in report.issues],
+        "drawn": len(bodies) == len(scene.bodies),
     }
+
+
+def _can_be_drawn(scene: Scene) -> bool:
+    try:
+        bounds = [body.world_mesh().bounds for body in scene.bodies]
+    except OverflowError:
+        return False
+    return bool(np.abs(np.array(bounds)).max(initial=0.0) < LARGEST)
 
 
 class _Meshes:
@@ -162,8 +173,9 @@ def _shown(
     lines = [] if contacts is None else [curve.points for curve in contacts.curves]
     witness = None if finding.witness is None else to_builtins(finding.witness)
     return {
-        "a": numbers[finding.a],
-        "b": numbers[finding.b],
+        "names": f"{finding.a} and {finding.b}",
+        "a": numbers.get(finding.a),
+        "b": numbers.get(finding.b),
         "relation": finding.relation,
         "severity": finding.severity,
         "text": sentence(finding, unit),

@@ -6,6 +6,8 @@ const camera = new Camera();
 let renderer, shapes = [], hulls = [], lines = [], arrow = null, selected = -1, pending = false;
 
 const finding = () => report.findings[selected];
+// A body without geometry has no number.
+const isDrawn = (now) => Boolean(now) && now.a !== null && now.b !== null;
 const centre = (g) => g.low.map((v, k) => v + g.size[k] / 2);
 
 function sphereAround(bodies) {
@@ -26,7 +28,7 @@ function paint() {
   const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight);
   renderer.begin(dark ? [0.08, 0.09, 0.11] : [0.96, 0.965, 0.97], camera.matrix(aspect), camera.eye);
   const now = finding();
-  if (!now) {
+  if (!isDrawn(now)) {
     shapes.forEach((shape) => renderer.draw(shape, [...OTHER, 1]));
     return;
   }
@@ -67,7 +69,8 @@ function select(number) {
   element("panel").hidden = !now;
   if (!now) return show();
   element("detail").textContent = now.text;
-  element("way").hidden = !now.mtv;
+  element("way").hidden = !now.mtv || !isDrawn(now);
+  if (!isDrawn(now)) return show();
   element("slider").value = 0;
   lines = now.curves.map((curve) => renderer.lines([...curve, curve[0]]));
   arrow = arrowOf(now);
@@ -75,13 +78,13 @@ function select(number) {
 }
 
 function frame() {
-  const now = finding(), pair = now ? [report.bodies[now.a], report.bodies[now.b]] : report.bodies;
+  const now = finding(), pair = isDrawn(now) ? [report.bodies[now.a], report.bodies[now.b]] : report.bodies;
   if (pair.length) {
     const [target, radius] = sphereAround(pair);
-    const smaller = now ? Math.min(...pair.map((g) => norm(g.size))) : 2 * radius;
+    const smaller = isDrawn(now) ? Math.min(...pair.map((g) => norm(g.size))) : 2 * radius;
     const least = pair.find((g) => norm(g.size) === smaller);
     // Beside a large body the small one says where to look.
-    if (now && smaller < radius / 2) camera.frame(centre(least), smaller);
+    if (isDrawn(now) && smaller < radius / 2) camera.frame(centre(least), smaller);
     else camera.frame(target, radius);
   }
   show();
@@ -101,11 +104,16 @@ function list() {
     item.dataset.severity = each.severity;
     item.setAttribute("role", "option");
     const names = document.createElement("div"), words = document.createElement("small");
-    names.textContent = `${report.bodies[each.a].id} and ${report.bodies[each.b].id}`;
+    names.textContent = each.names;
     words.textContent = `${each.severity}: ${each.relation}`;
     item.append(names, words);
     item.addEventListener("click", () => select(number));
     element("findings").append(item);
+  });
+  report.issues.forEach((text) => {
+    const item = document.createElement("li");
+    item.textContent = text;
+    element("issues").append(item);
   });
 }
 
@@ -158,6 +166,10 @@ async function start() {
   setTheme(preferred.matches);
   preferred.addEventListener("change", (event) => setTheme(event.matches));
   list();
+  if (!report.drawn) {
+    element("problem").textContent = "There is no picture: the coordinates are too large for it.";
+    element("problem").hidden = false;
+  }
   try {
     renderer = new Renderer(element("view"));
   } catch (error) {

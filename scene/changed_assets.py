@@ -1,0 +1,152 @@
+"""Which assets changed since a revision of the git repositories that they lie in."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+from collections import defaultdict
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+from urllib.parse import quote
+from xml.sax.saxutils import escape
+
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.asset_files import content_of
+from satcheck.scene.drawing import DRAWINGS
+from satcheck.scene.input_kind import SCENE_SUFFIXES
+from satcheck.scene.loading.source import FORMATS
+
+# Files of these endings name no other file with geometry.
+_ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off", *DRAWINGS))
+_NAMING = SCENE_SUFFIXES.union(FORMATS, (".urdf", ".srdf", ".xacro")) - _ALONE
+# What an ignored file may be to count: build folders hold many others.
+_READ = _NAMING | _ALONE | {".bin"}
+
+
+class _Repository(NamedTuple):
+    """tracked: files that git lists. changed: those that changed, and those it does not list."""
+
+    tracked: set[Path]
+    changed: set[Path]
+
+
+def changed_since(revision: str, assets: Iterable[str]) -> list[str]:
+    """The assets that changed since a revision, that git does not track, or that name a changed
+    file: a mesh of a scene, a buffer of a glTF file, also through other files.
+
+    A file names another one if it contains its name without the folder, so some assets are listed
+    that have not changed. Raises SatcheckError (`git`).
+    """
+    places = {path: Path(path).resolve() for path in assets}
+    tracked: set[Path] = set()
+    changed: set[Path] = set()
+    for top in {_top_of(folder) for folder in {place.parent for place in places.values()}}:
+        repository = _repository(top, revision)
+        tracked |= repository.tracked
+        changed |= repository.changed
+    changed |= {place for place in places.values() if place not in tracked}
+    changed |= _naming(changed, {path for path in tracked if path.suffix.lower() in _NAMING})
+    return [path for path, place in places.items() if place in changed]
+
+
+def _naming(changed: set[Path], files: set[Path]) -> set[Path]:
+    """Those of the files that name a changed file, or a file that does, and so on."""
+    names = _Names({path.name for path in changed | files})
+    named_by: dict[str, set[Path]] = defaultdict(set)
+    for path in files - changed:
+        for name in names.within(content_of(path) or b""):
+            named_by[name].add(path)
+    naming: set[Path] = set()
+    waiting = {path.name for path in changed}
+    while waiting:
+        more = named_by.pop(waiting.pop(), set()) - naming
+        naming |= more
+        waiting |= {path.name for path in more}
+    return naming
+
+
+class _Names:
+    """Names of files, to be looked for in the bytes of other files, in any case of letters."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names: dict[bytes, set[str]] = defaultdict(set)
+        for name in names:
+            for spelling in _spellings(name):
+                self._names[spelling.lower()].add(name)
+        self._lengths = {len(spelling) for spelling in self._names}
+        # A name without a dot is looked for by its last byte.
+        ends = {spelling[spelling.rfind(b".") :] for spelling in self._names}
+        longest_first = sorted(ends, key=lambda end: (-len(end), end))
+        self._ends = re.compile(b"|".join(map(re.escape, longest_first)))
+
+    def within(self, content: bytes) -> set[str]:
+        text = content.lower()
+        named: set[str] = set()
+        for match in self._ends.finditer(text):
+            end = match.end()
+            for length in self._lengths:
+                named |= self._names.get(text[max(0, end - length) : end], set())
+        return named
+
+
+def _spellings(name: str) -> set[bytes]:
+    """As text has it, as a URI, in JSON and TOML, in XML."""
+    as_json = (json.dumps(name, ensure_ascii=ascii)[1:-1] for ascii in (True, False))
+    texts = (name, quote(os.fsencode(name)), *as_json, escape(name, {'"': "&quot;"}))
+    return {os.fsencode(text) for text in texts}
+
+
+def _repository(top: Path, revision: str) -> _Repository:
+    commit = _commit(top, revision)
+    differing = _names(top, "diff", "--no-renames", "--ignore-submodules=none", "--name-only", "-z",
+                       commit, "--")  # fmt: skip
+    new = _names(top, "ls-files", "--others", "--exclude-standard", "-z")
+    ignored = _names(top, "ls-files", "--others", "--ignored", "--exclude-standard", "-z")
+    read = {path for path in ignored if path.suffix.lower() in _READ}
+    changed = differing | new | read
+    resolved = {path.resolve() for path in changed}  # a link that changed leads elsewhere now
+    return _Repository(_names(top, "ls-files", "-z"), changed | resolved)
+
+
+def _names(top: Path, *arguments: str) -> set[Path]:
+    return {top / name for name in _git(top, *arguments).split("\0") if name}
+
+
+def _top_of(folder: Path) -> Path:
+    if _git(folder, "rev-parse", "--show-superproject-working-tree").strip():
+        raise SatcheckError(
+            "git",
+            f"{folder} lies in a submodule, whose revisions are others: check the submodule by "
+            "itself",
+        )
+    return Path(_git(folder, "rev-parse", "--show-toplevel").rstrip("\n"))
+
+
+def _commit(top: Path, revision: str) -> str:
+    try:
+        name = f"{revision}^{{commit}}"
+        return _git(top, "rev-parse", "--verify", "--end-of-options", name).strip()
+    except SatcheckError:
+        shallow = _git(top, "rev-parse", "--is-shallow-repository").strip() == "true"
+        advice = (
+            "the clone is shallow: git fetch --unshallow gets all revisions"
+            if shallow
+            else "give a branch, a tag or a commit; git fetch gets those of the server"
+        )
+        raise SatcheckError("git", f"{top}: no revision {revision}: {advice}") from None
+
+
+def _git(folder: Path, *arguments: str) -> str:
+    command = ("git", "-C", str(folder), *arguments)
+    try:
+        ran = subprocess.run(command, capture_output=True, text=True, errors="surrogateescape")
+    except OSError as error:
+        raise SatcheckError(
+            "git", f"git cannot be run ({error.strerror}): --changed-since needs it"
+        ) from None
+    if ran.returncode:
+        raise SatcheckError("git", f"{folder}: --changed-since asks git: {ran.stderr.strip()}")
+    return ran.stdout

@@ -1,0 +1,61 @@
+"""Which files of a folder are assets."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from satcheck.scene import asset_files as module
+from satcheck.scene.asset_files import asset_files
+from tests.cli.process import on_posix
+
+
+@on_posix
+def test_linked_folders_are_followed_once(tmp_path: Path) -> None:
+    (tmp_path / "far").mkdir()
+    (tmp_path / "far" / "a.obj").touch()
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    (folder / "again").symlink_to(folder)
+    (folder / "link").symlink_to(tmp_path / "far")
+    assert asset_files([str(folder)]) == [(folder / "link" / "a.obj").as_posix()]
+
+
+def test_a_folder_that_cannot_be_listed_stands_for_itself(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    closed = tmp_path / "closed"
+    closed.mkdir()
+    scandir = os.scandir
+
+    def refuse(path: str) -> object:
+        if Path(path) == closed:
+            raise PermissionError(13, "Permission denied", str(path))
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", refuse)
+    assert asset_files([str(tmp_path)]) == [closed.as_posix()]
+
+
+@pytest.mark.parametrize(
+    ("content", "assets"),
+    [
+        (b'{"schema": "satcheck.scene/1"}', 1),
+        (rb'{"schema": "satcheck.scene\/1"}', 1),
+        (b"{}", 0),
+    ],
+)
+def test_json_is_an_asset_if_it_is_a_scene(content: bytes, assets: int, tmp_path: Path) -> None:
+    (tmp_path / "a.obj").touch()
+    (tmp_path / "scene.json").write_bytes(content)
+    assert len(asset_files([str(tmp_path)])) == 1 + assets
+
+
+def test_an_unreadable_scene_is_an_asset(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "scene.toml").touch()
+    unreadable: Callable[[Path], None] = lambda _: None  # noqa: E731
+    monkeypatch.setattr(module, "content_of", unreadable)
+    assert asset_files([str(tmp_path)]) == [(tmp_path / "scene.toml").as_posix()]
