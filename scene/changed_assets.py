@@ -49,7 +49,10 @@ def changed_since(revision: str, assets: Iterable[str]) -> list[str]:
         changed |= repository.changed
     changed |= {place for place in places.values() if place not in tracked}
     changed |= _naming(changed, {path for path in tracked if path.suffix.lower() in _NAMING})
-    return [path for path, place in places.items() if place in changed]
+    # Of a link to another folder git lists the link.
+    return [
+        path for path, place in places.items() if not changed.isdisjoint((place, *place.parents))
+    ]
 
 
 def _naming(changed: set[Path], files: set[Path]) -> set[Path]:
@@ -77,8 +80,8 @@ class _Names:
             for spelling in _spellings(name):
                 self._names[spelling.lower()].add(name)
         self._lengths = {len(spelling) for spelling in self._names}
-        # A name without a dot is looked for by its last byte.
-        ends = {spelling[spelling.rfind(b".") :] for spelling in self._names}
+        # Few endings stand for many names. A name without a dot stands for itself.
+        ends = {spelling[max(0, spelling.rfind(b".")) :] for spelling in self._names}
         longest_first = sorted(ends, key=lambda end: (-len(end), end))
         self._ends = re.compile(b"|".join(map(re.escape, longest_first)))
 

@@ -11,6 +11,7 @@ import pytest
 
 from satcheck.core.errors import SatcheckError
 from satcheck.scene.changed_assets import changed_since
+from tests.cli.process import on_posix
 
 IDENTITY = ("-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "protocol.file.allow=always")
 
@@ -75,6 +76,18 @@ def test_a_change_counts_through_files_that_are_no_assets_here(tmp_path: Path) -
 def test_ignored_files_have_changed(tmp_path: Path) -> None:
     commit(tmp_path, {".gitignore": "made", "scene.toml": "made/a.obj", "made/a.obj": "v 1 2 3"})
     assert changed(tmp_path, "scene.toml", "made/a.obj") == ["scene.toml", "made/a.obj"]
+
+
+@on_posix
+def test_a_link_that_leads_to_another_folder_changes_its_assets(tmp_path: Path) -> None:
+    for name in ("old", "new"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "link").symlink_to("old")
+    commit(tmp_path, {"old/a.obj": "v 1 2 3", "new/a.obj": "v 4 5 6"})
+    assert changed(tmp_path, "link/a.obj") == []
+    (tmp_path / "link").unlink()
+    (tmp_path / "link").symlink_to("new")
+    assert changed(tmp_path, "link/a.obj") == ["link/a.obj"]
 
 
 def test_an_asset_in_a_submodule_is_refused(tmp_path: Path) -> None:
