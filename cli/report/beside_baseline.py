@@ -11,10 +11,9 @@ from satcheck.cli.report.words import counted
 if TYPE_CHECKING:
     from satcheck.report.report import Report
 
-# What to do about figures that only one side has.
 _UNDECIDED = (
-    " Undecided: run with the options of the baseline (--depth, --clearance, --volume), or update "
-    "it."
+    " Undecided findings need figures: add --depth, --clearance or --volume, and update the "
+    "baseline from a report that has them."
 )
 
 

@@ -166,6 +166,8 @@ def test_a_finding_is_absent_only_if_its_pair_was_checked() -> None:
     baseline = Baseline(findings=(gone, elsewhere, replace(gone, asset="other.glb")))
     assert absent_from(report(SEPARATED), baseline) == [gone]
     assert absent_from(report(UNDECIDED), baseline) == []
+    for unseen in (replace(gone, motion_depth=1.0), replace(gone, units="mm")):
+        assert absent_from(report(SEPARATED), Baseline(findings=(unseen,))) == []
 
 
 def test_a_gap_is_absent_only_if_the_check_would_show_it() -> None:
@@ -232,8 +234,8 @@ class Repository:
 def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     repository = Repository(tmp_path)
     repository.report()
-    assert repository.run("baseline", "write", "known.json", "report.json").code == 0
-    assert repository.run("baseline", "write", "known.json", "report.json").code == 2
+    write = ("baseline", "write", "known.json", "report.json", "--reason", "a press fit")
+    assert [repository.run(*write).code for _ in range(2)] == [0, 2]
     assert repository.known() == ["gripper.glb"]
     assert repository.gate().code == 0
 
@@ -243,9 +245,15 @@ def test_the_life_of_a_baseline(tmp_path: Path) -> None:
     assert "1 known finding, 1 new" in failed.out
     unmeasured = repository.run("each", ".", "--no-depth", "--baseline", "known.json")
     assert unmeasured.code == 1
-    assert "1 undecided. Undecided: run with the options of the baseline" in unmeasured.out
+    assert "1 undecided. Undecided findings need figures: add --depth" in unmeasured.out
     repository.report()
-    repository.run("baseline", "update", "known.json", "report.json", "--reason", "to be mended")
+    update = ("baseline", "update", "known.json", "report.json", "--reason", "to be mended")
+    assert "2 findings, 1 added, 0 changed, 0 removed" in repository.run(*update).out
+    known = json.loads((tmp_path / "known.json").read_text())
+    known["findings"][0]["depth"] /= 2
+    (tmp_path / "known.json").write_text(json.dumps(known))
+    assert repository.gate().code == 1
+    assert "2 findings, 0 added, 1 changed, 0 removed" in repository.run(*update).out
     assert repository.known() == ["gripper.glb", "rack.3mf"]
     assert repository.gate().code == 0
 
