@@ -167,6 +167,16 @@ def test_a_pipe_is_not_read(assets: Path) -> None:
     assert verdicts(ran.out)["pipe.json"] == "error"
 
 
+@on_posix
+@pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root lists any folder")
+def test_a_folder_that_cannot_be_listed_is_an_error(assets: Path) -> None:
+    (assets / "props").chmod(0)
+    ran = satcheck("each", str(assets))
+    (assets / "props").chmod(0o700)
+    assert ran.code == 2
+    assert "props: the folder cannot be listed: " in ran.err
+
+
 def test_a_length_without_known_units_is_an_error_of_the_asset(assets: Path) -> None:
     ran = satcheck("each", str(assets), "--clearance", "1mm", "--format", "json")
     document = json.loads(ran.out)

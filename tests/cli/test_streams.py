@@ -31,10 +31,10 @@ def test_output_file(tmp_path: Path, name: str, start: str) -> None:
 
 @pytest.mark.parametrize("more", [(), ("--tolerance", "0")])
 def test_a_name_that_no_report_has_is_refused(tmp_path: Path, more: tuple[str, ...]) -> None:
-    page = tmp_path / "report.html"
+    page = tmp_path / "report.svg"
     ran = satcheck(*more, "-o", str(page), *PUSHED)
     assert ran.code == 2
-    assert "report.html: a report is JSON or a table" in ran.err
+    assert "report.svg: this command writes table, json" in ran.err
     assert not page.exists()
     assert satcheck("--format", "table", "-o", str(page), *PUSHED).code == 1
     assert page.read_text(encoding="utf-8").startswith("╭")
