@@ -8,13 +8,13 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
-from msgspec import Struct, convert
+from msgspec import UNSET, Struct, convert
 from msgspec.structs import replace
 
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.summary import rule_reports, stated_health, stated_shape
 from satcheck.core.power_of_two import held_times_power, limit_times_power
-from satcheck.report.certificate import Certificate
+from satcheck.report.certificate import Cells, Certificate, Face, Plane
 from satcheck.report.report import BodyReport, Finding, Issue, Report, Stage, plain
 from satcheck.report.sweep import Place, Sweep
 from satcheck.scene import Scene
@@ -109,8 +109,7 @@ class Scaling:
             **figures,
             reason=finding.reason and self._words(finding.reason),
             motion=motion and self._scaled(self._sweep(motion)),
-            certificate=finding.certificate
-            and convert(self._certificate(plain(finding.certificate)), Certificate),
+            certificate=finding.certificate and self._evidence(finding.certificate),
             plan=(self._stage(), *finding.plan, *left_out),
         )
 
@@ -157,6 +156,11 @@ class Scaling:
         """With a remark on the lengths that it may state."""
         return f"{text} (lengths here are times 2^{self._exponent})"
 
+    def _evidence(self, certificate: Certificate) -> Certificate:
+        scaled = convert(self._certificate(plain(certificate)), Certificate)
+        cells = certificate.thickness
+        return scaled if cells is UNSET else replace(scaled, thickness=self._cells(cells))
+
     def _certificate(self, part: Any) -> Any:
         if not isinstance(part, Mapping):
             return part
@@ -166,6 +170,24 @@ class Scaling:
             else self._certificate(member)
             for key, member in part.items()
         }
+
+    def _cells(self, cells: Cells) -> Cells:
+        """All numbers but normals and weights are lengths."""
+        return replace(
+            cells,
+            **{
+                name: self._scaled(getattr(cells, name), 1)
+                for name in ("origin", "low", "high", "at")
+            },
+            patches=tuple(map(self._patch, cells.patches)),
+            cuts=tuple((normal, self._number(height, 1)) for normal, height in cells.cuts),
+        )
+
+    def _patch(self, patch: Face | Plane) -> Face | Plane:
+        if isinstance(patch, Face):
+            return patch
+        reach = patch.reach if patch.reach is UNSET else self._number(patch.reach, 1)
+        return replace(patch, height=self._number(patch.height, 1), reach=reach)
 
     def _exact(self, number: float | str) -> str:
         scaled = Fraction(number) * Fraction(2) ** -self._exponent

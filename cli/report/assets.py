@@ -49,7 +49,7 @@ def summary_line(report: AssetsReport) -> str:
     parts = [
         f"{count:,} {words}"
         for count, words in (
-            (counts.error, "with errors"),
+            (counts.error, "have errors" if counts.error > 1 else "has errors"),
             (counts.fail, "fail" if counts.fail > 1 else "fails"),
             (counts.incomplete, "incomplete"),
             (counts.passed, "pass" if counts.passed > 1 else "passes"),

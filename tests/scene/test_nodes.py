@@ -252,7 +252,7 @@ def test_the_child_process_gives_the_same_nodes(tmp_path, monkeypatch):
 def test_limits_of_the_child_hold_for_nodes_too(tmp_path):
     path = tmp_path / "a.3mf"
     path.write_bytes(files.threemf())
-    (issue,) = load_scene([path], seconds_per_file=0.001).issues
+    (issue,) = load_scene([path], seconds_per_file=1e-9).issues
     assert issue.code == "reader-timeout"
 
 

@@ -38,7 +38,7 @@ def test_turned_boxes_are_told_apart_by_their_oriented_boxes(tmp_path):
 def test_convex_pair_is_settled_by_its_hulls(tmp_path):
     finding = only(check(scene_of(tmp_path, a=unit_box(), b=unit_box(0.5, 0.25))))
     assert finding.relation == finding.exact_relation == "penetrating"
-    assert stages(finding) == ["aabb", "hull", "verify"]
+    assert stages(finding) == ["aabb", "hull", "verify", "thickness"]
 
 
 def test_no_depth_no_verification(tmp_path):
