@@ -66,3 +66,38 @@ def test_an_open_surface_is_refused() -> None:
     mesh = Mesh(np.eye(3), np.array([(0, 1, 2)], np.uint32))
     with pytest.raises(ValueError, match="solid"):
         search_thickness(Surface(mesh, False), cube(0, 1), width=0.01, work=WORK)
+
+
+def prism_ring(outer: float, inner: float, turn: float, low: float, high: float, n: int) -> Surface:
+    """A ring of n facets along z; a prism if inner is 0. turn: in facets."""
+    angles = 2 * math.pi * (np.arange(n) + turn) / n
+    circle = np.column_stack((np.cos(angles), np.sin(angles)))
+    radii = (outer, inner or outer / 2)
+    points = [(*(r * xy), z) for z in (low, high) for r in radii for xy in circle]
+    quads = []
+    for k in range(n):
+        j = (k + 1) % n
+        bottom, top = (k, j, n + j, n + k), (2 * n + k, 2 * n + j, 3 * n + j, 3 * n + k)
+        quads += [bottom[::-1], top, (k, j, 2 * n + j, 2 * n + k)]
+        if inner:
+            quads.append((n + j, n + k, 3 * n + k, 3 * n + j))
+    faces = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+    if not inner:
+        faces += [
+            t
+            for k in range(1, n - 1)
+            for t in ((n, n + k + 1, n + k), (3 * n, 3 * n + k, 3 * n + k + 1))
+        ]
+    return Surface(Mesh(np.array(points), np.array(faces, np.uint32)), True)
+
+
+def test_surfaces_off_by_exactly_the_sagitta_explain_facets_that_interlock() -> None:
+    """The overlap ends where the distance to a facet is the tolerance, but for rounding."""
+    n = 24
+    bolt, hole = prism_ring(5, 0, 0.5, -10, 10, n), prism_ring(9, 5, 0, -4, 4, n)
+    sagitta = 5 * (1 - math.cos(math.pi / n))
+    found = search_thickness(
+        bolt, hole, width=0.0, work=WORK, less_a=sagitta, less_b=sagitta, limit=1e-10 * sagitta
+    )
+    assert found.stop == "decided"
+    assert found.upper <= 1e-10 * sagitta

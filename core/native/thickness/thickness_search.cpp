@@ -71,7 +71,8 @@ class Search {
 
   // A cell whose bound is no larger does not have to be divided.
   double enough() const {
-    const double narrow = std::fmax(best_ > 0 ? best_ / (1 - goal_.width) : best_, kNoise * bodies_.rounding());
+    const bool flush = bodies_.less(0) == 0 && bodies_.less(1) == 0;  // then 0 is where surfaces meet
+    const double narrow = std::fmax(best_ > 0 ? best_ / (1 - goal_.width) : best_, flush ? kNoise * bodies_.rounding() : 0.0);
     return goal_.limit ? std::fmax(narrow, *goal_.limit / 2) : narrow;
   }
 
