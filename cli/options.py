@@ -157,6 +157,13 @@ form_option = click.option(
     type=click.Choice(FORMATS),
     help="The format of the report. [default: table; json if the file of -o ends in .json]",
 )
+reports_form_option = click.option(
+    "--format",
+    "form",
+    type=click.Choice(REPORT_FORMATS),
+    help="The format of the reports. [default: as the file of -o ends: .json, .sarif, .xml "
+    "(JUnit), .md, .csv, .jsonl; otherwise table]",
+)
 report_form_option = click.option(
     "--format",
     "form",

@@ -76,11 +76,7 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     )
     most = proven_depth(finding, replace(proven, depth=depth))
     thickest = _check_thickness(finding, certificate, pair, request, most)
-    proven = replace(
-        proven,
-        ball=finding.thickness_bounds is not None and request.across is None,
-        thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
-    )
+    proven = _with_thickness(proven, finding, request, thickest, rounding)
     if relation != exact:
         near = max(clearance - error.farther, Fraction(0))
         _check_band(finding, certificate, pair, (a, b), tolerance, near, proven)
@@ -104,6 +100,21 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
         raise Rejected("the overlap is within the tolerance: the bodies touch")
     check_severity(finding, request, ProvenFigures(most, thickest, keeps, EXACT_WIDTH))
     return proven
+
+
+def _with_thickness(
+    proven: ProvenFields,
+    finding: Finding,
+    request: Request,
+    thickest: Fraction | None,
+    rounding: Rounding,
+) -> ProvenFields:
+    """thickest: a proven upper bound of the thickness; None: there is none."""
+    return replace(
+        proven,
+        ball=finding.thickness_bounds is not None and request.across is None,
+        thickness=thickest is not None and thickest <= _granted(finding.thickness, rounding),
+    )
 
 
 def _prove_relation(

@@ -48,9 +48,9 @@ def find_components(pair: Pair, verdict: Verdict, trace: Trace) -> Components:
 def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
     """The thickness of each component; what is not convex is searched, within the budget of the
     pair."""
-    a, b, width = pair.a.surface(), pair.b.surface(), pair.settings.depth_width
+    a, b, width = pair.a.surface(), pair.b.surface(), pair.settings.thickness_width
     components = overlap.components
-    work = pair.settings.work
+    work = pair.settings.thickness_work
     for place, hull in enumerate(core.component_balls(a, b, overlap)):
         component, ball = components[place], Ball(hull.lower, hull.upper, hull.centre)
         if component.resolved and ball.upper - ball.lower > width * ball.upper:

@@ -26,6 +26,7 @@ from satcheck.cli.options import (
     form_of,
     options_of,
     paths_argument,
+    reports_form_option,
     settings_of,
 )
 from satcheck.cli.output import Document, Page, talk
@@ -46,7 +47,7 @@ from satcheck.scene.drawing import DRAWINGS
 
 STANDARD_INPUT = "-"
 # What is about one robot, or about one report.
-_NOT_HERE = ("pose", "state", "sample", "seed", "explain", "certificate", "version")
+_NOT_HERE = ("form", "pose", "state", "sample", "seed", "explain", "certificate", "version")
 _CODES: dict[AssetVerdict, int] = {
     "error": exit_codes.ERROR,
     "fail": exit_codes.FINDINGS,
@@ -62,6 +63,7 @@ _CODES: dict[AssetVerdict, int] = {
     metavar="REV",
     help="Only assets that changed since this git revision, or that name a changed file.",
 )
+@reports_form_option
 @options_of(check_command, but=_NOT_HERE)
 def command(
     form: str | None,

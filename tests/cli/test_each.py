@@ -20,7 +20,7 @@ from tests.cli.process import SAMPLES, command, environment, on_posix, satcheck
 
 @pytest.fixture
 def assets(tmp_path: Path) -> Path:
-    """A folder with one failing scene, one mesh, one file that is none, one hidden file."""
+    """A folder with a scene that fails, a mesh, a JSON file of another kind, and a hidden mesh."""
     folder = tmp_path / "assets"
     (folder / "props").mkdir(parents=True)
     (folder / ".cache").mkdir()
@@ -206,4 +206,4 @@ def test_names_may_end_with_nul(assets: Path) -> None:
 def test_a_page_is_of_one_check(assets: Path) -> None:
     ran = satcheck("each", str(assets), "--format", "html")
     assert ran.code == 2
-    assert "--format html" in ran.err
+    assert "'html' is not one of" in ran.err
