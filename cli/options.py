@@ -14,6 +14,7 @@ from satcheck.audit import Settings
 from satcheck.audit.request.settings import METHODS
 from satcheck.cli.output import Document
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.cli.report.picture import FORMATS as PICTURE_FORMATS
 from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
 from satcheck.scene.units import MICROMETRES, Length, parse_length
@@ -21,13 +22,12 @@ from satcheck.scene.units import MICROMETRES, Length, parse_length
 FORMATS = ("table", "json")
 # Formats of one report or of many.
 REPORT_FORMATS = (*FORMATS, *CI_FORMATS)
-PICTURE = "html"
+PICTURES = tuple(PICTURE_FORMATS)
 SPLITS = ("nodes", "components", "none")
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 DEFAULTS = Settings()
-_ENDINGS = {ending: form for form, endings in CI_FORMATS.items() for ending in endings} | {
-    ".html": PICTURE,
-    ".htm": PICTURE,
+_ENDINGS = {
+    ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
 }
 # Documents of other kinds, by the end of their names.
 _NO_REPORTS = frozenset({".svg", ".png", ".pdf", ".toml", ".yaml"})
@@ -167,7 +167,7 @@ reports_form_option = click.option(
 report_form_option = click.option(
     "--format",
     "form",
-    type=click.Choice((*REPORT_FORMATS, PICTURE)),
+    type=click.Choice((*REPORT_FORMATS, *PICTURES)),
     help="The format of the report. html is a page with a 3-D view. [default: as the file of -o "
     "ends: .json, .sarif, .xml (JUnit), .md, .csv, .jsonl, .html; otherwise table]",
 )

@@ -35,7 +35,7 @@ class Page(NamedTuple):
 
 PLAIN_PAGE = Page(width=UNBOUNDED_WIDTH, colour=False, unicode=True)
 # A document as it is drawn for a page: one text or its pieces.
-Render = Callable[[Page], str | Sequence[str]]
+Render = Callable[[Page], str | bytes | Sequence[str]]
 
 
 def talk(line: str) -> None:
@@ -84,8 +84,8 @@ class Document:
         else:
             write_file(output, render(PLAIN_PAGE))
 
-    def write(self, text: str | Sequence[str], *, utf8: bool = False) -> None:
-        """Write it all, one text or its pieces.
+    def write(self, text: str | bytes | Sequence[str], *, utf8: bool = False) -> None:
+        """Write it all: bytes, one text, or its pieces.
 
         A closed pipe is silent, any other failure is cannot_write().
 
@@ -97,7 +97,10 @@ class Document:
         if utf8 and hasattr(self._stream, "reconfigure"):
             self._stream.reconfigure(encoding="utf-8", errors=_UNDECODABLE)
         try:
-            self._stream.writelines(_pieces(text))
+            if isinstance(text, bytes):
+                self._stream.buffer.write(text)
+            else:
+                self._stream.writelines(_pieces(text))
             self._stream.flush()
         except OSError as error:
             abandon(self._stream)

@@ -15,4 +15,5 @@ COMMANDS = {
     "suggest": "Suggest which pairs a scene may allow to overlap.",
     "tradeoff": "What accuracy costs in time: every rung of the ladder on one pair.",
     "verify": "Re-check the certificates of a report from the mesh files.",
+    "view": "Show a report in 3-D, from its mesh files.",
 }

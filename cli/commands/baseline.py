@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import click
-import msgspec
 
 from satcheck.audit.baseline import absent_from, known_findings, pruned, updated
 from satcheck.cli.baseline_file import asset_key, read_baseline
@@ -14,8 +13,7 @@ from satcheck.cli.options import HELP_NAMES, Group
 from satcheck.cli.output import Document, write_file
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.words import counted
-from satcheck.core.errors import SatcheckError
-from satcheck.report.assets import AssetsReport
+from satcheck.cli.report_file import read_report
 from satcheck.report.baseline import Baseline
 from satcheck.report.report import Report
 
@@ -97,25 +95,9 @@ def _write(file: Path, before: Baseline, after: Baseline) -> None:
 def _named_reports(paths: Sequence[Path], file: Path) -> Iterator[tuple[str, Report]]:
     """The reports, under the names that a baseline gives to assets."""
     for path in paths:
-        document = _read(path)
+        document = read_report(path)
         if isinstance(document, Report):
             yield "", document
         else:
             for asset in document.assets:
                 yield asset_key(asset.file, file), asset.report
-
-
-def _read(path: Path) -> Report | AssetsReport:
-    """Raises SatcheckError: `unreadable-file`, `bad-report`."""
-    try:
-        data = path.read_bytes()
-        head = msgspec.json.decode(data)
-        if isinstance(head, dict) and "assets" in head:
-            return msgspec.convert(head, AssetsReport)
-        return msgspec.convert(head, Report)
-    except OSError as error:
-        reason = f"cannot be read: {error.strerror}"
-        raise SatcheckError("unreadable-file", reason, file=str(path)) from None
-    except msgspec.MsgspecError as error:
-        reason = f"no JSON report of this version of satcheck: {error}"
-        raise SatcheckError("bad-report", reason, file=str(path)) from None

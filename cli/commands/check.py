@@ -22,7 +22,7 @@ from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     DEFAULTS,
     HELP_NAMES,
-    PICTURE,
+    PICTURES,
     REPORT_FORMATS,
     Command,
     cache_option,
@@ -262,13 +262,13 @@ def command(
     carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
     inputs = Inputs.taken_from(options)
-    form = form_of(form, output, (*REPORT_FORMATS, PICTURE))
+    form = form_of(form, output, (*REPORT_FORMATS, *PICTURES))
     if options["certificate"] and form != "json":
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
     refuse_early(inputs, output, baseline)
-    if form == PICTURE:
+    if form in PICTURES:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     known = None if baseline is None else read_baseline(baseline)
@@ -331,7 +331,7 @@ def _check(scene: Scene, settings: Settings) -> Report:
 
 def _refuse_of_poses(form: str, **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
-    if form in (*CI_FORMATS, PICTURE):
+    if form in (*CI_FORMATS, *PICTURES):
         raise click.UsageError(f"--format {form} takes one pose, and several are given")
     for name in ("baseline", "certificate", "explain", "cross_check"):
         if options[name]:
@@ -348,7 +348,7 @@ def _check_poses(
 
 def _render(
     result: Report | Samples, scene: Scene, form: str, page: Page, *, explain: bool, timings: bool
-) -> str | list[str]:
+) -> str | bytes | list[str]:
     if isinstance(result, Samples):
         if form == "json":
             return json_document(result.to_dict(timings))
@@ -357,10 +357,10 @@ def _render(
         return render_samples(result, page)
     if form == "json":
         return render_json(result, timings=timings)
-    if form == PICTURE:
+    if form in PICTURES:
         from satcheck.cli.report.picture import render as render_picture
 
-        return render_picture(result, scene)
+        return render_picture(form, result, scene)
     if form in CI_FORMATS:
         return render_for_ci({"satcheck": result}, form)
     from satcheck.cli.report.table import render as render_table

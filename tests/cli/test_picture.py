@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from satcheck.audit import check
-from satcheck.cli.report.picture import render
 from satcheck.cli.report.picture.data import STEPS, picture_data
+from satcheck.cli.report.picture.html import render
 from satcheck.scene import load_scene
 from tests.cli.process import PUSHED, SAMPLES, satcheck
 

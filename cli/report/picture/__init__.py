@@ -1,33 +1,23 @@
-"""A report as one HTML page with a 3-D view, which works offline in any browser with WebGL 2.
-
-`page.html` is the page, `style.css` its look, `viewer.js` the list of findings and what a click
-does, `renderer.js` draws. All of them go into the one file, with the report and the geometry.
+"""Reports as pictures. Each module has one function `render(report, scene)`; `FORMATS` is the
+registry: a format is imported when a picture is made in it.
 """
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-from typing import TYPE_CHECKING
-
-from satcheck.cli.report.picture.data import picture_data
+from importlib import import_module
+from typing import TYPE_CHECKING, cast
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from satcheck.report.report import Report
     from satcheck.scene import Scene
 
-HERE = Path(__file__).parent
+# Format -> the endings of the files that are in it.
+FORMATS: dict[str, tuple[str, ...]] = {"html": (".html", ".htm")}
 
 
-def render(report: Report, scene: Scene) -> str:
-    """The whole page. scene: that the report is about."""
-    page = _part("page.html")
-    for name in ("style.css", "renderer.js", "viewer.js"):
-        page = page.replace(f"/* {name} */", _part(name), 1)
-    # Text from files must not end the element that holds it.
-    data = json.dumps(picture_data(report, scene), separators=(",", ":")).replace("<", "\\u003c")
-    return page.replace("/* data */", data, 1)
-
-
-def _part(name: str) -> str:
-    return (HERE / name).read_text(encoding="utf-8")
+def render(form: str, report: Report, scene: Scene) -> str | bytes:
+    """scene: that the report is about."""
+    module = import_module(f"{__name__}.{form}")
+    return cast("Callable[[Report, Scene], str | bytes]", module.render)(report, scene)

@@ -1,0 +1,109 @@
+"""`satcheck view REPORT`: the picture of a report that was written earlier."""
+
+from __future__ import annotations
+
+import os
+import sys
+import webbrowser
+from pathlib import Path
+from tempfile import mkdtemp
+
+import click
+from msgspec.structs import replace
+
+from satcheck.cli import exit_codes
+from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.options import (
+    HELP_NAMES,
+    PICTURES,
+    Command,
+    color_option,
+    debug_option,
+    form_of,
+    output_option,
+    outside_option,
+)
+from satcheck.cli.output import Document, talk, write_file
+from satcheck.cli.report.picture import render
+from satcheck.cli.report.words import issue_line
+from satcheck.cli.report_file import read_report
+from satcheck.cli.stated_scene import stated_scene
+from satcheck.report.assets import AssetsReport
+from satcheck.report.report import Report
+
+
+@click.command("view", cls=Command, context_settings=HELP_NAMES)
+@click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
+@output_option
+@click.option(
+    "--asset",
+    metavar="FILE",
+    help="Which asset, of a report of satcheck each that has several.",
+)
+@click.option(
+    "--root",
+    type=click.Path(file_okay=False, exists=True, path_type=Path),
+    default=Path(),
+    help="The folder where the check ran: paths in the report start there.  "
+    "[default: the current one]",
+)
+@outside_option
+@color_option
+@debug_option
+def command(
+    report: Path, output: Path | None, asset: str | None, root: Path, allow_outside: bool
+) -> int:
+    """Show a report in 3-D, from its mesh files.
+
+    REPORT is a JSON report of a check. The mesh files are read again, and a file that has changed
+    since is named. Without -o the page opens in the browser. Where surfaces cross is shown if the
+    check had --contacts.
+
+    Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
+    an internal error; 3, a file is missing or has changed.
+    """
+    form = form_of(None, output, PICTURES) if output else "html"
+    refuse_early(Inputs((str(report),)), output)
+    stated = _report_of(report, asset)
+    scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
+    for issue in issues:
+        talk(f"satcheck: {issue_line(issue)}")
+    document = Document()
+    content = render(form, replace(stated, issues=(*issues, *stated.issues)), scene)
+    if output is None:
+        output = Path(mkdtemp(prefix="satcheck-")) / "report.html"
+        _show(output, content, document)
+    else:
+        write_file(output, content)
+    return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
+
+
+def _report_of(path: Path, asset: str | None) -> Report:
+    document = read_report(path)
+    if isinstance(document, Report):
+        if asset is not None:
+            raise click.UsageError(f"--asset: {path} is the report of one check")
+        return document
+    return _of_asset(document, path, asset)
+
+
+def _of_asset(document: AssetsReport, path: Path, asset: str | None) -> Report:
+    named = [each for each in document.assets if asset in (None, each.file)]
+    if len(named) != 1:
+        files = ", ".join(each.file for each in document.assets)
+        raise click.UsageError(f"{path} has several assets: name one with --asset: {files}")
+    return named[0].report
+
+
+def _show(path: Path, content: bytes | str, document: Document) -> None:
+    """The path is printed, as a browser may not come up."""
+    write_file(path, content)
+    document.write(f"{path}\n")
+    if _has_display():
+        webbrowser.open(path.as_uri())
+
+
+def _has_display() -> bool:
+    return sys.platform in ("win32", "darwin") or any(
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
+    )

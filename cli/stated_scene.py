@@ -1,0 +1,75 @@
+"""The bodies of a report, read again from their files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from msgspec import to_builtins
+
+from satcheck.core.shapes import primitive_of
+from satcheck.report.report import Issue
+from satcheck.scene import Body, MeshFile, MeshFileError, MeshFiles, Scene
+from satcheck.scene.mesh_units import placing_mesh
+from satcheck.scene.shape_file import shape_file
+
+if TYPE_CHECKING:
+    from satcheck.report.bodies import BodyReport
+    from satcheck.report.report import Report
+
+CHANGED, GONE = "changed-file", "not-drawn"
+
+
+def stated_scene(
+    report: Report, root: Path, *, allow_outside: bool = False
+) -> tuple[Scene, list[Issue]]:
+    """The bodies that can be read, and what is not as it was when the report was made: a body
+    whose file has changed is there as it is now. root: where the paths in the report start."""
+    files = MeshFiles(allow_outside=allow_outside)
+    bodies: list[Body] = []
+    issues: list[Issue] = []
+    for entry in report.bodies:
+        if entry.sha256 is None:
+            continue  # the report says why
+        file = _mesh_file(entry, files, root)
+        if isinstance(file, MeshFileError):
+            issues.append(_issue(GONE, entry, f"not drawn: {file}"))
+            continue
+        bodies.append(_placed(entry, file))
+        if file.sha256 != entry.sha256:
+            changed = f"{entry.file} has changed since the report was made"
+            issues.append(_issue(CHANGED, entry, f"{changed}: the body is drawn as it is now"))
+    return Scene(name="", units=report.units, bodies=tuple(bodies)), list(_once(issues))
+
+
+def _mesh_file(entry: BodyReport, files: MeshFiles, root: Path) -> MeshFile | MeshFileError:
+    """Of a shape the report has the sizes: the file that states it is not read again."""
+    location = root / entry.file
+    if entry.shape is not None:
+        try:
+            return shape_file(primitive_of(to_builtins(entry.shape)), entry.file)
+        except MeshFileError as error:
+            return error
+    if entry.path is None:
+        return files.whole(entry.file, location)
+    node = files.part(entry.file, location, entry.path)
+    return node if isinstance(node, MeshFileError) else node.file
+
+
+def _placed(entry: BodyReport, file: MeshFile) -> Body:
+    return Body(entry.id, entry.name, file, placing_mesh(file, entry.transform), path=entry.path)
+
+
+def _issue(code: str, entry: BodyReport, message: str) -> Issue:
+    return Issue(code, "warning", entry.id, entry.file, message)
+
+
+def _once(issues: Sequence[Issue]) -> Iterator[Issue]:
+    """One issue a cause: bodies of one file share it."""
+    told: set[tuple[str, str | None, str]] = set()
+    for issue in issues:
+        cause = (issue.code, issue.file, issue.message)
+        if cause not in told:
+            told.add(cause)
+            yield issue
