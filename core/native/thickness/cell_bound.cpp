@@ -155,6 +155,7 @@ class CellBound {
     const std::vector<double>& weights = game_->column_weights();
     double total = 0, bound = -INFINITY;
     for (const double weight : weights) total += weight;
+    if (!(total > 0)) return INFINITY;
     const std::size_t rows = cell_.corners.size();
     for (std::size_t k = 0; k < rows; ++k) {
       double sum = 0;

@@ -58,11 +58,14 @@ void MatrixGame::solve() {
   for (double& weight : row_weights_) weight /= prices;
 }
 
+bool MatrixGame::is_basic(std::size_t variable) const { return std::find(basis_.begin(), basis_.end(), variable) != basis_.end(); }
+
 bool MatrixGame::pivot() {
   const std::size_t count = column_weights_.size();
   std::size_t best = kSlack + rows_;
   double gain = kGain;
   for (std::size_t c = 0; c < count; ++c) {
+    if (is_basic(c)) continue;  // nothing is gained but rounding
     const double reduced = 1 - price({columns_.data() + c * rows_, rows_});
     if (reduced > gain) {
       gain = reduced;
@@ -70,7 +73,7 @@ bool MatrixGame::pivot() {
     }
   }
   for (std::size_t r = 0; r < rows_; ++r) {
-    if (-prices_[r] > gain) {
+    if (-prices_[r] > gain && !is_basic(kSlack + r)) {
       gain = -prices_[r];
       best = kSlack + r;
     }

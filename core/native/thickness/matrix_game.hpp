@@ -28,6 +28,7 @@ class MatrixGame {
 
  private:
   bool pivot();
+  bool is_basic(std::size_t variable) const;
   void enter(std::size_t variable, double reduced_cost);
   double price(std::span<const double> column) const;
 

@@ -15,8 +15,8 @@ struct Value {
   double at_most = -1e300, at_least = 1e300;  // what the weights of the columns and of the rows prove
 };
 
-Value value_of(const Columns& columns, double floor) {
-  MatrixGame game(columns[0].size(), floor, 1);
+Value value_of(const Columns& columns, double floor, double unit = 1) {
+  MatrixGame game(columns[0].size(), floor, unit);
   for (const auto& column : columns) {
     game.add(column);
     game.solve();
@@ -42,6 +42,14 @@ UNIT(matrix_game) {
   CHECK(std::fabs(pennies.at_most) < 1e-12 && std::fabs(pennies.at_least) < 1e-12);
   const Value saddle = value_of({{3, 5}, {4, 2}, {1, 0}}, 0);
   CHECK(std::fabs(saddle.at_most - 1) < 1e-12 && std::fabs(saddle.at_least - 1) < 1e-12);
+
+  // Rows that are the same but for rounding: the weights of the columns still have the sum 1.
+  const double low = -0.072299999974727136, high = 2.4180000000229329;
+  const Value same = value_of({{low, low, low, low, high, high, high, high},
+                               {1.8335318429516918, 1.9564978854634789, 16.950361439731562, 11.547206362807662,
+                                0.53649321588918275, 0.5365180878977458, 16.860765986704745, 11.392024899791336}},
+                              -27.744, 56.73315);
+  CHECK(std::fabs(same.at_most - high) < 1e-9 && std::fabs(same.at_least - high) < 1e-9);
 
   // Both players prove the same value.
   std::mt19937 random(3);
