@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 
+from msgspec.structs import replace
+
+from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.summary import summarise, tool
@@ -16,7 +19,7 @@ NO_PAIRS = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
 
 
 def check_asset(
-    file: str, load: Callable[[str], Scene], settings_for: Callable[[Scene], Settings]
+    file: str, load: Callable[[], Scene], settings_for: Callable[[Scene], Settings]
 ) -> Asset:
     """An asset that cannot be loaded has a report without bodies, with the error as an issue.
 
@@ -24,7 +27,7 @@ def check_asset(
     mesh. settings_for: lengths may be in the units of the scene.
     """
     try:
-        scene = load(file)
+        scene = load()
         return asset(file, check(scene, settings_for(scene), least=1))
     except SatcheckError as error:
         issues = [
@@ -34,6 +37,26 @@ def check_asset(
         text = f"a fault of satcheck: {type(error).__name__}: {error}"
         issues = [Issue(INTERNAL_ERROR, "error", None, file, text)]
     return asset(file, _without_bodies(issues))
+
+
+def unused_rules(assets: Sequence[Asset], files: Collection[str]) -> tuple[Issue, ...]:
+    """The issues of rules in these files that select no pair in any asset. An asset that could not
+    be loaded may need them."""
+    if not assets or any(not asset.report.bodies for asset in assets):
+        return ()
+    first, *others = (asset.report.issues for asset in assets)
+    unused = (issue for issue in first if _is_unused_rule(issue, files))
+    return tuple(issue for issue in unused if all(issue in issues for issues in others))
+
+
+def without_unused_rules(given: Asset, files: Collection[str]) -> Asset:
+    """Rules in these files are about many assets, and need not be about this one."""
+    issues = tuple(i for i in given.report.issues if not _is_unused_rule(i, files))
+    return asset(given.file, replace(given.report, issues=issues))
+
+
+def _is_unused_rule(issue: Issue, files: Collection[str]) -> bool:
+    return issue.code == UNUSED_RULE and issue.file in files
 
 
 def _without_bodies(issues: list[Issue]) -> Report:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Self
 
@@ -13,8 +13,10 @@ from satcheck.cli.commands import COMMANDS
 from satcheck.cli.output import cannot_write, talk
 from satcheck.cli.report.words import issue_line
 from satcheck.core import keep_freed_memory
+from satcheck.core.errors import SatcheckError
 from satcheck.scene import Scene, load_scene
-from satcheck.scene.loader import is_mesh
+from satcheck.scene.input_kind import kind_of
+from satcheck.scene.loader import is_mesh, is_rules
 from satcheck.scene.scene_builder import Split
 
 
@@ -30,6 +32,8 @@ class Inputs(Struct, frozen=True):
     state: tuple[str, ...] = ()
     sample: int | None = None
     seed: int | None = None
+    rules: tuple[Path, ...] = ()
+    merge: bool = False
 
     @classmethod
     def taken_from(cls, options: dict[str, Any]) -> Self:
@@ -58,7 +62,8 @@ def refuse_early(
     if not output.absolute().parent.is_dir():
         raise cannot_write(str(output), "its folder does not exist")
     known = () if baseline is None else (str(baseline),)
-    if any(_is_same_file(output, path) for path in (*inputs.paths, *inputs.pose, *known)):
+    read = (*inputs.paths, *inputs.pose, *map(str, inputs.rules), *known)
+    if any(_is_same_file(output, path) for path in read):
         raise click.UsageError(f"{option} {output} would overwrite an input")
 
 
@@ -73,21 +78,19 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     """The bodies; inputs that cannot be used are told on stderr.
 
     hashed: whether the document states the SHA-256 of files. least: how many bodies are needed.
-    UsageError for fewer, and for a split of what says itself what its bodies are; ClickException
-    where no input is left.
+    UsageError for fewer, for several worlds, and for a split of what says itself what its bodies
+    are; ClickException where no input is left.
     """
+    if least > 1 and len(worlds := worlds_of(inputs)) > 1:
+        named = " and ".join(world[0] for world in worlds[:2])
+        raise click.UsageError(
+            f"{named} are scenes, each a world of its own: give one of them, or --merge"
+        )
     paths = inputs.paths
     if inputs.split and not any(map(is_mesh, paths)):
         raise click.UsageError("--split is about mesh files: a scene says what its bodies are")
     keep_freed_memory()
-    scene = load_scene(
-        paths,
-        split=inputs.split,
-        packages=inputs.packages,
-        allow_outside=inputs.allow_outside,
-        units=inputs.units,
-        hashed=hashed,
-    )
+    scene = read(inputs, paths, hashed=hashed)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
     _hint(paths[0])
@@ -97,6 +100,40 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
         what = "one body alone cannot collide" if scene.bodies else "there is no body"
         raise click.UsageError(f"{what}: {_advice(inputs)}")
     return scene
+
+
+def read(inputs: Inputs, paths: Sequence[str], *, hashed: bool) -> Scene:
+    """These files as one world, read as the options say."""
+    return load_scene(
+        paths,
+        split=inputs.split,
+        packages=inputs.packages,
+        allow_outside=inputs.allow_outside,
+        units=inputs.units,
+        hashed=hashed,
+        rules=inputs.rules,
+    )
+
+
+def worlds_of(inputs: Inputs) -> list[tuple[str, ...]]:
+    """The files of each world: with several scene files each of them is one, and the other files
+    are in all of them. The scene comes first. With `merge` all files are one world."""
+    scenes = [path for path in inputs.paths if kind_of(path) == "scene"]
+    if inputs.merge or len(scenes) < 2:
+        return [inputs.paths]
+    scenes = list(filter(_has_bodies, scenes))
+    if len(scenes) < 2:
+        return [inputs.paths]
+    others = [path for path in inputs.paths if path not in scenes]
+    return [(scene, *others) for scene in scenes]
+
+
+def _has_bodies(scene: str) -> bool:
+    """A scene file that is wrong counts: the check of its world says why."""
+    try:
+        return not is_rules(scene)
+    except SatcheckError:
+        return True
 
 
 def _advice(inputs: Inputs) -> str:

@@ -264,6 +264,20 @@ debug_option = click.option(
     expose_value=False,  # cli/entry.py looks for it: what fails may be the reading of options
     help="Show a traceback when satcheck fails.",
 )
+merge_option = click.option(
+    "--merge",
+    is_flag=True,
+    help="Put several scene files into one world. Otherwise each of them is a world of its own: "
+    "bodies of two scenes are not compared.",
+)
+rules_option = click.option(
+    "--rules",
+    multiple=True,
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Apply the rules of FILE to all bodies, after those of scenes: what may overlap, and by "
+    "how much. Repeatable.",
+)
 package_option = click.option(
     "--package",
     "packages",

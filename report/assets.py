@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Literal, get_args
 
-from satcheck.report.report import Report
+from satcheck.report.report import Issue, Report
 from satcheck.report.values import Count, Tool, Value
 
 SCHEMA: Literal["satcheck.assets/1"] = "satcheck.assets/1"
@@ -39,16 +39,20 @@ class AssetCounts(Value, frozen=True, kw_only=True):
 
 
 class AssetsReport(Value, frozen=True, kw_only=True):
-    """verdict: the worst of the assets, in the order error, fail, incomplete, pass."""
+    """verdict: the worst of the assets, in the order error, fail, incomplete, pass. issues: about
+    what all assets share."""
 
     schema: Literal["satcheck.assets/1"] = SCHEMA
     tool: Tool
     verdict: AssetVerdict
     counts: AssetCounts
     assets: tuple[Asset, ...]
+    issues: tuple[Issue, ...] = ()
 
 
-def assets_report(tool: Tool, assets: Iterable[Asset]) -> AssetsReport:
+def assets_report(
+    tool: Tool, assets: Iterable[Asset], issues: tuple[Issue, ...] = ()
+) -> AssetsReport:
     """Without any asset it passes."""
     listed = tuple(assets)
     counts = Counter(each.verdict for each in listed)
@@ -63,4 +67,5 @@ def assets_report(tool: Tool, assets: Iterable[Asset]) -> AssetsReport:
             passed=counts["pass"],
         ),
         assets=listed,
+        issues=issues,
     )

@@ -32,6 +32,7 @@ def load_scene(
     allow_outside: bool = False,
     hashed: bool = True,
     units: str | None = None,
+    rules: Sequence[str | Path] = (),
 ) -> Scene:
     """All bodies of the given mesh files, scene files and robots, in that order.
 
@@ -51,6 +52,7 @@ def load_scene(
     hashed: take the SHA-256 of each file, which some reports state.
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
+    rules: files of rules, about all bodies. They count after those of the scenes.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
     A mesh file or node that cannot be used becomes an Unreadable with an error issue; the rest
@@ -79,6 +81,8 @@ def load_scene(
             builder.add_mesh(next(ids), path, Path(path))
         else:
             builder.add_nodes(next(ids), path, Path(path), split, alone)
+    for path in _as_texts(rules):
+        builder.add_scene(read_rules(path))
     return builder.scene()
 
 
@@ -104,6 +108,13 @@ def _read_scenes(given: Sequence[str], allow_outside: bool) -> dict[str, SceneFi
     from satcheck.scene.format.reading import read_scene_file
 
     return {path: read_scene_file(path, Path(path), allow_outside=allow_outside) for path in paths}
+
+
+def read_rules(path: str) -> SceneFile:
+    """A file of rules. Raises SceneFileError."""
+    from satcheck.scene.format.reading import read_rules_file
+
+    return read_rules_file(path, Path(path))
 
 
 def is_rules(path: str) -> bool:

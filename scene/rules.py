@@ -125,7 +125,8 @@ class Rule(Struct, frozen=True, kw_only=True):
     clearance: the gap they must keep, in the place of the global one; 0.0: none.
     tolerance: half width of the touch band, in the place of the global one.
     severity: of what is found about them; what cannot be decided stays a warning at least.
-    reason: why, in words. where: "file:line" or the like, to name the rule in a report.
+    reason: why, in words. where: "file:line" or the like, to name the rule in a report. file, line:
+    where it is written, as far as that is known.
 
     Raises SatcheckError `bad-rule`: a key out of range, or none that asks anything.
     """
@@ -141,6 +142,8 @@ class Rule(Struct, frozen=True, kw_only=True):
     severity: Severity | None = None
     reason: str = ""
     where: str = ""
+    file: str | None = None
+    line: int | None = None
 
     def __post_init__(self) -> None:
         for key in (*LENGTHS, "max_volume"):

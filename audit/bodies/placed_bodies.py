@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
     from satcheck.scene.rules import Rule
 
+# The code of an issue about a rule that selects no pair.
+UNUSED_RULE = "unused-rule"
+
 
 class UnusableBody(Struct, frozen=True):
     """A body whose pairs cannot be decided."""
@@ -163,4 +166,4 @@ def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:
 
 def _unused(rule: Rule) -> Issue:
     message = f"{rule.name}: the rule selects no pair of bodies"
-    return Issue("unused-rule", "warning", None, None, message)
+    return Issue(UNUSED_RULE, "warning", None, rule.file, message)

@@ -18,7 +18,7 @@ from satcheck.audit.samples import Samples, check_poses
 from satcheck.cli import exit_codes
 from satcheck.cli.baseline_file import read_baseline
 from satcheck.cli.commands import COMMANDS
-from satcheck.cli.inputs import Inputs, load, refuse_early
+from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.options import (
     DEFAULTS,
     HELP_NAMES,
@@ -31,6 +31,7 @@ from satcheck.cli.options import (
     form_of,
     jobs_option,
     length,
+    merge_option,
     method_option,
     open_option,
     output_option,
@@ -40,6 +41,7 @@ from satcheck.cli.options import (
     planar_option,
     pose_options,
     report_form_option,
+    rules_option,
     settings_of,
     split_option,
     tolerance_option,
@@ -203,6 +205,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="FILE",
     help="Fail only on findings that are new, or worse than in this baseline (satcheck baseline).",
 )
+@rules_option
+@merge_option
 @open_option
 @click.option(
     "--cross-check",
@@ -258,6 +262,9 @@ def command(
     3MF or 3DXML file alone is a scene too: each node with a mesh is a body. Every pair of bodies is
     checked, in the coordinates of the files. A body inside another collides with it.
 
+    With several TOML or JSON scenes, each is checked by itself, together with the files that are no
+    such scenes; --merge puts all into one world.
+
     A LENGTH is a number in the units of the files. Where a scene declares its units, the number may
     carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
@@ -271,6 +278,13 @@ def command(
     if form in PICTURES:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
+    worlds = worlds_of(inputs)
+    if len(worlds) > 1:
+        from satcheck.cli.worlds import Delivery, check_worlds
+
+        _refuse_of_worlds(form, inputs, explain=explain, **options)
+        delivery = Delivery(form, output, quiet, exit_zero)
+        return check_worlds(worlds, inputs, options, baseline, delivery)
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed=form == "json")
@@ -337,6 +351,16 @@ def _refuse_of_poses(form: str, **options: Any) -> None:
         if options[name]:
             option = name.replace("_", "-")
             raise click.UsageError(f"--{option} takes one pose, and several are given")
+
+
+def _refuse_of_worlds(form: str, inputs: Inputs, **options: Any) -> None:
+    """What is about one world."""
+    refused = {f"--format {form}": form in PICTURES, "poses": inputs.has_poses}
+    refused |= {f"--{name}": bool(options[name]) for name in ("certificate", "explain")}
+    for what in (what for what, given in refused.items() if given):
+        raise click.UsageError(
+            f"each scene is a world of its own, and {what} is about one: give one scene, or --merge"
+        )
 
 
 def _check_poses(

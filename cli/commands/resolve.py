@@ -23,6 +23,7 @@ from satcheck.cli.options import (
     in_units_of,
     jobs_option,
     length,
+    merge_option,
     open_option,
     output_option,
     outside_option,
@@ -83,6 +84,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 @form_option
 @output_option
 @split_option
+@merge_option
 @package_option
 @click.option(
     "--pose",

@@ -16,6 +16,7 @@ from satcheck.cli.options import (
     Command,
     color_option,
     debug_option,
+    merge_option,
     output_option,
     outside_option,
     package_option,
@@ -67,6 +68,7 @@ def _form_of(output: Path | None) -> str:
 @output_option
 @planar_option
 @split_option
+@merge_option
 @units_option
 @outside_option
 @package_option

@@ -18,6 +18,7 @@ from satcheck.cli.options import (
     debug_option,
     form_of,
     form_option,
+    merge_option,
     method_option,
     output_option,
     outside_option,
@@ -70,6 +71,7 @@ PLOTS = (".svg", ".png", ".pdf")
 @form_option
 @output_option
 @split_option
+@merge_option
 @units_option
 @outside_option
 @color_option

@@ -11,7 +11,7 @@ from rich.text import Text
 from satcheck.cli.report.beside_baseline import beside_baseline
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.ci.problems import problems
-from satcheck.cli.report.words import counted
+from satcheck.cli.report.words import counted, issue_line
 from satcheck.report.assets import ASSET_VERDICTS
 
 if TYPE_CHECKING:
@@ -39,6 +39,8 @@ def render(report: AssetsReport, page: Page) -> str:
         console.print(_table(shown, unicode=page.unicode))
     if hidden := report.counts.total - len(shown):
         console.print(f"{counted(hidden, 'more asset')} {'passes' if hidden == 1 else 'pass'}")
+    for issue in report.issues:
+        console.print(issue_line(issue))
     console.print(summary_line(report))
     return console.text()
 

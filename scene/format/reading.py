@@ -6,7 +6,7 @@ from pathlib import Path
 
 from satcheck.scene.errors import SceneFileError
 from satcheck.scene.format.entries import SCENE_1, SIMPLE, SceneFile
-from satcheck.scene.format.text import is_toml, parse
+from satcheck.scene.format.text import Parsed, is_toml, parse
 from satcheck.scene.format.values import shown
 
 
@@ -17,8 +17,7 @@ def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -
     may name meshes outside of its folder. Raises SceneFileError.
     """
     parsed = parse(path, location)
-    document = parsed.document
-    schema = document.get("schema") if isinstance(document, dict) else None
+    schema = _schema_of(parsed)
     if schema == SCENE_1:
         from satcheck.scene.format import scene_1
 
@@ -27,6 +26,27 @@ def read_scene_file(path: str, location: Path, *, allow_outside: bool = False) -
         from satcheck.scene.format import simple
 
         return simple.read_scene(parsed)
+    raise _not_a_scene(path, schema)
+
+
+def read_rules_file(path: str, location: Path) -> SceneFile:
+    """Reads and checks a file of rules, which has the keys of satcheck.scene/1 but for those about
+    bodies; `schema` may be left out. path, location: as above. Raises SceneFileError."""
+    from satcheck.scene.format import scene_1
+
+    parsed = parse(path, location)
+    schema = _schema_of(parsed)
+    if not isinstance(parsed.document, dict) or schema not in (None, SCENE_1):
+        raise _not_a_scene(path, schema)
+    return scene_1.read_rules(parsed)
+
+
+def _schema_of(parsed: Parsed) -> object:
+    document = parsed.document
+    return document.get("schema") if isinstance(document, dict) else None
+
+
+def _not_a_scene(path: str, schema: object) -> SceneFileError:
     told = "" if schema is None else f", but {shown(schema)}"
     message = f'not a scene file: "schema" is not "{SCENE_1}"{told}'
-    raise SceneFileError("bad-scene", message, file=path)
+    return SceneFileError("bad-scene", message, file=path)

@@ -15,8 +15,8 @@ _KNOWN = frozenset(("a", "b", "reason", *KEYS))
 _severity = one_of(SEVERITIES)
 
 
-def read_rule(table: Table, units: str | None, where: str) -> Rule | None:
-    """None where it is wrong, which the table then knows. where: to name it in a report."""
+def read_rule(table: Table, units: str | None, file: str, line: int) -> Rule | None:
+    """None where it is wrong, which the table then knows. file, line: where it is written."""
     found_before = table.problem_count
     table.only(_KNOWN)
     length = length_in(units)
@@ -34,7 +34,7 @@ def read_rule(table: Table, units: str | None, where: str) -> Rule | None:
     if table.problem_count > found_before:
         return None
     try:
-        return Rule(**values, where=where)
+        return Rule(**values, where=f"{file}:{line}", file=file, line=line)
     except SatcheckError as error:
         table.wrong(error.message, code=error.code)
         return None

@@ -28,12 +28,8 @@ from satcheck.scene.format.values import boolean, known_unit, list_of, shown, te
 from satcheck.scene.motion import Motion
 from satcheck.scene.rules import Rule
 
-_KEYS = frozenset(
-    (
-        *("schema", "$schema", "name", "description", "units", "check_static"),
-        *("ignore_within_groups", "bodies", "rules", "motion"),
-    )
-)
+_RULES_KEYS = frozenset(("schema", "$schema", "name", "description", "units", "bodies", "rules"))
+_KEYS = _RULES_KEYS | {"check_static", "ignore_within_groups", "motion"}
 _BODY_KEYS = PLACEMENT_KEYS | {
     *("id", "mesh", "part", "shape", "groups", "static", "pinned", "units", "surface_tolerance")
 }
@@ -45,6 +41,21 @@ def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
     """Raises SceneFileError with all that is wrong in the file."""
     problems = parsed.problems()
     scene = _Reader(parsed, problems, allow_outside).read()
+    problems.raise_any(parsed.path, lambda: parsed.positions)
+    return scene
+
+
+def read_rules(parsed: Parsed) -> SceneFile:
+    """A file of rules: a scene without bodies, which may leave out `schema` and `bodies`. Raises
+    SceneFileError with all that is wrong in the file."""
+    problems = parsed.problems()
+    top = Table(parsed.document, (), problems)
+    top.only(_RULES_KEYS)
+    if top.values.get("bodies"):
+        top.wrong("a file of rules has no bodies", "bodies")
+    if "rules" not in top:
+        top.wrong('"rules" is missing')
+    scene = _Reader(parsed, problems, allow_outside=False).read_rules(top)
     problems.raise_any(parsed.path, lambda: parsed.positions)
     return scene
 
@@ -81,6 +92,20 @@ class _Reader:
             ),
         )
 
+    def read_rules(self, top: Table) -> SceneFile:
+        units = top.read("units", text, None)
+        return SceneFile(
+            path=self._parsed.path,
+            name=self._parsed.location.stem,
+            units=units,
+            bodies=(),
+            ignore_within_groups=frozenset(),
+            check_static=False,
+            rules=self._rules(top, units),
+            motions=(),
+            issues=tuple(unknown_units(units, self._parsed.path)),
+        )
+
     def _body(self, table: Table, units: str | None) -> BodyEntry:
         table.only(_BODY_KEYS)
         if ("mesh" in table) == ("shape" in table):
@@ -104,7 +129,7 @@ class _Reader:
 
     def _rules(self, top: Table, units: str | None) -> tuple[Rule, ...]:
         candidates = (
-            read_rule(table, units, where=f"{self._parsed.path}:{self._line(table)}")
+            read_rule(table, units, self._parsed.path, self._line(table))
             for table in top.tables("rules")
         )
         return tuple(rule for rule in candidates if rule is not None)

@@ -116,7 +116,7 @@ def _rules(
             continue
         first, second = Selector.exactly(a), Selector.exactly(b)
         where = f"{path}: allowed_pairs[{index}]"
-        rules.append(Rule(a=first, b=second, allowed=True, reason=reason, where=where))
+        rules.append(Rule(a=first, b=second, allowed=True, reason=reason, where=where, file=path))
     return tuple(rules), issues
 
 

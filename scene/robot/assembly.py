@@ -169,7 +169,7 @@ def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
 
 def _allowed(pair: tuple[str, str], reason: str, file: str) -> Rule:
     a, b = map(Selector.exactly, pair)
-    return Rule(a=a, b=b, allowed=True, reason=reason, where=file)
+    return Rule(a=a, b=b, allowed=True, reason=reason, where=file, file=file)
 
 
 def posed(scene: Scene, pose: Pose) -> Scene:

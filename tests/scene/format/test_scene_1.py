@@ -51,7 +51,8 @@ def test_rules_know_where_they_are_written(tmp_path, form):
     ]
     for rule, values in zip(rules, expected, strict=True):
         values |= {"a": Selector(values["a"]), "b": Selector(values["b"])}
-        assert rule == Rule(**values, where=rule.where)
+        assert rule.where == f"{rule.file}:{rule.line}"
+        assert rule == Rule(**values, where=rule.where, file=rule.file, line=rule.line)
         file, line = rule.where.split(":")
         assert file == f"cell.{form}"
         near = "".join(lines[int(line) - 1 : int(line) + 1])

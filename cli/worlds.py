@@ -1,0 +1,167 @@
+"""Several worlds in one call, each checked as a scene of its own: one report, one exit code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+from msgspec import to_builtins
+
+from satcheck.audit import Settings
+from satcheck.audit.assets import check_asset, unused_rules, without_unused_rules
+from satcheck.audit.baseline import beside_baseline
+from satcheck.audit.summary import tool
+from satcheck.cli import exit_codes
+from satcheck.cli.baseline_file import asset_key, read_baseline
+from satcheck.cli.inputs import Inputs, read
+from satcheck.cli.options import settings_of
+from satcheck.cli.output import Document, Page, talk
+from satcheck.cli.progress import Bar
+from satcheck.cli.report.ci import FORMATS as CI_FORMATS
+from satcheck.cli.report.ci import render as render_for_ci
+from satcheck.cli.report.json import document as json_document
+from satcheck.cli.report.words import issue_line
+from satcheck.core import keep_freed_memory
+from satcheck.core.errors import SatcheckError
+from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, asset, assets_report
+from satcheck.report.baseline import Baseline
+from satcheck.report.report import without_timings
+from satcheck.scene import Scene
+from satcheck.scene.loader import read_rules
+
+# The files of a world, in the order in which they are read; the first one names it.
+World = tuple[str, ...]
+_CODES: dict[AssetVerdict, int] = {
+    "error": exit_codes.ERROR,
+    "fail": exit_codes.FINDINGS,
+    "incomplete": exit_codes.INCOMPLETE,
+    "pass": exit_codes.CLEAN,
+}
+
+
+class Delivery(NamedTuple):
+    """Where the report goes, and in which form; how the exit code is made."""
+
+    form: str
+    output: Path | None
+    quiet: bool
+    exit_zero: bool
+
+
+def check_worlds(
+    worlds: Sequence[World],
+    inputs: Inputs,
+    options: Mapping[str, Any],
+    baseline: Path | None,
+    delivery: Delivery,
+    *,
+    complete: bool = True,
+) -> int:
+    """The exit code, that of the worst world. inputs: how files are read. options: those of
+    `audit.Settings`. complete: these are all worlds; a rule that none of them needs is unused."""
+    known = None if baseline is None else read_baseline(baseline)
+    for path in inputs.rules:
+        read_rules(str(path))  # what is wrong there is no fault of an asset
+    document = Document()
+    assets = _check(worlds, inputs, options, hashed=delivery.form == "json")
+    if known is not None and baseline is not None:
+        assets = [_beside(each, known, baseline) for each in assets]
+    shared = frozenset(map(str, inputs.rules))
+    unused = unused_rules(assets, shared) if complete else ()
+    assets = [without_unused_rules(each, shared) for each in assets]
+    report = assets_report(tool(), assets, unused)
+    _deliver(document, report, delivery, timings=options["timings"])
+    _tell(report, None if delivery.quiet else delivery.output)
+    passes = delivery.exit_zero and report.verdict == "fail"
+    return exit_codes.CLEAN if passes else _CODES[report.verdict]
+
+
+def _check(
+    worlds: Sequence[World], inputs: Inputs, options: Mapping[str, Any], *, hashed: bool
+) -> list[Asset]:
+    keep_freed_memory()
+
+    def load(world: World) -> Scene:
+        _refuse_folder(world[0])
+        scene = read(inputs, world, hashed=hashed)
+        if not scene.bodies and not scene.unreadable:
+            reason = "there is no body: give a file of rules as --rules FILE"
+            raise SatcheckError("too-few-bodies", reason, file=world[0])
+        return scene
+
+    def settings_for(scene: Scene) -> Settings:
+        try:
+            return settings_of(options, scene)
+        except click.UsageError as error:
+            raise SatcheckError("bad-setting", error.message) from None
+
+    assets = []
+    with Bar("assets") as bar:
+        for number, world in enumerate(worlds):
+            assets.append(check_asset(world[0], partial(load, world), settings_for))
+            if bar is not None:
+                bar(number + 1, len(worlds))
+    return assets
+
+
+def _refuse_folder(name: str) -> None:
+    """Only a folder that cannot be listed is among the assets."""
+    try:
+        if Path(name).is_dir():
+            next(Path(name).iterdir(), None)
+    except OSError as error:
+        raise SatcheckError(
+            "unreadable-folder", f"the folder cannot be listed: {error.strerror}", file=name
+        ) from None
+
+
+def _beside(each: Asset, known: Baseline, path: Path) -> Asset:
+    report = beside_baseline(each.report, known, str(path), asset_key(each.file, path))
+    return asset(each.file, report)
+
+
+def _deliver(
+    document: Document, report: AssetsReport, delivery: Delivery, *, timings: bool
+) -> None:
+    if delivery.output is None and delivery.quiet:
+        return
+    if delivery.output is None and delivery.form == "table" and not report.assets:
+        return  # no asset changed, and stderr says so
+    document.deliver(
+        lambda page: _render(report, delivery.form, page, timings=timings),
+        delivery.output,
+        utf8=delivery.form != "table",
+    )
+
+
+def _tell(report: AssetsReport, output: Path | None) -> None:
+    """Errors on stderr; with -o also the warnings about all assets, the summary, and where the
+    report is."""
+    for each in report.assets:
+        for issue in each.report.issues:
+            if issue.severity == "error":
+                line = issue_line(issue)
+                talk(f"satcheck: {line}" if each.file in line else f"satcheck: {each.file}: {line}")
+    if output is None:
+        return
+    for issue in report.issues:
+        talk(f"satcheck: {issue_line(issue)}")
+    if report.assets:
+        from satcheck.cli.report.assets import summary_line
+
+        talk(f"{summary_line(report)} Report: {output}")
+
+
+def _render(report: AssetsReport, form: str, page: Page, *, timings: bool) -> str:
+    if form == "json":
+        return json_document(report if timings else without_timings(to_builtins(report)))
+    if form in CI_FORMATS:
+        return render_for_ci({asset.file: asset.report for asset in report.assets}, form)
+    if not report.assets:
+        return "PASS: 0 assets.\n"
+    from satcheck.cli.report.assets import render
+
+    return render(report, page)
