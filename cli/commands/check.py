@@ -303,8 +303,10 @@ def command(
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
     if output is not None or not quiet:
         document.deliver(
-            lambda page: _render(
-                result, scene, form, page, explain=explain, timings=options["timings"]
+            lambda page: (
+                _picture(result, scene, form, cache=options["cache"])
+                if form in PICTURES and isinstance(result, Report)
+                else _render(result, form, page, explain=explain, timings=options["timings"])
             ),
             output,
             utf8=form != "table",
@@ -370,9 +372,15 @@ def _check_poses(
         return replace(check_poses(scene, poses, settings, progress=bar), seed=seed)
 
 
+def _picture(report: Report, scene: Scene, form: str, *, cache: bool) -> str | bytes:
+    from satcheck.cli.report.picture import render
+
+    return render(form, report, scene, split=report.settings.accuracy == "parts", cache=cache)
+
+
 def _render(
-    result: Report | Samples, scene: Scene, form: str, page: Page, *, explain: bool, timings: bool
-) -> str | bytes | list[str]:
+    result: Report | Samples, form: str, page: Page, *, explain: bool, timings: bool
+) -> str | list[str]:
     if isinstance(result, Samples):
         if form == "json":
             return json_document(result.to_dict(timings))
@@ -381,10 +389,6 @@ def _render(
         return render_samples(result, page)
     if form == "json":
         return render_json(result, timings=timings)
-    if form in PICTURES:
-        from satcheck.cli.report.picture import render as render_picture
-
-        return render_picture(form, result, scene)
     if form in CI_FORMATS:
         return render_for_ci({"satcheck": result}, form)
     from satcheck.cli.report.table import render as render_table

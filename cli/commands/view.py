@@ -17,6 +17,7 @@ from satcheck.cli.options import (
     HELP_NAMES,
     PICTURES,
     Command,
+    cache_option,
     color_option,
     debug_option,
     form_of,
@@ -47,11 +48,24 @@ from satcheck.report.report import Report
     help="The folder where the check ran: paths in the report start there.  "
     "[default: the current one]",
 )
+@click.option(
+    "--parts",
+    is_flag=True,
+    help="Split the bodies with findings, so that the page shows their convex parts. A report of "
+    "--accuracy parts has them anyway.",
+)
+@cache_option
 @outside_option
 @color_option
 @debug_option
 def command(
-    report: Path, output: Path | None, asset: str | None, root: Path, allow_outside: bool
+    report: Path,
+    output: Path | None,
+    asset: str | None,
+    root: Path,
+    parts: bool,
+    cache: bool,
+    allow_outside: bool,
 ) -> int:
     """Show a report in 3-D, from its mesh files.
 
@@ -69,7 +83,9 @@ def command(
     for issue in issues:
         talk(f"satcheck: {issue_line(issue)}")
     document = Document()
-    content = render(form, replace(stated, issues=(*issues, *stated.issues)), scene)
+    stated = replace(stated, issues=(*issues, *stated.issues))
+    split = parts or stated.settings.accuracy == "parts"
+    content = render(form, stated, scene, split=split, cache=cache)
     if output is None:
         output = Path(mkdtemp(prefix="satcheck-")) / "report.html"
         _show(output, content, document)

@@ -28,13 +28,13 @@ def component_lines(page: Page, findings: Sequence[Finding]) -> list[str]:
         title += "" if finding.components.resolved else ", perhaps not all"
         lines += fitted(title, page, BOLD)
         for item in items[:MOST_COMPONENTS]:
-            lines += fitted("  " + ", ".join(_facts(item, finding)), page)
+            lines += fitted("  " + ", ".join(facts(item, finding)), page)
         if rest := len(items) - MOST_COMPONENTS:
             lines += fitted(f"  {counted(rest, 'thinner one')}", page) if rest > 0 else []
     return lines
 
 
-def _facts(item: Component, finding: Finding) -> Iterator[str]:
+def facts(item: Component, finding: Finding) -> Iterator[str]:
     if item.thickness_bounds is None:
         yield "thickness not known"
     else:

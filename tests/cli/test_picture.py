@@ -12,10 +12,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from satcheck.audit import check
-from satcheck.cli.report.picture.data import STEPS, picture_data
+from satcheck.audit import Settings, check
+from satcheck.cli.report.picture.data import picture_data
 from satcheck.cli.report.picture.html import render
+from satcheck.cli.report.picture.packing import STEPS
+from satcheck.cli.report.picture.parts import parts_of
+from satcheck.cli.report.picture.simplified import simplified
+from satcheck.core import Mesh
+from satcheck.core.shape_mesh import mesh_of
+from satcheck.core.shapes import Sphere
 from satcheck.scene import load_scene
+from satcheck.scene.meshes import scene_of_meshes
 from tests.cli.process import PUSHED, SAMPLES, satcheck
 
 DATA = re.compile(r'<script type="application/json" id="data">(.*?)</script>', re.DOTALL)
@@ -30,12 +37,30 @@ def page_data(page: str) -> dict[str, Any]:
     return data
 
 
-def vertices(mesh: dict[str, Any], frame: list[float]) -> Any:
+def unpacked(text: str, kind: str) -> Any:
+    """As the page reads numbers."""
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(text)), np.uint8)
+    rows = np.ascontiguousarray(planes.reshape(np.dtype(kind).itemsize, -1).T)
+    return rows.view(kind).reshape(-1)
+
+
+def sums(text: str, kind: str) -> Any:
+    return np.cumsum(unpacked(text, kind), dtype=kind)
+
+
+def vertices(data: dict[str, Any], body: int) -> Any:
     """As the page reads them, relative to the middle of the scene."""
-    raw = zlib.decompress(base64.b64decode(mesh["data"]))
-    steps = np.frombuffer(raw, "<u2", mesh["vertices"] * 3).reshape(-1, 3)
-    rows = np.array(frame).reshape(3, 4)
-    return steps / STEPS @ rows[:, :3].T + rows[:, 3]
+    mesh = data["meshes"][data["bodies"]["meshes"][body]]
+    steps = sums(mesh["corners"], "<u2").reshape(3, -1).T
+    return steps / STEPS @ frames(data)[body][:, :3].T + frames(data)[body][:, 3]
+
+
+def frames(data: dict[str, Any]) -> Any:
+    return unpacked(data["bodies"]["frames"], "<f4").reshape(-1, 3, 4).astype(float)
+
+
+def triangles(data: dict[str, Any], mesh: int) -> Any:
+    return sums(data["meshes"][mesh]["triangles"], "<u4").reshape(-1, 3)
 
 
 def test_the_page_is_one_file(tmp_path: Path) -> None:
@@ -57,18 +82,20 @@ def test_geometry_is_that_of_the_world_to_half_a_step(names: tuple[str, ...]) ->
     meshes = [np.asarray(body.world_mesh().vertices) for body in scene.bodies]
     corners = np.concatenate(meshes)
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    for body, mesh in zip(data["bodies"], meshes, strict=True):
-        shown = vertices(data["meshes"][body["mesh"]], body["frame"])
-        # Half a step of each of three axes, and 8 digits of each number of the frame.
-        frame = np.abs(np.array(body["frame"]).reshape(3, 4))
-        error = 0.5 * frame[:, :3].sum(axis=1) / STEPS + 5e-8 * frame.sum(axis=1)
-        assert (np.abs(shown + middle - mesh) <= error).all()
+    for k, (body, mesh) in enumerate(zip(scene.bodies, meshes, strict=True)):
+        # Half a step of each of three axes, and the rounding of each float32 of the frame.
+        frame = np.abs(frames(data)[k])
+        error = 0.5 * frame[:, :3].sum(axis=1) / STEPS + 2.0**-24 * frame.sum(axis=1)
+        assert (np.abs(vertices(data, k) + middle - mesh) <= error).all()
+        shown = triangles(data, data["bodies"]["meshes"][k])
+        assert (shown == np.asarray(body.file.mesh.triangles)).all()
 
 
 def test_copies_share_their_geometry() -> None:
     scene = load_scene([str(SAMPLES / "rack.3mf")])
     data = picture_data(check(scene), scene)
-    posts = [body["mesh"] for body in data["bodies"] if "post" in body["id"]]
+    bodies = data["bodies"]
+    posts = [bodies["meshes"][k] for k, id_ in enumerate(bodies["ids"]) if "post" in id_]
     assert len(posts) == 2
     assert len(set(posts)) == 1
 
@@ -79,18 +106,88 @@ def test_the_worst_finding_comes_first() -> None:
     assert severities == ["error", "note", "note", "note"]
 
 
-def test_bodies_without_findings_are_boxes_in_a_large_scene(
-    monkeypatch: pytest.MonkeyPatch,
+def ball(segments: int) -> Mesh:
+    return mesh_of(Sphere(radius=1.0), segments)
+
+
+@pytest.mark.parametrize("room", [8_000, 5_000, 0])
+def test_bodies_without_findings_are_simplified_until_they_fit(
+    monkeypatch: pytest.MonkeyPatch, room: int
 ) -> None:
-    monkeypatch.setattr("satcheck.cli.report.picture.data.MOST_TRIANGLES", 10)
-    scene = load_scene([str(SAMPLES / name) for name in (*PUSHED, "far_a.obj")])
+    monkeypatch.setattr("satcheck.cli.report.picture.data.ROOM", room)
+    corners = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    tip = (corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    far = (np.asarray(ball(64).vertices) + 5.0, np.asarray(ball(64).triangles))
+    scene = scene_of_meshes({"a": tip, "b": ball(8), "far": far})
     data = picture_data(check(scene), scene)
-    assert data["simplified"]
-    far = data["bodies"][2]
-    corners = vertices(data["meshes"][far["mesh"]], far["frame"])
-    assert len(corners) == 8
-    extent = corners.max(axis=0) - corners.min(axis=0)
-    assert extent == pytest.approx(far["size"], rel=1e-7)
+    assert "1 body without findings" in data["simplified"]
+    assert ("boxes" in data["simplified"]) is (room == 0)
+    packed = [len("".join(mesh.values())) for mesh in data["meshes"]]
+    assert room == 0 or sum(packed) <= room
+    for k in (0, 1):
+        shown = triangles(data, data["bodies"]["meshes"][k])
+        assert len(shown) == scene.bodies[k].file.mesh.triangle_count
+    shape = vertices(data, 2)
+    assert len(shape) < len(far[0])
+    middle = (-1.0 + 6.0) / 2
+    assert np.abs(shape + middle - 5.0).max() <= 1.0 + 2.0 / 8
+
+
+@pytest.mark.parametrize("cells", [4, 16, 64])
+def test_a_simplified_mesh_is_within_a_cell_of_the_mesh(cells: int) -> None:
+    mesh = ball(64)
+    coarse = simplified(mesh, cells)
+    assert coarse.triangle_count <= mesh.triangle_count
+    radii = np.linalg.norm(coarse.vertices, axis=1)
+    diagonal = 3**0.5 * 2.0 / cells
+    assert radii.max() <= 1.0 + 1e-12
+    assert radii.min() >= 1.0 - diagonal
+    corners = np.asarray(coarse.vertices)[np.asarray(coarse.triangles)]
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    assert volume > 0.0  # still wound outward
+
+
+def test_a_mesh_within_one_cell_stays_as_it_is() -> None:
+    mesh = ball(8)
+    assert simplified(mesh, 1).triangle_count == mesh.triangle_count
+
+
+def test_what_each_rung_sees() -> None:
+    """Hulls of bodies with findings, and their parts where these are given."""
+    scene = load_scene([str(SAMPLES / name) for name in ("l_bracket.obj", "peg_in_arm.ply")])
+    report = check(scene)
+    parts = parts_of(report, scene, cache=False)
+    data = picture_data(report, scene, parts)
+    assert set(data["hulls"]) == {0, 1}
+    hull = triangles(data, data["hulls"][0])
+    assert len(hull) == scene.bodies[0].file.mesh.convex_hull().to_mesh().triangle_count
+    split = data["parts"][0]
+    assert len(split["triangles"]) == len(parts["l_bracket"]) > 1
+    assert sum(split["triangles"]) == len(triangles(data, split["mesh"]))
+
+
+def test_figures_of_a_finding_are_in_the_frame_of_the_page() -> None:
+    names = [str(SAMPLES / name) for name in ("l_bracket.obj", "peg_in_arm.ply")]
+    scene = load_scene(names)
+    (finding,) = check(scene, Settings(components=True, contacts=True)).findings
+    data = picture_data(check(scene, Settings(components=True, contacts=True)), scene)
+    (shown,) = data["findings"]
+    corners = np.concatenate([np.asarray(body.world_mesh().vertices) for body in scene.bodies])
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    assert finding.ball is not None
+    assert finding.components is not None
+    assert finding.contacts is not None
+    assert shown["ball"]["centre"] == pytest.approx(np.array(finding.ball.centre) - middle)
+    assert shown["ball"]["radius"] == finding.ball.radius
+    assert shown["axis"] == finding.normal
+    (component,) = shown["components"]
+    assert component["low"] == pytest.approx(
+        np.array(finding.components.items[0].bounds[0]) - middle
+    )
+    points = unpacked(data["points"], "<f4").reshape(-1, 3)
+    (curve,) = finding.contacts.curves
+    assert points[: len(curve.points)] == pytest.approx(np.array(curve.points) - middle, abs=1e-6)
+    assert sum(shown["lines"]) == len(points)
 
 
 def test_what_cannot_be_drawn_is_told() -> None:
@@ -98,7 +195,7 @@ def test_what_cannot_be_drawn_is_told() -> None:
     scene = load_scene([str(SAMPLES / name) for name in (*PUSHED, "missing.obj")])
     data = picture_data(check(scene), scene)
     undrawn = [f["names"] for f in data["findings"] if None in (f["a"], f["b"])]
-    assert undrawn == ["box and missing", "box_pushed and missing"]
+    assert undrawn == [["box", "missing"], ["box_pushed", "missing"]]
     assert any("missing.obj" in text for text in data["issues"])
 
 
@@ -110,7 +207,7 @@ def test_coordinates_beyond_the_renderer_have_no_picture(tmp_path: Path) -> None
     names = (str(tmp_path / "a.obj"), str(tmp_path / "b.obj"))
     assert satcheck(*names, "-o", str(output)).code == 1
     data = page_data(output.read_text())
-    assert (data["drawn"], data["bodies"], len(data["findings"])) == (False, [], 1)
+    assert (data["drawn"], data["bodies"]["ids"], len(data["findings"])) == (False, [], 1)
 
 
 @pytest.mark.parametrize("more", [("--planar", "xy"), ("--accuracy", "hull")])

@@ -17,7 +17,13 @@ if TYPE_CHECKING:
 FORMATS: dict[str, tuple[str, ...]] = {"html": (".html", ".htm")}
 
 
-def render(form: str, report: Report, scene: Scene) -> str | bytes:
-    """scene: that the report is about."""
+def render(
+    form: str, report: Report, scene: Scene, *, split: bool = False, cache: bool = True
+) -> str | bytes:
+    """scene: that the report is about. split: a page shows convex parts, too. cache: of these."""
     module = import_module(f"{__name__}.{form}")
+    if split and form == "html":
+        from satcheck.cli.report.picture.parts import parts_of
+
+        return cast("str", module.render(report, scene, parts_of(report, scene, cache=cache)))
     return cast("Callable[[Report, Scene], str | bytes]", module.render)(report, scene)

@@ -1,7 +1,9 @@
 """A report as one HTML page with a 3-D view, which works offline in any browser with WebGL 2.
 
-`page.html` is the page, `style.css` its look, `viewer.js` the list of findings and what a click
-does, `renderer.js` draws. All of them go into the one file, with the report and the geometry.
+`page.html` is the page and `style.css` its look. `unpack.js` reads the geometry, `camera.js` looks,
+`solids.js` makes arrows and balls, `renderer.js` draws, `picture.js` decides what is drawn of a
+finding, `list.js` has the list of findings, `viewer.js` what the mouse and the keys do. All of them
+go into the one file.
 """
 
 from __future__ import annotations
@@ -13,19 +15,27 @@ from typing import TYPE_CHECKING
 from satcheck.cli.report.picture.data import picture_data
 
 if TYPE_CHECKING:
+    from satcheck.cli.report.picture.geometry import Parts
     from satcheck.report.report import Report
     from satcheck.scene import Scene
 
 HERE = Path(__file__).parent
+SOURCES = (
+    "style.css",
+    *("unpack.js", "camera.js", "solids.js", "renderer.js"),
+    *("picture.js", "list.js", "viewer.js"),
+)
 
 
-def render(report: Report, scene: Scene) -> str:
-    """The whole page. scene: that the report is about."""
+def render(report: Report, scene: Scene, parts: Parts | None = None) -> str:
+    """The whole page. scene: that the report is about. parts: convex parts to show."""
     page = _part("page.html")
-    for name in ("style.css", "renderer.js", "viewer.js"):
+    for name in SOURCES:
         page = page.replace(f"/* {name} */", _part(name), 1)
     # Text from files must not end the element that holds it.
-    data = json.dumps(picture_data(report, scene), separators=(",", ":")).replace("<", "\\u003c")
+    data = json.dumps(picture_data(report, scene, parts), separators=(",", ":")).replace(
+        "<", "\\u003c"
+    )
     return page.replace("/* data */", data, 1)
 
 

@@ -1,27 +1,28 @@
-// Draws bodies, their overlap, lines and arrows with WebGL 2. z is up.
-"use strict";
-
+// Draws meshes, one or many at a time, their overlap, lines and points with WebGL 2.
 const VERTEX = `#version 300 es
-in vec3 corner; uniform mat4 camera, frame; uniform vec3 move; out vec3 place;
-void main() { place = (frame * vec4(corner, 1.0)).xyz + move; gl_Position = camera * vec4(place, 1.0); }`;
-const FRAGMENT = `#version 300 es
-precision highp float; in vec3 place; uniform vec4 colour; uniform vec3 eye; uniform float lit; out vec4 shown;
+in vec3 corner; in vec4 row0, row1, row2, tint; in float number;
+uniform mat4 camera; uniform vec3 move; uniform vec4 colour; uniform vec2 skip; uniform float size, tinted;
+out vec3 place; out vec4 shade;
 void main() {
-  vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
-  float light = lit > 0.5 ? 0.55 + 0.45 * abs(dot(normal, normalize(eye - place))) : 1.0;
-  shown = vec4(colour.rgb * light * colour.a, colour.a);
+  vec4 at = vec4(corner, 1.0);
+  place = vec3(dot(row0, at), dot(row1, at), dot(row2, at)) + move;
+  bool gone = number >= 0.0 && (number == skip.x || number == skip.y);
+  gl_Position = gone ? vec4(2.0, 2.0, 2.0, 1.0) : camera * vec4(place, 1.0);
+  gl_PointSize = size;
+  shade = vec4(mix(colour.rgb, tint.rgb, tinted), colour.a);
 }`;
-
-async function unpacked(geometry) {
-  const bytes = Uint8Array.from(atob(geometry.data), (c) => c.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const raw = await new Response(stream).arrayBuffer();
-  const indices = Math.ceil((geometry.vertices * 6) / 4) * 4;
-  return {
-    corners: new Uint16Array(raw, 0, geometry.vertices * 3),
-    triangles: new Uint32Array(raw, indices, geometry.triangles * 3),
-  };
-}
+const FRAGMENT = `#version 300 es
+precision highp float; in vec3 place; in vec4 shade; uniform vec3 eye; uniform float lit; out vec4 shown;
+void main() {
+  float light = 1.0;
+  if (lit > 0.5) {
+    vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+    light = 0.55 + 0.45 * abs(dot(normal, normalize(eye - place)));
+  } else if (lit < -0.5 && length(gl_PointCoord - 0.5) > 0.5) discard;
+  shown = vec4(shade.rgb * light * shade.a, shade.a);
+}`;
+const CORNER = 0, ROWS = [1, 2, 3], TINT = 4, NUMBER = 5;
+const SAME = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
 class Renderer {
   constructor(canvas) {
@@ -36,53 +37,83 @@ class Renderer {
       gl.compileShader(shader);
       gl.attachShader(this.program, shader);
     }
-    gl.bindAttribLocation(this.program, 0, "corner");
+    ["corner", "row0", "row1", "row2", "tint", "number"].forEach((name, at) =>
+      gl.bindAttribLocation(this.program, at, name));
     gl.linkProgram(this.program);
     gl.useProgram(this.program);
     this.at = {};
-    for (const name of ["camera", "frame", "move", "colour", "eye", "lit"])
+    for (const name of ["camera", "move", "colour", "eye", "lit", "skip", "size", "tinted"])
       this.at[name] = gl.getUniformLocation(this.program, name);
   }
 
-  async mesh(geometry) {
-    const { corners, triangles } = await unpacked(geometry);
-    const array = this.array(corners, this.gl.UNSIGNED_SHORT);
-    this.gl.bindBuffer(this.gl.ELEMENT_ARRAY_BUFFER, this.gl.createBuffer());
-    this.gl.bufferData(this.gl.ELEMENT_ARRAY_BUFFER, triangles, this.gl.STATIC_DRAW);
-    this.gl.bindVertexArray(null);
-    return { array, count: triangles.length };
+  // corners: 16 bits within the box of the mesh, or floats.
+  mesh({ corners, triangles }) {
+    const gl = this.gl, buffer = this.buffer(corners), indices = triangles && this.buffer(triangles, true);
+    const array = this.array(buffer, corners, indices);
+    return { array, buffer, indices, corners, count: triangles ? triangles.length : corners.length / 3 };
   }
 
-  // rows: from the box of the mesh, whose sides are 1, into the scene, 3 x 4.
-  placed(mesh, rows) {
-    const frame = new Float32Array(16);
-    for (let k = 0; k < 12; k++) frame[(k % 4) * 4 + Math.floor(k / 4)] = rows[k];
-    frame[15] = 1;
-    const [x, y, z] = [0, 1, 2].map((k) => [rows[k], rows[4 + k], rows[8 + k]]);
-    return { ...mesh, frame, mirrored: dot(cross(x, y), z) < 0 };
+  buffer(values, isIndex = false) {
+    const gl = this.gl, buffer = gl.createBuffer();
+    const target = isIndex ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
+    gl.bindVertexArray(null);
+    gl.bindBuffer(target, buffer);
+    gl.bufferData(target, values, gl.STATIC_DRAW);
+    return buffer;
   }
 
-  lines(points) {
-    const array = this.array(new Float32Array(points.flat()), this.gl.FLOAT);
-    this.gl.bindVertexArray(null);
-    return this.placed({ array, count: points.length }, [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]);
-  }
-
-  array(values, type) {
-    const gl = this.gl, array = gl.createVertexArray();
+  array(buffer, corners, indices) {
+    const gl = this.gl, array = gl.createVertexArray(), whole = corners instanceof Uint16Array;
     gl.bindVertexArray(array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, type, type === gl.UNSIGNED_SHORT, 0, 0);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(CORNER);
+    gl.vertexAttribPointer(CORNER, 3, whole ? gl.UNSIGNED_SHORT : gl.FLOAT, whole, 0, 0);
+    if (indices) gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
     return array;
+  }
+
+  // Many of one mesh. rows: 12 numbers each; tints: 3; numbers: which `skip` knows.
+  crowd(mesh, rows, tints, numbers) {
+    const gl = this.gl, array = this.array(mesh.buffer, mesh.corners, mesh.indices);
+    const add = (at, values, size, stride, offset) => {
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, size, gl.FLOAT, false, stride, offset);
+      gl.vertexAttribDivisor(at, 1);
+    };
+    const attach = (values) => {
+      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(values), gl.STATIC_DRAW);
+    };
+    attach(rows);
+    ROWS.forEach((at, k) => add(at, rows, 4, 48, 16 * k));
+    attach(tints);
+    add(TINT, tints, 3, 12, 0);
+    attach(numbers);
+    add(NUMBER, numbers, 1, 4, 0);
+    return { ...mesh, array, instances: numbers.length };
+  }
+
+  // rows: from the box of the mesh, whose sides are 1, into the page, 3 x 4.
+  placed(mesh, rows) {
+    const [x, y, z] = [0, 1, 2].map((k) => [rows[k], rows[4 + k], rows[8 + k]]);
+    return { ...mesh, rows, mirrored: dot(cross(x, y), z) < 0 };
+  }
+
+  // Stays until `forget`: lines and points change with the finding.
+  strip(points) {
+    return this.placed(this.mesh({ corners: new Float32Array(points.flat ? points.flat() : points) }), SAME);
+  }
+
+  forget(shape) {
+    this.gl.deleteVertexArray(shape.array);
+    this.gl.deleteBuffer(shape.buffer);
   }
 
   begin(ground, camera, eye) {
     const gl = this.gl, canvas = this.canvas, ratio = window.devicePixelRatio || 1;
-    canvas.width = Math.max(1, canvas.clientWidth * ratio);
-    canvas.height = Math.max(1, canvas.clientHeight * ratio);
-    gl.viewport(0, 0, canvas.width, canvas.height);
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((v) => Math.max(1, Math.round(v * ratio)));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    gl.viewport(0, 0, width, height);
     gl.clearColor(...ground, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
@@ -90,31 +121,55 @@ class Renderer {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.uniformMatrix4fv(this.at.camera, false, camera);
     gl.uniform3fv(this.at.eye, eye);
+    gl.uniform1f(this.at.size, 10 * ratio);
   }
 
-  draw(shape, colour, move = [0, 0, 0], mode = this.gl.TRIANGLES, lit = 1) {
+  // lit: 1 shaded, 0 plain, -1 round points. range: first and count of indices.
+  draw(shape, colour, { move = [0, 0, 0], mode = this.gl.TRIANGLES, lit = 1, range = null } = {}) {
     const gl = this.gl;
-    gl.uniformMatrix4fv(this.at.frame, false, shape.frame);
-    gl.frontFace(shape.mirrored ? gl.CW : gl.CCW);
     gl.uniform3fv(this.at.move, move);
     gl.uniform4fv(this.at.colour, colour);
     gl.uniform1f(this.at.lit, lit);
+    gl.uniform1f(this.at.tinted, 0);
+    ROWS.forEach((at, k) => gl.vertexAttrib4fv(at, shape.rows.slice(4 * k, 4 * k + 4)));
+    gl.vertexAttrib1f(NUMBER, -1);
+    gl.frontFace(shape.mirrored ? gl.CW : gl.CCW);
     gl.bindVertexArray(shape.array);
-    if (mode === gl.TRIANGLES) gl.drawElements(mode, shape.count, gl.UNSIGNED_INT, 0);
-    else gl.drawArrays(mode, 0, shape.count);
+    const [first, count] = range || [0, shape.count];
+    if (shape.indices) gl.drawElements(mode, count, gl.UNSIGNED_INT, 4 * first);
+    else gl.drawArrays(mode, first, count);
+  }
+
+  // alpha 1: solid, in their own tints; else all in one colour, and none hides another.
+  drawCrowd(crowd, colour, skip, tinted) {
+    const gl = this.gl;
+    gl.uniform3fv(this.at.move, [0, 0, 0]);
+    gl.uniform4fv(this.at.colour, colour);
+    gl.uniform1f(this.at.lit, 1);
+    gl.uniform1f(this.at.tinted, tinted ? 1 : 0);
+    gl.uniform2fv(this.at.skip, skip);
+    gl.depthMask(colour[3] === 1);
+    gl.bindVertexArray(crowd.array);
+    gl.drawElementsInstanced(gl.TRIANGLES, crowd.count, gl.UNSIGNED_INT, 0, crowd.instances);
+    gl.depthMask(true);
   }
 
   // Far sides first; nothing hides what is behind it.
-  translucent(shape, colour, move) {
+  translucent(shape, colour, options) {
     const gl = this.gl;
     gl.depthMask(false);
     gl.enable(gl.CULL_FACE);
     for (const side of [gl.FRONT, gl.BACK]) {
       gl.cullFace(side);
-      this.draw(shape, colour, move);
+      this.draw(shape, colour, options);
     }
     gl.disable(gl.CULL_FACE);
     gl.depthMask(true);
+  }
+
+  // What comes now lies in front of everything.
+  onTop() {
+    this.gl.clear(this.gl.DEPTH_BUFFER_BIT);
   }
 
   // Where the front of one body lies inside the other: between the eye and a point there, the
@@ -123,7 +178,7 @@ class Renderer {
     const gl = this.gl;
     gl.clear(gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
     gl.colorMask(false, false, false, false);
-    this.draw(shape, colour, move);
+    this.draw(shape, colour, { move });
     gl.depthMask(false);
     gl.enable(gl.STENCIL_TEST);
     gl.stencilFunc(gl.ALWAYS, 0, 255);
@@ -136,7 +191,7 @@ class Renderer {
     for (const [hidden, away] of [[gl.BACK, 1], [gl.FRONT, -1]]) {
       gl.cullFace(hidden);
       gl.polygonOffset(away, 8 * away);
-      this.draw(other, colour, otherMove);
+      this.draw(other, colour, { move: otherMove });
     }
     gl.disable(gl.CULL_FACE);
     gl.disable(gl.POLYGON_OFFSET_FILL);
@@ -144,60 +199,9 @@ class Renderer {
     gl.stencilFunc(gl.NOTEQUAL, 0, 255);
     gl.stencilOp(gl.KEEP, gl.KEEP, gl.KEEP);
     gl.depthFunc(gl.LEQUAL);
-    this.draw(shape, colour, move);
+    this.draw(shape, colour, { move });
     gl.disable(gl.STENCIL_TEST);
     gl.depthFunc(gl.LESS);
     gl.depthMask(true);
-  }
-}
-
-const minus = (a, b) => a.map((v, k) => v - b[k]);
-const plus = (a, b) => a.map((v, k) => v + b[k]);
-const times = (a, s) => a.map((v) => v * s);
-const dot = (a, b) => a.reduce((sum, v, k) => sum + v * b[k], 0);
-const norm = (a) => Math.hypot(...a);
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-
-class Camera {
-  constructor() {
-    Object.assign(this, { yaw: -0.7, pitch: 0.5, far: 10, target: [0, 0, 0] });
-  }
-
-  get axis() {
-    const c = Math.cos(this.pitch);
-    return [c * Math.cos(this.yaw), c * Math.sin(this.yaw), Math.sin(this.pitch)];
-  }
-
-  get eye() {
-    return plus(this.target, times(this.axis, this.far));
-  }
-
-  get side() {
-    return [-Math.sin(this.yaw), Math.cos(this.yaw), 0];
-  }
-
-  get up() {
-    return cross(this.axis, this.side);
-  }
-
-  frame(target, radius) {
-    this.target = target;
-    this.far = Math.max(radius, 1e-12) * 3.2;
-  }
-
-  // Column by column, for WebGL. Right-handed, looking along -axis.
-  matrix(aspect) {
-    const eye = this.eye, rows = [this.side, this.up, this.axis], f = 2.2;
-    const near = this.far / 100, far = this.far * 100, d = near - far;
-    const p = [f / aspect, f, (far + near) / d];
-    const out = new Float32Array(16);
-    rows.forEach((row, r) => {
-      row.forEach((v, k) => (out[k * 4 + r] = v * p[r]));
-      out[12 + r] = -dot(row, eye) * p[r];
-    });
-    this.axis.forEach((v, k) => (out[k * 4 + 3] = -v));
-    out[14] += (2 * far * near) / d;
-    out[15] = dot(this.axis, eye);
-    return out;
   }
 }

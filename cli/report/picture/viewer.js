@@ -1,158 +1,176 @@
-// The list of findings, the panel, and what the mouse and the keys do.
-const report = JSON.parse(document.getElementById("data").textContent);
-const element = (id) => document.getElementById(id);
-const A = [0.16, 0.44, 0.84], B = [0.9, 0.55, 0.1], OTHER = [0.5, 0.54, 0.6], RED = [0.86, 0.1, 0.12];
+// What is selected, the panel, and what the mouse and the keys do.
 const camera = new Camera();
-let renderer, shapes = [], hulls = [], lines = [], arrow = null, selected = -1, pending = false;
+const state = { selected: -1, component: -1, pending: false };
+let picture = null;
 
-const finding = () => report.findings[selected];
-// A body without geometry has no number.
-const isDrawn = (now) => Boolean(now) && now.a !== null && now.b !== null;
-const centre = (g) => g.low.map((v, k) => v + g.size[k] / 2);
-
-function sphereAround(bodies) {
-  const low = [0, 1, 2].map((k) => Math.min(...bodies.map((g) => g.low[k])));
-  const high = [0, 1, 2].map((k) => Math.max(...bodies.map((g) => g.low[k] + g.size[k])));
-  return [times(plus(low, high), 0.5), norm(minus(high, low)) / 2];
-}
+const finding = () => report.findings[state.selected];
+const isOn = (id) => element(id).checked && !element(id).disabled;
 
 function show() {
-  if (pending || !renderer) return;
-  pending = true;
-  requestAnimationFrame(() => { pending = false; paint(); });
+  if (state.pending || !picture) return;
+  state.pending = true;
+  requestAnimationFrame(() => { state.pending = false; paint(); });
 }
 
 function paint() {
-  const dark = document.documentElement.dataset.theme === "dark";
-  const canvas = renderer.canvas, gl = renderer.gl;
-  const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight);
+  const dark = document.documentElement.dataset.theme === "dark", { renderer } = picture, { canvas } = renderer;
+  const aspect = canvas.clientWidth / Math.max(1, canvas.clientHeight), now = finding();
   renderer.begin(dark ? [0.08, 0.09, 0.11] : [0.96, 0.965, 0.97], camera.matrix(aspect), camera.eye);
-  const now = finding();
-  if (!isDrawn(now)) {
-    shapes.forEach((shape) => renderer.draw(shape, [...OTHER, 1]));
-    return;
+  const labels = picture.paint(now, {
+    rung: element("rung").value,
+    move: now && now.mtv ? times(now.mtv, +element("slider").value) : [0, 0, 0],
+    ink: dark ? [1, 1, 1] : [0, 0, 0],
+    component: now && now.components[state.component],
+    ...Object.fromEntries(["others", "axis", "ball", "witness"].map((id) => [id, isOn(id)])),
+  });
+  element("labels").replaceChildren();
+  for (const [text, point] of labels) {
+    const at = camera.seen(point, aspect);
+    if (!at) continue;
+    const label = added(element("labels"), "span", text);
+    Object.assign(label.style, { left: `${100 * at[0]}%`, top: `${100 * at[1]}%` });
   }
-  const pick = element("hulls").checked ? (n) => hulls[n] || shapes[n] : (n) => shapes[n];
-  const move = now.mtv ? times(now.mtv, +element("slider").value) : [0, 0, 0];
-  if (element("others").checked)
-    shapes.forEach((shape, n) => {
-      if (n !== now.a && n !== now.b) renderer.translucent(shape, [...OTHER, 0.08]);
-    });
-  renderer.translucent(pick(now.a), [...A, 0.4], move);
-  renderer.translucent(pick(now.b), [...B, 0.4]);
-  renderer.overlap(pick(now.a), move, pick(now.b), [0, 0, 0], [...RED, 0.85]);
-  renderer.overlap(pick(now.b), [0, 0, 0], pick(now.a), move, [...RED, 0.85]);
-  gl.disable(gl.DEPTH_TEST);
-  lines.forEach((line) => renderer.draw(line, [...RED, 1], [0, 0, 0], gl.LINE_STRIP, 0));
-  if (arrow) renderer.draw(arrow, dark ? [1, 1, 1, 1] : [0, 0, 0, 1], [0, 0, 0], gl.LINES, 0);
 }
 
-// A line with a head, from where the bodies overlap along the way out, and long enough to be seen.
-function arrowOf(now) {
-  if (!now.mtv || !norm(now.mtv)) return null;
-  const from = now.witness ? now.witness[0] : now.curves.length ? now.curves[0][0] : centre(report.bodies[now.a]);
-  const to = plus(from, now.mtv), back = times(now.mtv, -0.25);
-  const across = Math.abs(now.mtv[2]) < 0.9 * norm(now.mtv) ? [0, 0, 1] : [1, 0, 0];
-  const side = cross(now.mtv, across), wing = times(side, (0.12 * norm(now.mtv)) / norm(side));
-  const head = plus(to, back);
-  return renderer.lines([from, to, to, plus(head, wing), to, minus(head, wing)]);
-}
-
+// -1: all bodies.
 function select(number) {
-  selected = number;
-  const now = finding();
-  for (const item of element("findings").children) {
-    const chosen = +item.dataset.number === number;
-    item.setAttribute("aria-selected", chosen);
-    if (chosen) item.scrollIntoView({ block: "nearest" });
-  }
-  element("panel").hidden = !now;
-  if (!now) return show();
-  element("detail").textContent = now.text;
-  element("way").hidden = !now.mtv || !isDrawn(now);
-  if (!isDrawn(now)) return show();
-  element("slider").value = 0;
-  lines = now.curves.map((curve) => renderer.lines([...curve, curve[0]]));
-  arrow = arrowOf(now);
+  const now = report.findings[number];
+  Object.assign(state, { selected: now ? number : -1, component: -1 });
+  mark(number);
+  element("pair").hidden = !now;
+  element("detail").textContent = now ? now.text : "All bodies, in the colour of their gravest finding.";
+  element("view").setAttribute("aria-label", now ? `3-D view of ${now.names[0]} and ${now.names[1]}` : "3-D view of all bodies");
+  listComponents(now, choose);
+  if (!picture) return;
+  picture.choose(number);
+  if (now) offer(now);
   frame();
 }
 
+// What there is to show of a finding.
+function offer(now) {
+  const drawn = isDrawn(now);
+  element("pair").hidden = !drawn;
+  [element("name-a").textContent, element("name-b").textContent] = now.names;
+  element("slider").value = 0;
+  element("way").hidden = !now.mtv;
+  for (const [id, there] of [["ball", now.ball], ["witness", now.witness], ["axis", now.axis || now.mtv]]) {
+    element(id).disabled = !there;
+    element(id).parentElement.hidden = !there;
+  }
+  const parts = element("rung").querySelector("[value=parts]");
+  parts.disabled = !drawn || !(now.a in picture.parts || now.b in picture.parts);
+  if (parts.disabled && element("rung").value === "parts") element("rung").value = "triangles";
+}
+
 function frame() {
-  const now = finding(), pair = isDrawn(now) ? [report.bodies[now.a], report.bodies[now.b]] : report.bodies;
-  if (pair.length) {
-    const [target, radius] = sphereAround(pair);
-    const smaller = isDrawn(now) ? Math.min(...pair.map((g) => norm(g.size))) : 2 * radius;
-    const least = pair.find((g) => norm(g.size) === smaller);
+  const now = finding(), bodies = isDrawn(now) ? [now.a, now.b] : report.bodies.ids.map((_, body) => body);
+  if (bodies.length) {
+    const [target, radius] = picture.sphereAround(bodies);
+    const spheres = bodies.map((body) => picture.sphereAround([body])).sort((a, b) => a[1] - b[1]);
     // Beside a large body the small one says where to look.
-    if (isDrawn(now) && smaller < radius / 2) camera.frame(centre(least), smaller);
+    if (isDrawn(now) && 2 * spheres[0][1] < radius / 2) camera.frame(spheres[0][0], 2 * spheres[0][1]);
     else camera.frame(target, radius);
   }
   show();
 }
 
+function choose(number) {
+  const item = finding() && finding().components[number];
+  if (!item) return;
+  state.component = number;
+  markComponent(number);
+  camera.frame(times(plus(item.low, item.high), 0.5), norm(minus(item.high, item.low)));
+  show();
+}
+
+function nextComponent() {
+  const { length } = finding() ? finding().components : [];
+  if (length) choose((state.component + 1) % length);
+}
+
 function step(by) {
-  const items = [...element("findings").children].filter((item) => !item.hidden);
-  const at = items.findIndex((item) => +item.dataset.number === selected);
-  const next = items[Math.min(items.length - 1, Math.max(0, at + by))];
-  if (next) select(+next.dataset.number);
+  const next = neighbour(state.selected, by);
+  if (next >= 0) select(next);
 }
 
-function list() {
-  report.findings.forEach((each, number) => {
-    const item = document.createElement("li");
-    item.dataset.number = number;
-    item.dataset.severity = each.severity;
-    item.setAttribute("role", "option");
-    const names = document.createElement("div"), words = document.createElement("small");
-    names.textContent = each.names;
-    words.textContent = `${each.severity}: ${each.relation}`;
-    item.append(names, words);
-    item.addEventListener("click", () => select(number));
-    element("findings").append(item);
-  });
-  report.issues.forEach((text) => {
-    const item = document.createElement("li");
-    item.textContent = text;
-    element("issues").append(item);
-  });
-}
-
-function search() {
-  const wanted = element("search").value.toLowerCase();
-  for (const item of element("findings").children)
-    item.hidden = !report.findings[+item.dataset.number].text.toLowerCase().includes(wanted);
+function goToBody() {
+  const [body] = bodiesNamed(element("search").value);
+  if (body === undefined || !picture) return;
+  select(-1);
+  camera.frame(...picture.sphereAround([body]));
+  show();
 }
 
 function drag(event) {
   if (!event.buttons) return;
-  const scale = camera.far / renderer.canvas.clientHeight;
-  if (event.shiftKey || event.buttons === 4) {
-    const shift = plus(times(camera.side, -event.movementX * scale), times(camera.up, event.movementY * scale));
-    camera.target = plus(camera.target, shift);
-  } else {
-    camera.yaw -= event.movementX * 0.008;
-    camera.pitch = Math.max(-1.55, Math.min(1.55, camera.pitch + event.movementY * 0.008));
-  }
+  const height = picture.renderer.canvas.clientHeight;
+  if (event.shiftKey || event.buttons === 4) camera.shift(event.movementX / height, event.movementY / height);
+  else camera.turn(event.movementX * 0.008, event.movementY * 0.008);
+  show();
+}
+
+function zoom(by) {
+  camera.far *= Math.exp(by);
   show();
 }
 
 function toggle(id) {
+  if (element(id).disabled) return;
   element(id).checked = !element(id).checked;
   show();
 }
 
+function see(rung) {
+  const now = element("rung"), option = now.querySelector(`[value=${rung}]`);
+  if (option.disabled) return;
+  now.value = now.value === rung ? "triangles" : rung;
+  show();
+}
+
+function turn(x, y) {
+  camera.turn(x, y);
+  show();
+}
+
+const ACTIONS = {
+  ArrowDown: () => step(1),
+  ArrowUp: () => step(-1),
+  Home: () => step(-Infinity),
+  End: () => step(Infinity),
+  Escape: () => select(-1),
+  a: () => select(-1),
+  t: () => see("triangles"),
+  p: () => see("parts"),
+  h: () => see("hulls"),
+  b: () => see("boxes"),
+  c: nextComponent,
+  o: () => toggle("others"),
+  x: () => toggle("axis"),
+  i: () => toggle("ball"),
+  w: () => toggle("witness"),
+  f: () => frame(),
+  "+": () => zoom(-0.2),
+  "-": () => zoom(0.2),
+  "/": () => element("search").focus(),
+  " ": () => { element("slider").value = +element("slider").value ? 0 : 1; show(); },
+};
+const ON_THE_VIEW = {
+  ArrowLeft: () => turn(-0.1, 0),
+  ArrowRight: () => turn(0.1, 0),
+  ArrowUp: () => turn(0, 0.1),
+  ArrowDown: () => turn(0, -0.1),
+};
+
 function key(event) {
-  if (event.target.id === "search") return;
-  const actions = {
-    ArrowDown: () => step(1),
-    ArrowUp: () => step(-1),
-    h: () => toggle("hulls"),
-    o: () => toggle("others"),
-    f: frame,
-    " ": () => { element("slider").value = +element("slider").value ? 0 : 1; show(); },
-  };
-  if (event.target.id === "slider" && event.key.startsWith("Arrow")) return;
-  if (actions[event.key]) { event.preventDefault(); actions[event.key](); }
+  const { id, tagName } = event.target;
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  if (id === "search") return event.key === "Enter" ? goToBody() : undefined;
+  if (tagName === "SELECT" || (id === "slider" && /^(Arrow|Home|End)/.test(event.key))) return;
+  if (event.key === " " && /^(BUTTON|SUMMARY)$/.test(tagName)) return;
+  if (event.key === " " && tagName === "INPUT" && id !== "slider") return;
+  const action = (id === "view" && ON_THE_VIEW[event.key]) || (picture && ACTIONS[event.key]);
+  if (action) { event.preventDefault(); action(); }
 }
 
 function setTheme(dark) {
@@ -160,42 +178,43 @@ function setTheme(dark) {
   show();
 }
 
+function say(text) {
+  element("problem").textContent = text;
+  element("problem").hidden = false;
+}
+
+function listen() {
+  const { canvas } = picture.renderer;
+  canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+  canvas.addEventListener("pointermove", drag);
+  canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoom(event.deltaY * 0.001); }, { passive: false });
+  for (const id of ["slider", "rung", "others", "axis", "ball", "witness"]) element(id).addEventListener("input", show);
+  element("frame").addEventListener("click", frame);
+  element("all").addEventListener("click", () => select(-1));
+  addEventListener("resize", show);
+}
+
 async function start() {
-  element("title").textContent = report.title;
+  element("title").textContent = document.title = report.title;
+  element("simplified").textContent = report.simplified;
   const preferred = matchMedia("(prefers-color-scheme: dark)");
   setTheme(preferred.matches);
   preferred.addEventListener("change", (event) => setTheme(event.matches));
-  list();
-  if (!report.drawn) {
-    element("problem").textContent = "There is no picture: the coordinates are too large for it.";
-    element("problem").hidden = false;
-  }
-  try {
-    renderer = new Renderer(element("view"));
-  } catch (error) {
-    element("problem").textContent = `${error.message} The list of findings is complete without the picture.`;
-    element("problem").hidden = false;
-    return;
-  }
-  const meshes = await Promise.all(report.meshes.map((mesh) => renderer.mesh(mesh)));
-  shapes = report.bodies.map((body) => renderer.placed(meshes[body.mesh], body.frame));
-  hulls = report.bodies.map((body) => body.hull && renderer.placed(meshes[body.hull.mesh], body.hull.frame));
-  const canvas = renderer.canvas;
-  canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
-  canvas.addEventListener("pointermove", drag);
-  canvas.addEventListener("wheel", (event) => {
-    event.preventDefault();
-    camera.far *= Math.exp(event.deltaY * 0.001);
-    show();
-  }, { passive: false });
-  for (const id of ["slider", "hulls", "others"]) element(id).addEventListener("input", show);
-  element("frame").addEventListener("click", frame);
   element("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme !== "dark"));
   element("search").addEventListener("input", search);
   addEventListener("keydown", key);
-  addEventListener("resize", show);
+  list(select);
   select(report.findings.length ? 0 : -1);
-  if (selected < 0) frame();
+  if (!report.drawn) say("There is no picture: the coordinates are too large for it.");
+  try {
+    const loading = new Picture(new Renderer(element("view")));
+    await loading.load();
+    picture = loading;
+    listen();
+    select(state.selected);
+  } catch (error) {
+    say(`${error.message} The list of findings is complete without the picture.`);
+  }
   document.body.dataset.ready = "true";
 }
 

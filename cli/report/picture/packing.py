@@ -1,0 +1,54 @@
+"""Arrays as short text: bytes of one weight stand together, deflated, in base64.
+
+Neighbours in a mesh have similar numbers, so their differences deflate better. The page undoes all
+that in `unpack.js`.
+"""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from satcheck.core import Mesh
+
+    Array = npt.NDArray[Any]
+
+STEPS = 65535  # of a coordinate, from one side of the box of its mesh to the other
+
+
+def packed(values: Array) -> str:
+    """Of any shape; little-endian, and row by row."""
+    flat = np.ascontiguousarray(values).astype(values.dtype.newbyteorder("<")).reshape(-1)
+    planes = flat.view(np.uint8).reshape(-1, flat.itemsize).T
+    return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode()
+
+
+def differences(values: Array) -> Array:
+    """Of unsigned integers, each to the one before, modulo their range."""
+    return np.diff(values, prepend=values.dtype.type(0))
+
+
+def packed_mesh(mesh: Mesh) -> dict[str, str]:
+    """corners: uint16, x of all vertices, then y, then z, within the box of the mesh. triangles:
+    uint32. Both as differences."""
+    low, high = np.array(mesh.bounds)
+    size = np.where(high > low, high - low, 1.0)
+    steps = np.rint((np.asarray(mesh.vertices) - low) / size * STEPS).astype(np.uint16)
+    return {
+        "corners": packed(differences(steps.T.reshape(-1))),
+        "triangles": packed(differences(np.asarray(mesh.triangles).reshape(-1))),
+    }
+
+
+def frame_of(mesh: Mesh) -> npt.NDArray[np.float64]:
+    """4 x 4: from the box of the mesh, whose sides are 1, into its coordinates."""
+    low, high = np.array(mesh.bounds)
+    matrix: npt.NDArray[np.float64] = np.diag([*(high - low), 1.0])
+    matrix[:3, 3] = low
+    return matrix

@@ -1,0 +1,222 @@
+// The bodies of the report, and what is drawn of a finding.
+const A = [0.16, 0.44, 0.84], B = [0.9, 0.55, 0.1], OTHER = [0.5, 0.54, 0.6], RED = [0.86, 0.1, 0.12];
+const YELLOW = [1, 0.85, 0.1], GREEN = [0, 0.6, 0.45];
+const TINTS = { error: [0.82, 0.2, 0.2], warning: [0.8, 0.52, 0.05], note: [0.25, 0.5, 0.75] };
+const STILL = [0, 0, 0];
+const hues = (count) => Array.from({ length: count }, (_, k) => {
+  const turn = (k * 0.618034) % 1; // golden section: neighbours differ
+  return [0, 1 / 3, 2 / 3].map((at) => 0.5 + 0.35 * Math.cos(2 * Math.PI * (turn + at)));
+});
+// A body without geometry has no number.
+const isDrawn = (now) => Boolean(now) && now.a !== null && now.b !== null;
+// To a power of ten, as many digits as corners of 16 bits have.
+const rounded = (value, size) => {
+  const step = 10 ** Math.ceil(Math.log10(size / 65535));
+  return Number((Math.round(value / step) * step).toPrecision(6));
+};
+
+class Picture {
+  constructor(renderer) {
+    Object.assign(this, { renderer, shapes: new Map(), strips: [], shadows: null });
+  }
+
+  async load() {
+    const { renderer } = this, { bodies } = report;
+    const meshes = await Promise.all(report.meshes.map(unpackedMesh));
+    this.meshes = meshes.map((mesh) => renderer.mesh(mesh));
+    [this.frames, this.boxes, this.points] = await Promise.all(
+      [bodies.frames, bodies.boxes, report.points].map((text) => unpacked(text, Float32Array)));
+    this.parts = {};
+    for (const [body, { mesh, frame, triangles }] of Object.entries(report.parts))
+      this.parts[body] = { mesh, triangles, rows: [...(await unpacked(frame, Float32Array))] };
+    [this.sphere, this.rod, this.cone, this.cube] = [SPHERE, ROD, CONE, CUBE].map((m) => renderer.mesh(m));
+    this.firstPoints = [0];
+    for (const each of report.findings)
+      this.firstPoints.push(this.firstPoints.at(-1) + each.lines.reduce((a, b) => a + b, 0));
+    this.crowds = this.grouped();
+  }
+
+  // Bodies of one mesh are drawn at once.
+  grouped() {
+    const tints = report.bodies.ids.map(() => OTHER), groups = new Map();
+    for (const each of [...report.findings].reverse())
+      for (const body of [each.a, each.b]) if (body !== null) tints[body] = TINTS[each.severity] || OTHER;
+    report.bodies.meshes.forEach((mesh, body) => {
+      if (!groups.has(mesh)) groups.set(mesh, []);
+      groups.get(mesh).push(body);
+    });
+    return [...groups].map(([mesh, members]) => this.renderer.crowd(
+      this.meshes[mesh], members.flatMap((body) => this.rows(body)), members.flatMap((body) => tints[body]), members));
+  }
+
+  rows(body) {
+    return [...this.frames.subarray(12 * body, 12 * body + 12)];
+  }
+
+  box(body) {
+    return [[...this.boxes.subarray(6 * body, 6 * body + 3)], [...this.boxes.subarray(6 * body + 3, 6 * body + 6)]];
+  }
+
+  // What a rung sees of a body; without parts or hull the triangles.
+  shape(body, rung) {
+    const key = `${rung} ${body}`;
+    if (!this.shapes.has(key)) this.shapes.set(key, this.made(body, rung));
+    return this.shapes.get(key);
+  }
+
+  made(body, rung) {
+    const { renderer, meshes } = this, parts = this.parts[body];
+    if (rung === "boxes") {
+      const [low, high] = this.box(body);
+      return renderer.placed(this.cube, boxRows(low, minus(high, low)));
+    }
+    if (rung === "parts" && parts) {
+      const shape = renderer.placed(meshes[parts.mesh], parts.rows);
+      let first = 0;
+      shape.ranges = parts.triangles.map((count) => [3 * (first += count) - 3 * count, 3 * count]);
+      return shape;
+    }
+    const hull = rung === "hulls" ? report.hulls[body] : undefined;
+    return renderer.placed(meshes[hull === undefined ? report.bodies.meshes[body] : hull], this.rows(body));
+  }
+
+  sphereAround(bodies) {
+    const boxes = bodies.map((body) => this.box(body));
+    const low = [0, 1, 2].map((k) => Math.min(...boxes.map(([least]) => least[k])));
+    const high = [0, 1, 2].map((k) => Math.max(...boxes.map(([, greatest]) => greatest[k])));
+    return [times(plus(low, high), 0.5), norm(minus(high, low)) / 2];
+  }
+
+  // Of a finding that is drawn; the strips of the one before are forgotten.
+  choose(number) {
+    const now = report.findings[number], { renderer } = this;
+    for (const { shape } of this.strips) renderer.forget(shape);
+    this.strips = [];
+    this.shadows = null;
+    if (!isDrawn(now)) return;
+    let first = this.firstPoints[number];
+    for (const count of now.lines) {
+      this.strip(this.points.subarray(3 * first, 3 * (first += count)), RED, renderer.gl.LINE_STRIP);
+    }
+    if (now.witness) {
+      this.strip(now.witness, YELLOW, renderer.gl.LINES, "witness");
+      this.strip([now.witness[0]], A, renderer.gl.POINTS, "witness");
+      this.strip([now.witness[1]], B, renderer.gl.POINTS, "witness");
+    }
+  }
+
+  strip(points, colour, mode, kind = "line") {
+    if (points.length) this.strips.push({ shape: this.renderer.strip(points), colour, mode, kind });
+  }
+
+  // view: what the panel says: rung, move, ink, and what to show.
+  paint(now, view) {
+    const { renderer } = this, gl = renderer.gl, labels = [];
+    if (!isDrawn(now)) {
+      for (const crowd of this.crowds) renderer.drawCrowd(crowd, [...OTHER, 1], [-1, -1], true);
+      return labels;
+    }
+    if (view.others)
+      for (const crowd of this.crowds) renderer.drawCrowd(crowd, [...OTHER, 0.08], [now.a, now.b], false);
+    const [a, b] = [now.a, now.b].map((body) => this.shape(body, view.rung));
+    this.body(a, A, view.move);
+    this.body(b, B, STILL);
+    renderer.overlap(a, view.move, b, STILL, [...RED, 0.85]);
+    renderer.overlap(b, STILL, a, view.move, [...RED, 0.85]);
+    renderer.onTop();
+    for (const { shape, colour, mode, kind } of this.strips) {
+      if (kind === "witness" && !view.witness) continue;
+      renderer.draw(shape, [...colour, 1], { mode, lit: mode === gl.POINTS ? -1 : 0 });
+    }
+    if (view.ball && now.ball) {
+      renderer.translucent(renderer.placed(this.sphere, ballRows(now.ball.centre, now.ball.radius)), [...YELLOW, 0.8]);
+      labels.push([now.ball.text, now.ball.centre]);
+    }
+    if (view.component) this.component(view.component, view.ink, labels);
+    if (now.mtv) this.arrow(now, view.ink);
+    if (view.axis) this.axis(now, view, [a, b], labels);
+    return labels;
+  }
+
+  body(shape, colour, move) {
+    const { renderer } = this;
+    if (!shape.ranges) return renderer.translucent(shape, [...colour, 0.4], { move });
+    hues(shape.ranges.length).forEach((hue, k) => {
+      const mixed = plus(times(hue, 0.6), times(colour, 0.4));
+      renderer.translucent(shape, [...mixed, 0.45], { move, range: shape.ranges[k] });
+    });
+  }
+
+  rodFrom(from, to, radius, colour, mesh = this.rod) {
+    const along = minus(to, from), x = across(along), y = cross(unit(along), x);
+    const rows = rowsOf(times(x, radius), times(y, radius), along, from);
+    this.renderer.draw(this.renderer.placed(mesh, rows), [...colour, 1]);
+  }
+
+  // From where the bodies overlap along the way out, as long as that is.
+  arrow(now, ink) {
+    const length = norm(now.mtv);
+    if (!length) return;
+    const [centre, radius] = this.sphereAround([now.a, now.b]);
+    const from = now.ball ? now.ball.centre : now.witness ? now.witness[0] : centre;
+    const to = plus(from, now.mtv), head = Math.min(0.4 * length, 0.12 * radius), thick = Math.min(0.1 * length, 0.012 * radius);
+    const neck = minus(to, times(now.mtv, head / length));
+    this.rodFrom(from, neck, thick, ink);
+    this.rodFrom(neck, to, 2.5 * thick, ink, this.cone);
+  }
+
+  component(item, ink, labels) {
+    const { renderer } = this, box = renderer.strip(new Float32Array(edgesOf(item.low, item.high)));
+    const point = renderer.strip([item.point]);
+    renderer.draw(box, [...ink, 1], { mode: renderer.gl.LINES, lit: 0 });
+    renderer.draw(point, [...YELLOW, 1], { mode: renderer.gl.POINTS, lit: -1 });
+    for (const shape of [box, point]) renderer.forget(shape);
+  }
+
+  // The shadow of a body as drawn: least and greatest value along the axis.
+  shadow(shape, axis) {
+    const { corners, rows } = shape, scale = corners instanceof Uint16Array ? 1 / 65535 : 1;
+    const [x, y, z, w] = [0, 1, 2, 3].map((k) => dot(axis, [rows[k], rows[4 + k], rows[8 + k]]));
+    let low = Infinity, high = -Infinity;
+    for (let k = 0; k < corners.length; k += 3) {
+      const at = scale * (x * corners[k] + y * corners[k + 1] + z * corners[k + 2]) + w;
+      low = Math.min(low, at);
+      high = Math.max(high, at);
+    }
+    return [low, high];
+  }
+
+  shadowsOf(now, rung, shapes) {
+    if (!this.shadows || this.shadows.rung !== rung) {
+      const axis = now.axis ? unit(now.axis) : unit(now.mtv);
+      this.shadows = { rung, axis, both: shapes.map((shape) => this.shadow(shape, axis)) };
+    }
+    return this.shadows;
+  }
+
+  // Beside the bodies: both shadows as bars, and below them what they share, or the gap.
+  axis(now, view, shapes, labels) {
+    const { axis, both } = this.shadowsOf(now, view.rung, shapes);
+    const [centre, radius] = this.sphereAround([now.a, now.b]), middle = dot(axis, centre);
+    const side = across(axis), down = side[2] > 0 ? times(side, -1) : side, width = 0.025 * radius;
+    const place = (t, off) => plus(plus(centre, times(axis, t - middle)), times(down, off));
+    const reach = Math.max(...[now.a, now.b].map((body) => this.reach(body, down, centre))) + 3 * width;
+    const step = dot(view.move, axis), a = both[0].map((t) => t + step), b = both[1];
+    const bar = ([low, high], row, colour) => {
+      if (high > low) this.rodFrom(place(low, reach + 3 * width * row), place(high, reach + 3 * width * row), width, colour);
+    };
+    const inner = [Math.max(a[0], b[0]), Math.min(a[1], b[1])], apart = inner[0] > inner[1];
+    bar(a, 0, A);
+    bar(b, 1, B);
+    bar(apart ? [inner[1], inner[0]] : inner, 2, apart ? GREEN : RED);
+    for (const t of inner) this.rodFrom(place(t, 0), place(t, reach + 7 * width), 0.1 * width, view.ink);
+    const length = rounded(Math.abs(inner[1] - inner[0]), 2 * radius), words = apart ? "shadows apart by" : "shadows overlap by";
+    const text = length ? `${words} ${length} ${report.unit}` : "shadows touch";
+    labels.push([text, place((inner[0] + inner[1]) / 2, reach + 10 * width)]);
+  }
+
+  reach(body, direction, from) {
+    const corners = this.box(body);
+    return [0, 1, 2].reduce((sum, k) => sum + Math.max(...corners.map((c) => direction[k] * (c[k] - from[k]))), 0);
+  }
+}
