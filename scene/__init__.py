@@ -1,4 +1,4 @@
-"""satcheck.scene: files -> bodies, with what is known about each mesh before anything trusts it.
+"""satcheck.scene turns files into bodies and inspects each mesh before it is used.
 
 `load_scene(paths)` reads mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML),
 scene files (`satcheck.scene/1`, `satcheck-scene-1`) and robots (URDF, SRDF; `scene.robot` poses

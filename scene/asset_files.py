@@ -18,13 +18,14 @@ _PATTERN = frozenset("*?[")
 
 
 def asset_files(given: Iterable[str], *, drawings: Iterable[str] = ()) -> list[str]:
-    """The files that these names mean, each once: files as given, the assets of folders and what
-    lies below them in the order of names, what patterns (`*`, `**`, `?`, `[...]`) match.
+    """Expands the given names into a list of asset files, each once. A file stands for itself. A
+    folder stands for all assets at any depth, sorted by name. A pattern (`*`, `**`, `?`, `[...]`)
+    stands for its matches.
 
     drawings: endings of further files that are assets. In folders, names that begin with a dot are
-    left out, and links to folders are followed. A folder that cannot be listed stands for itself:
-    its reader says why. Raises SatcheckError: `no-assets` where a folder or a pattern has none,
-    `bad-pattern`.
+    left out, and links to folders are followed. A folder that cannot be listed stays in the list,
+    and its reader reports why. Raises SatcheckError: `no-assets` if a folder or a pattern has no
+    asset, `bad-pattern`.
     """
     endings = _ALWAYS.union(drawings)
     files: dict[str, None] = {}
@@ -34,7 +35,7 @@ def asset_files(given: Iterable[str], *, drawings: Iterable[str] = ()) -> list[s
 
 
 def content_of(path: Path) -> bytes | None:
-    """None where it cannot be read, or is no regular file: whoever reads it next says why."""
+    """None if the file cannot be read or is not a regular file. Its reader reports why."""
     try:
         size_of(path)
         return path.read_bytes()
@@ -53,7 +54,7 @@ def _meant_by(name: str, endings: frozenset[str]) -> list[str]:
     else:
         return [name]
     if not assets:
-        raise SatcheckError("no-assets", f"{name}: no mesh, scene or robot is there")
+        raise SatcheckError("no-assets", f"{name}: it has no mesh, scene or robot")
     return assets
 
 
@@ -67,7 +68,7 @@ def _refuse_pattern(name: str) -> None:
 
 
 def _below(folder: str, endings: frozenset[str]) -> Iterator[str]:
-    """Each folder once, also where links make a circle."""
+    """Each folder once, even if links form a cycle."""
     unlisted: list[str] = []
     visited = set()
     walk = os.walk(folder, onerror=lambda error: unlisted.append(error.filename), followlinks=True)

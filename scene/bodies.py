@@ -26,20 +26,21 @@ IDENTITY: Transform = tuple(float(row == column) for row in range(4) for column 
 
 
 class MeshFile(Struct, frozen=True):
-    """One mesh file, flattened into one mesh in file units, or one mesh of it.
+    """One mesh file flattened into one mesh, or one mesh of a file. Lengths are in file units.
 
     path: as given, with "/". sha256: of the file's bytes; None: not needed. format: "obj",
-    "stl", "ply", "off", "glb", "gltf", "3mf" or "dae", or "shape": a primitive that the scene file
-    at `path` states. resolution: how finely its coordinates were written, in file units. units: as
-    the file declares them. mesh: welded, wound outward where that can be decided. topology: of the
-    welded mesh before that repair. issues: warnings about this file. part: the mesh within the
-    file, in its own coordinates; None: all of the file, where it places it. outline: the corners,
-    counter-clockwise, of the convex polygon over which the mesh is a prism, in a check in a plane.
-    placement_step: how finely its placement in the world is known, relative to the coordinates that
-    it makes. deviation: how far curves may be off the polygons that stand for them, in file units;
-    part of the resolution. inscribed: these polygons lie within the curves; else they may reach out
-    of them by the deviation. exponent: mesh, resolution and deviation times 2**exponent are in file
-    units; 0 but for files whose numbers the core cannot hold.
+    "stl", "ply", "off", "glb", "gltf", "3mf" or "dae", or "shape": a primitive from the scene file
+    at `path`. resolution: the precision of its coordinates, in file units. units: as the file
+    declares them. mesh: welded, and wound outward if its orientation can be decided. topology: of
+    the welded mesh, before it is oriented. issues: warnings about this file. part: the name of the
+    mesh in the file, which then has its own coordinates; None: the whole file, placed as it says.
+    outline: the corners, counter-clockwise, of the convex polygon over which the mesh is a prism,
+    in a check in a plane. placement_step: the relative precision of its placement in the world, as
+    a share of the world coordinates. deviation: the largest distance between a curve and the
+    polygon that replaces it, in file units; the resolution includes it. inscribed: these polygons
+    lie within the curves; else they may reach beyond them by the deviation. exponent: mesh,
+    resolution and deviation times 2**exponent are in file units; 0 unless the numbers of the file
+    are beyond the range of the core.
     """
 
     path: str
@@ -64,13 +65,13 @@ class Body(Struct, frozen=True):
 
     transform: row-major 4x4 for column vectors, world = transform * (x, y, z, 1) for a point of the
     mesh, affine and not singular; None: as in the file. groups: bodies of one group may be exempt
-    from each other. shape: what `file` is the mesh of, in units of the mesh; None: a file on disk.
-    path: of the node within the file; None: all of the file. static: one of the surroundings, see
-    `Scene.check_static`. pinned: stays where it is when a scene is pulled apart. units: that the
-    world coordinates are in; None: unknown. unit_scale: what the transform converts
-    coordinates of the file by; None: nothing. surface_tolerance: how far its surface may be off,
-    world units; None: the scene does not say.
-    as_given: the body whose outline this one is, in a check in a plane.
+    from each other. shape: the shape whose mesh is `file`, in units of the mesh; None: `file` is on
+    disk. path: of the node within the file; None: all of the file. static: it belongs to the
+    surroundings, see `Scene.check_static`. pinned: `satcheck resolve` does not move it. units: of
+    the world coordinates; None: unknown. unit_scale: the factor of unit conversion in the
+    transform; None: no conversion. surface_tolerance: how far its surface may be off, world units;
+    None: the scene does not say.
+    as_given: in a check in a plane, the body whose outline this is.
     """
 
     id: str
@@ -88,15 +89,15 @@ class Body(Struct, frozen=True):
     as_given: Body | None = None
 
     def world_mesh(self) -> Mesh:
-        """The mesh in world coordinates, each rounded once; ValueError when one overflows."""
+        """The mesh in world coordinates, each rounded once. Raises ValueError on overflow."""
         if self.transform is None:
             return self.file.mesh
         return self.file.mesh.transformed(self.transform)
 
     @property
     def resolution_world(self) -> float:
-        """How finely the world coordinates are known: the file's resolution, stretched, plus that
-        of the placement."""
+        """Precision of the world coordinates: the file's resolution, stretched by the transform,
+        plus the precision of the placement."""
         low, high = self.file.mesh.bounds
         return resolution_in_world(self.file, self.transform, max(map(abs, (*low, *high))))
 
@@ -113,17 +114,17 @@ class Unreadable(Struct, frozen=True):
 
 
 class Scene(Struct, frozen=True):
-    """Everything that was asked to be checked, in the order given.
+    """All inputs of a check, in the order given.
 
     order: the ids of bodies and unreadable ones together, in the order given.
-    units: of all lengths, as the inputs declare them or converted; None where one is unknown.
+    units: of all lengths, as declared or converted; None if the unit of a body is unknown.
     ignore_within_groups: groups whose bodies are not checked against each other.
-    rules: for pairs, beside the settings of a check, in the order in which they count.
-    check_static: whether two bodies that do not move are a pair to check.
-    composed: the bodies come, at least in part, from a file that places them.
+    rules: for pairs, in addition to the settings of a check. A later rule overrides an earlier one.
+    check_static: whether pairs of two static bodies are checked.
+    composed: at least one input is a file that places bodies.
     issues: all of them, those of `unreadable` and of each mesh file included.
-    motions: at most one for a body (SatcheckError otherwise); ids of no body do no harm.
-    robots: what can be posed, with `robot.posed`. posture: how they stand; None without robots.
+    motions: at most one for each body (SatcheckError otherwise). Unknown ids are ignored.
+    robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
     """
 
     name: str
@@ -145,27 +146,27 @@ class Scene(Struct, frozen=True):
             refuse_second_motions(self.motions)
 
     def require_one_unit(self) -> None:
-        """Raises SatcheckError (`units-unknown`) where bodies have no common unit of length."""
+        """Raises SatcheckError (`units-unknown`) if the bodies have no common unit of length."""
         if len({body.units for body in self.bodies}) > 1:
             said = next(issue for issue in self.issues if issue.code == UNITS_UNKNOWN)
             raise SatcheckError(UNITS_UNKNOWN, said.message)
 
     def require_in_space(self, instead: str) -> None:
-        """Raises SatcheckError (`planar-only`) where a body is a drawing. instead: what to do, or
-        why a command cannot do it."""
+        """Raises SatcheckError (`planar-only`) if a body is a drawing. instead: the end of the
+        message, which says what to do, or why a command cannot check drawings."""
         drawn = (body.file.path for body in self.bodies if body.file.format in DRAWINGS.values())
         if (path := next(drawn, None)) is not None:
             raise SatcheckError("planar-only", f"{path}: a drawing is flat: {instead}")
 
     def in_order(self) -> list[Body | Unreadable]:
-        """All that was asked for; what `order` does not name comes last."""
+        """All bodies, readable or not. Bodies that `order` does not name come last."""
         rank = {id_: number for number, id_ in enumerate(self.order)}
         everything: list[Body | Unreadable] = [*self.bodies, *self.unreadable]
         return sorted(everything, key=lambda body: rank.get(body.id, len(rank)))
 
 
 def resolution_in_world(file: MeshFile, transform: Transform | None, largest: float) -> float:
-    """`Body.resolution_world`. largest: coordinate of the file's mesh."""
+    """See `Body.resolution_world`. largest: the largest |coordinate| of the file's mesh."""
     if transform is None:
         return file.resolution
     if _is_exact_scaling(transform):

@@ -22,23 +22,23 @@ from satcheck.scene.loading.source import FORMATS
 # Files of these endings name no other file with geometry.
 _ALONE = frozenset((".obj", ".stl", ".stla", ".stlb", ".ply", ".off", *DRAWINGS))
 _NAMING = SCENE_SUFFIXES.union(FORMATS, (".urdf", ".srdf", ".xacro")) - _ALONE
-# What an ignored file may be to count: build folders hold many others.
+# Endings of ignored files that count as changed. Build folders hold many other ignored files.
 _READ = _NAMING | _ALONE | {".bin"}
 
 
 class _Repository(NamedTuple):
-    """tracked: files that git lists. changed: those that changed, and those it does not list."""
+    """tracked: files that git tracks. changed: files that changed, and untracked files."""
 
     tracked: set[Path]
     changed: set[Path]
 
 
 def changed_since(revision: str, assets: Iterable[str]) -> list[str]:
-    """The assets that changed since a revision, that git does not track, or that name a changed
-    file: a mesh of a scene, a buffer of a glTF file, also through other files.
+    """The assets that changed since a revision, that git does not track, or that refer to a changed
+    file, directly or through other files (a mesh of a scene, a buffer of a glTF file).
 
-    A file names another one if it contains its name without the folder, so some assets are listed
-    that have not changed. Raises SatcheckError (`git`).
+    A file refers to another one if it contains the other's name without the folder. The list may
+    therefore include assets that have not changed. Raises SatcheckError (`git`).
     """
     places = {path: Path(path).resolve() for path in assets}
     tracked: set[Path] = set()
@@ -49,14 +49,14 @@ def changed_since(revision: str, assets: Iterable[str]) -> list[str]:
         changed |= repository.changed
     changed |= {place for place in places.values() if place not in tracked}
     changed |= _naming(changed, {path for path in tracked if path.suffix.lower() in _NAMING})
-    # Of a link to another folder git lists the link.
+    # If a link leads to another folder, git lists the link and not the files behind it.
     return [
         path for path, place in places.items() if not changed.isdisjoint((place, *place.parents))
     ]
 
 
 def _naming(changed: set[Path], files: set[Path]) -> set[Path]:
-    """Those of the files that name a changed file, or a file that does, and so on."""
+    """Files that refer to a changed file, directly or through other files."""
     names = _Names({path.name for path in changed | files})
     named_by: dict[str, set[Path]] = defaultdict(set)
     for path in files - changed:
@@ -72,7 +72,7 @@ def _naming(changed: set[Path], files: set[Path]) -> set[Path]:
 
 
 class _Names:
-    """Names of files, to be looked for in the bytes of other files, in any case of letters."""
+    """Searches the bytes of files for names of files, ignoring case."""
 
     def __init__(self, names: Iterable[str]) -> None:
         self._names: dict[bytes, set[str]] = defaultdict(set)
@@ -80,7 +80,7 @@ class _Names:
             for spelling in _spellings(name):
                 self._names[spelling.lower()].add(name)
         self._lengths = {len(spelling) for spelling in self._names}
-        # Few endings stand for many names. A name without a dot stands for itself.
+        # Many names share few endings. A name without a dot is its own ending.
         ends = {spelling[max(0, spelling.rfind(b".")) :] for spelling in self._names}
         longest_first = sorted(ends, key=lambda end: (-len(end), end))
         self._ends = re.compile(b"|".join(map(re.escape, longest_first)))
@@ -96,7 +96,7 @@ class _Names:
 
 
 def _spellings(name: str) -> set[bytes]:
-    """As text has it, as a URI, in JSON and TOML, in XML."""
+    """A name as plain text, as a URI, as in JSON and TOML, and as in XML."""
     as_json = (json.dumps(name, ensure_ascii=ascii)[1:-1] for ascii in (True, False))
     texts = (name, quote(os.fsencode(name)), *as_json, escape(name, {'"': "&quot;"}))
     return {os.fsencode(text) for text in texts}

@@ -1,8 +1,8 @@
-"""Inputs in several units of length -> bodies in one, as far as their units are known.
+"""Converts bodies of inputs with different units of length to one unit, if their units are known.
 
-A GLB or glTF file and a robot are in metres, a 3MF or DAE file in the unit that it names, a scene
-in its `units`. OBJ, STL, PLY, OFF and XAML files state no unit: within a scene or a robot they are
-in its unit; beside other files their unit is unknown.
+GLB and glTF files and robots are in metres. A 3MF or DAE file is in the unit that it names, a scene
+in its `units`. OBJ, STL, PLY, OFF and XAML files state no unit. Within a scene or a robot they have
+its unit. Otherwise their unit is unknown.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ Kind = Literal["mesh", "scene", "robot"]
 
 
 class Input:
-    """One input with bodies. declares: its units, in its own words. unit: the one that this means,
-    or the one given for inputs that declare none; None: unknown. ids: of its bodies."""
+    """One input with bodies. declares: its units as it writes them. unit: the unit meant by that,
+    or the unit given for inputs that declare none; None: unknown. ids: of its bodies."""
 
     __slots__ = ("declares", "ids", "kind", "path", "unit")
 
     def __init__(self, kind: Kind, path: str, declares: str | None, otherwise: str | None) -> None:
-        """otherwise: the unit of inputs that declare none."""
+        """otherwise: the unit to assume if the input declares none."""
         self.kind = kind
         self.path = path
         self.declares = declares
@@ -38,9 +38,10 @@ class Input:
 
 
 class InOneUnit(Struct, frozen=True):
-    """bodies: in the common unit, those whose unit is known. unit: the common one; None: no input
-    states any. label: what the lengths of all bodies are in; None: unknown, or not all in one.
-    scales: path of a scene -> how many common units one of its units is. issues: about all this."""
+    """bodies: in the common unit if their unit is known, else unchanged. unit: the common one;
+    None: no input states a unit. label: the unit of the lengths of all bodies; None: unknown, or
+    different units. scales: path of a scene -> length of its unit in common units. issues: about
+    units."""
 
     bodies: tuple[Body, ...]
     unit: str | None
@@ -52,14 +53,15 @@ class InOneUnit(Struct, frozen=True):
 def in_one_unit(
     bodies: Sequence[Body], inputs: Sequence[Input], rules: Mapping[str, str | None]
 ) -> InOneUnit:
-    """bodies: `units` of each is that of its mesh, or of its input where that states none, None
-    where neither does. Their transforms lead into the unit of their input. rules: files of rules,
-    and what they declare.
+    """bodies: the `units` of each are those of its mesh, else those of its input, else None. Their
+    transforms lead into the unit of their input. rules: path of a file of rules -> the units that
+    it declares.
 
-    A scene that states no unit is in that of its meshes, where they all state the same one. Where
-    nothing in an input states any, it is in that of the first file of rules that does.
-    The common unit is that of robots, or else of scenes, or else of mesh files. Of several it is
-    the smallest, because the factors of the others are then usually whole numbers.
+    A scene without a unit has the unit of its meshes if they all state the same one. An input
+    without any stated unit has the unit of the first file of rules that states one.
+    The common unit is that of the robots, else that of the scenes, else that of the mesh files. If
+    there are several, the smallest is taken, because the factors of the others are then usually
+    whole numbers.
     """
     by_id = {body.id: body for body in bodies}
     known_rules = {path: unit for path, text in rules.items() if (unit := stated_unit(text))}
@@ -101,7 +103,7 @@ def _common(inputs: Iterable[Input]) -> str | None:
 
 
 def _converted(body: Body, own: str | None, common: str | None) -> Body:
-    """own: the unit of its input; None: its lengths stay as they are."""
+    """own: the unit of its input; None: its lengths are not converted."""
     if own is None or common is None or body.units == own == common:
         return body
     scale = ratio(body.units or own, common)
@@ -117,7 +119,7 @@ def _converted(body: Body, own: str | None, common: str | None) -> Body:
 
 
 def scaled_world(transform: Transform | None, scale: float) -> Transform | None:
-    """Placed, and then scaled about the origin."""
+    """The transform, followed by a scaling about the world origin."""
     if scale == 1.0:
         return transform
     rows = transform or IDENTITY
@@ -125,7 +127,7 @@ def scaled_world(transform: Transform | None, scale: float) -> Transform | None:
 
 
 def scaled_mesh(transform: Transform | None, scale: float) -> Transform | None:
-    """Scaled about its own origin, and then placed."""
+    """A scaling about the origin of the mesh, followed by the transform."""
     if scale == 1.0:
         return transform
     rows = transform or IDENTITY
@@ -133,7 +135,7 @@ def scaled_mesh(transform: Transform | None, scale: float) -> Transform | None:
 
 
 def _label(bodies: Iterable[Body], declared: Iterable[str | None], unit: str | None) -> str | None:
-    """In the words of the inputs, where all use the same words."""
+    """The unit as the inputs write it, if all write it the same way."""
     if any(body.units != unit for body in bodies):
         return None
     words = list(dict.fromkeys(text for text in declared if text))
@@ -144,8 +146,8 @@ def _label(bodies: Iterable[Body], declared: Iterable[str | None], unit: str | N
 
 
 def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[Issue]:
-    """A note for each unit that was converted, with the files that state it. stated_by: of each
-    body its input, which states the unit of a mesh file that does not."""
+    """A note for each unit that was converted, with the files that state it. stated_by: id of a
+    body -> the input that states the unit if the mesh file does not."""
     files: dict[tuple[float, str], dict[str, None]] = {}
     for body in bodies:
         if body.unit_scale is not None and body.units is not None:
@@ -161,7 +163,7 @@ def _conversions(bodies: Iterable[Body], stated_by: Mapping[str, str]) -> list[I
 
 
 def _unknown(bodies: Sequence[Body], inputs: Sequence[Input]) -> list[Issue]:
-    """A warning where the units of two bodies cannot be compared."""
+    """A warning if the units of two bodies cannot be compared."""
     if len({body.units for body in bodies}) < 2:
         return []
     owners = {id_: source for source in inputs for id_ in source.ids}
@@ -176,7 +178,7 @@ def _unknown(bodies: Sequence[Body], inputs: Sequence[Input]) -> list[Issue]:
     unstated = list(files.pop(None, {})) or [unsaid or ""]
     known = " and ".join(f"{listed(list(paths))} in {unit}" for unit, paths in files.items())
     message = (
-        f"{listed(unstated)}: no unit of length is stated, beside {known}: their pairs are not "
+        f"{listed(unstated)}: no unit of length is stated, unlike {known}: their pairs are not "
         f"decided. State the unit: {'`units` in the scene' if unsaid else '--units'}"
     )
     return [issue(UNITS_UNKNOWN, message, file=unstated[0])]

@@ -8,13 +8,13 @@ from satcheck.core.errors import SatcheckError
 
 
 class MeshFileError(SatcheckError):
-    """A mesh file cannot be used; the others still can."""
+    """A mesh file cannot be used. Other files are not affected."""
 
 
 class SceneFileError(SatcheckError):
-    """A scene file cannot be used, and nothing of it is.
+    """A scene file is refused as a whole.
 
-    line: of the file, where one is to blame.
+    line: the line of the file at fault; None: no single line.
     """
 
     def __init__(
@@ -31,7 +31,7 @@ class SceneFileError(SatcheckError):
 
     @classmethod
     def combined(cls, errors: Sequence[SceneFileError]) -> SceneFileError:
-        """The first of them, which knows the others."""
+        """The first error, with the others attached."""
         first, *others = errors
         first.others = tuple(others)
         return first

@@ -16,14 +16,14 @@ class MeshHealth(Struct, frozen=True):
     """The mesh as read, welded. Edges are counted where triangles meet.
 
     closed: every edge has an even number of triangles, once cracks are closed. manifold: exactly
-    two. oriented: all triangles agreed on which side is outside. cracks: places where neighbouring
-    faces miss each other by no more than the precision of the file; they are closed. holes: loops
-    of the boundary that are left after the repair, but for those of flat parts, which are sheets;
-    largest_hole: how far the largest one reaches, file units, 0.0 without holes. volume: signed,
-    file units cubed, 0.0 unless closed and oriented; not a number where float64 cannot hold it.
-    inside_out: parts faced inward and were turned. double_sided: each face exists in both
-    orientations. flat: all vertices in one plane. solid: after repair, inside and outside are
-    defined, and some of it is inside.
+    two. oriented: all triangles agree on which side is outside. cracks: gaps between neighbouring
+    faces no wider than the precision of the file; they are closed. holes: boundary loops that
+    remain after the repair. Loops of flat parts do not count, because these are sheets.
+    largest_hole: the extent of the largest hole, file units, 0.0 without holes. volume: signed,
+    file units cubed, 0.0 unless closed and oriented; nan if it is beyond the range of float64.
+    inside_out: some parts faced inward and were turned. double_sided: each face exists in both
+    orientations. flat: all vertices in one plane. solid: after the repair, inside and outside are
+    defined, and the inside is not empty.
     """
 
     vertices: int
@@ -48,7 +48,7 @@ class MeshHealth(Struct, frozen=True):
 
 
 class Examined(Struct, frozen=True):
-    """A welded mesh, wound outward where that could be decided, and what was found on the way.
+    """A welded mesh and its health. The mesh is wound outward if its orientation can be decided.
 
     topology: before the repair. warnings: (code, message).
     """
@@ -59,11 +59,12 @@ class Examined(Struct, frozen=True):
     warnings: tuple[tuple[str, str], ...]
 
 
-# The share of all directions beyond which open pieces may be meant to enclose what is in them.
-# At their middle, a corner of a room takes up half of them, and a box without a lid 5/6.
+# Open pieces that block more than this share of all directions may be meant to enclose their
+# inside. Seen from the middle, a corner of a room blocks half of all directions, and a box without
+# a lid blocks 5/6.
 MOST_AROUND = 0.75
-# Two copies of a point, each coordinate of both off by no more than the precision of the file, are
-# no farther apart than this many times that precision.
+# Two copies of a point are at most this many precisions apart if each coordinate of both is off
+# by at most the precision of the file.
 CRACK_WIDTH = 2 * math.sqrt(3)
 Resolution = Callable[[Mesh], float]
 
@@ -75,12 +76,12 @@ def _exact(_: Mesh) -> float:
 def examine(
     mesh: Mesh, *, orient: bool = True, resolution: Resolution = _exact, exponent: int = 0
 ) -> Examined:
-    """Welds, inspects and, unless its winding is known to be meant, orients a mesh.
+    """Welds and inspects a mesh. It also orients the mesh, unless its winding is intended.
 
-    Its vertices and triangles come in an order of their own, so that no answer depends on the
-    order in the file. resolution: how finely coordinates of the mesh are known; it is asked only of
-    a mesh with a boundary. exponent: lengths of the mesh times 2**exponent are in file units.
-    Raises MeshFileError (without a file name) when no triangle has an area.
+    Vertices and triangles are sorted, so that no answer depends on their order in the file.
+    resolution: computes the precision of the coordinates; called only if the mesh has a boundary.
+    exponent: lengths of the mesh times 2**exponent are in file units. Raises MeshFileError (without
+    a file name) when no triangle has an area.
     """
     return _judged(_sealed(inspect(mesh, orient), orient, resolution), exponent)
 
@@ -91,7 +92,7 @@ def examine_bytes(
     resolution: Resolution = _exact,
     exponent: int = 0,
 ) -> Examined:
-    """examine(Mesh.from_bytes(vertices, triangles)), without the mesh between."""
+    """Same as examine(Mesh.from_bytes(vertices, triangles)), but builds no temporary mesh."""
     return _judged(_sealed(inspect_bytes(vertices, triangles, True), True, resolution), exponent)
 
 
@@ -109,8 +110,9 @@ def _judged(inspection: Inspection, exponent: int) -> Examined:
             "only-degenerate",
             f"only degenerate triangles: all {topology.triangles} have area 0",
         )
-    # An even number of triangles at every edge, each face in pairs, and nothing enclosed: front and
-    # back of a sheet. A solid whose faces come twice encloses its volume twice.
+    # If every edge has an even number of triangles, all faces come in pairs, and nothing is
+    # enclosed, the mesh is the front and back of a sheet. A solid whose faces come twice encloses
+    # its volume twice.
     in_pairs = topology.closed and 2 * topology.duplicate_triangles >= topology.triangles
     double_sided = in_pairs and topology.volume == 0 and not inspection.hole_count
     copies_dropped = after.triangles < topology.triangles  # orienting does that, too

@@ -1,4 +1,4 @@
-"""What an input is: by its ending, or, for an unknown ending, by the root of its XML."""
+"""Decides the kind of an input by its ending; for an unknown ending, by the root of its XML."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ _KINDS: dict[str, InputKind] = {
     ".urdf": "robot",
     ".srdf": "srdf",
 }
-_XACRO = ".xacro"  # a robot, or the SRDF of one, once it is expanded
-# Elements of an SRDF that no URDF has; in both the outermost element is <robot>.
+_XACRO = ".xacro"  # expands to a URDF or an SRDF
+# Elements of an SRDF that no URDF has. The outermost element of both is <robot>.
 _SRDF_ELEMENTS = frozenset(
     ("group", "group_state", "end_effector", "virtual_joint", "passive_joint", "joint_property")
 ) | {"disable_collisions", "enable_collisions", "disable_default_collisions"}
@@ -28,7 +28,7 @@ _HEAD_BYTES = 1 << 20
 
 
 def kind_of(path: str) -> InputKind:
-    """ "mesh" for a file of no other kind; its reader reports what is wrong with it."""
+    """ "mesh" if no other kind fits. Its reader then reports errors."""
     suffix = Path(path).suffix.lower()
     if suffix in _KINDS:
         return _KINDS[suffix]
@@ -39,7 +39,7 @@ def kind_of(path: str) -> InputKind:
 
 
 def _first_elements(location: Path) -> list[str]:
-    """The names of the root and of its first element, [""] for what is not XML."""
+    """The names of the root and of its first element; [""] if the file is not XML."""
     try:
         size_of(location)
         with location.open("rb") as file:

@@ -1,6 +1,6 @@
-"""Issues of the inputs: each has a code, a place and a sentence. The catalogue of codes is here.
+"""Issues of the inputs, each with a code, a place and a sentence, and the catalogue of codes.
 
-`error`: the file or the scene cannot be used. `warning`: it is used, and this should be known.
+`error`: the file or the scene cannot be used. `warning`: it is used, but the user should know.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ Severity = Literal["error", "warning", "note"]
 
 
 class Code(Struct, frozen=True):
-    """One kind of finding about an input."""
+    """One kind of problem with an input."""
 
     name: str
     severity: Severity
@@ -33,14 +33,14 @@ _ALL = (
     Code("reader-out-of-memory", "error", "Reading the file took more memory than the limit."),
     Code("reader-failed", "error", "The reader of this format failed on the file."),
     # Its records.
-    Code("truncated", "error", "The file ends before what it promises."),
-    Code("trailing-data", "error", "The file goes on after what it promises."),
-    Code("count-mismatch", "error", "A promised number of records does not fit the content."),
+    Code("truncated", "error", "The file ends before its declared end."),
+    Code("trailing-data", "error", "The file continues after its declared end."),
+    Code("count-mismatch", "error", "A declared number of records does not match the content."),
     Code("bad-record", "error", "A record is not what the format prescribes."),
     Code("bad-encoding", "error", "Text is not in an encoding the format allows."),
     Code("unsupported-feature", "error", "The geometry needs a feature that is not read."),
-    Code("index-out-of-range", "error", "A face or a reference names something not there."),
-    Code("reference-cycle", "error", "Nodes or components refer to each other in a circle."),
+    Code("index-out-of-range", "error", "A face or a reference names a missing item."),
+    Code("reference-cycle", "error", "Nodes or components refer to each other in a cycle."),
     Code("missing-resource", "error", "A file that this file refers to is missing."),
     Code("outside-path", "error", "A file that this file refers to lies outside its directory."),
     Code("unknown-part", "error", "The file has no part of this name."),
@@ -52,15 +52,15 @@ _ALL = (
     Code("only-degenerate", "error", "Every triangle of the mesh has area 0."),
     Code("singular-transform", "error", "A transform flattens the body, or is not affine."),
     Code("short-face", "warning", "A face with fewer than 3 vertices was ignored."),
-    Code("unknown-statement", "warning", "A line that holds no geometry is unknown to the format."),
+    Code("unknown-statement", "warning", "A line without geometry is unknown to the format."),
     Code("ignored-geometry", "warning", "Geometry that is not made of triangles was ignored."),
-    Code("no-surface", "warning", "A mesh has lines or points alone: no pair of it is checked."),
-    Code("rest-shape", "warning", "What can change its shape is checked as the file stores it."),
+    Code("no-surface", "warning", "A mesh has only lines or points: its pairs are not checked."),
+    Code("rest-shape", "warning", "A deformable mesh is checked in its stored shape."),
     Code("cracks", "warning", "Faces miss each other by the precision of the file; closed."),
     Code(
         "not-closed",
         "warning",
-        "The surface has holes, next to which nothing is inside or outside.",
+        "The surface has holes, so inside and outside are undefined near them.",
     ),
     Code("not-manifold", "warning", "An edge has more than two triangles."),
     Code("misoriented", "warning", "Neighbouring triangles disagree on which side is outside."),
@@ -72,33 +72,33 @@ _ALL = (
     Code("duplicate-triangles", "warning", "Some triangles occur more than once."),
     # The robot: URDF, SRDF and the values of joints.
     Code("bad-robot", "error", "The URDF or SRDF is not what its format prescribes."),
-    Code("xacro", "error", "The file is xacro, and has to be expanded first."),
-    Code("other-robot", "warning", "The SRDF has the name of another robot than the only one."),
+    Code("xacro", "error", "The file is xacro and has to be expanded first."),
+    Code("other-robot", "warning", "The SRDF names another robot than the one that is given."),
     Code("unknown-element", "warning", "An element unknown to the format was ignored."),
     Code("unknown-attribute", "warning", "An attribute unknown to the format was ignored."),
     Code("no-shape", "warning", "A <collision> of size 0, or without geometry, has no body."),
-    Code("no-limits", "warning", "A joint has no usable limits: it is taken to have none."),
-    Code("no-leader", "warning", "A joint mimics one that is not there, and moves by itself."),
-    Code("no-collision-geometry", "note", "Links with visual geometry alone have no body."),
+    Code("no-limits", "warning", "A joint has no usable limits and is treated as unlimited."),
+    Code("no-leader", "warning", "A joint mimics a missing joint and moves independently."),
+    Code("no-collision-geometry", "note", "Links with only visual geometry have no body."),
     Code("neighbours-checked", "note", "Links that a joint connects are checked as well."),
     Code("beyond-limits", "warning", "A joint stands beyond its limits."),
-    Code("not-at-zero", "note", "A joint that no pose names cannot stand at 0."),
-    Code("mimic-differs", "warning", "A pose contradicts what a mimic joint follows."),
+    Code("not-at-zero", "note", "0 is beyond the limits of a joint without a value in the pose."),
+    Code("mimic-differs", "warning", "A pose contradicts the joint that a mimic joint follows."),
     # Flat bodies.
     Code("no-outline", "error", "The body has no extent in the plane of the check."),
-    Code("open-outline", "error", "What fills the holes of the body decides its outline."),
+    Code("open-outline", "error", "The outline of the body depends on how its holes are filled."),
     Code("planar-only", "error", "A drawing is flat: it is checked in a plane only."),
     Code("planar-volume", "error", "A rule with a max_volume is not checked in a plane."),
     Code("planar-motion", "error", "A scene with motions is not checked in a plane."),
     # The scene file.
     Code("bad-scene", "error", "The scene file is not what its form prescribes."),
     Code("duplicate-id", "error", "Two bodies of a scene have the same id."),
-    Code("bad-rule", "error", "A rule of a scene is not one, or asks nothing."),
-    Code("bad-motion", "error", "A motion of a scene is not one, or moves a body twice."),
-    Code("unknown-key", "warning", "A key at the top of the scene file is not known: ignored."),
-    Code("units-converted", "note", "Files in other units were converted to that of the check."),
-    Code("units-unknown", "warning", "Some bodies have a stated unit of length, others have none."),
-    Code("unknown-units", "warning", "The declared units are no known unit of length."),
+    Code("bad-rule", "error", "A rule of a scene is malformed or has no effect."),
+    Code("bad-motion", "error", "A motion of a scene is malformed, or moves a body twice."),
+    Code("unknown-key", "warning", "An unknown key at the top of the scene file was ignored."),
+    Code("units-converted", "note", "Files in other units were converted to units of the check."),
+    Code("units-unknown", "warning", "Only some bodies have a stated unit of length."),
+    Code("unknown-units", "warning", "The declared units are not a known unit of length."),
     Code("unknown-group", "warning", "An ignored group has no body in the scene."),
     Code("unknown-body", "warning", "An allowed pair names a body that the scene lacks."),
 )
@@ -107,7 +107,7 @@ CODES: dict[str, Code] = {code.name: code for code in _ALL}
 
 
 class Issue(Struct, frozen=True):
-    """A finding about an input. `code` is one of CODES and decides the severity.
+    """A problem with an input. `code` is one of CODES and decides the severity.
 
     body: id of the body concerned; file: path as given. Either may be None.
     """

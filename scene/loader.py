@@ -37,26 +37,28 @@ def load_scene(
     """All bodies of the given mesh files, scene files and robots, in that order.
 
     - `.toml` and `.json` files are scenes: satcheck.scene/1, JSON also satcheck-scene-1. Rules of a
-      scene are about its own bodies, mesh files and robots; those of a scene without bodies, all.
-    - A `.urdf` file, or other XML with <robot> around it, is a robot at rest, with a body for each
+      scene apply to its own bodies, mesh files and robots. Rules of a scene without bodies apply to
+      all bodies.
+    - A `.urdf` file, or other XML with <robot> as its root, is a robot at rest with a body for each
       <collision>. A `.srdf` file says which of its links may touch.
-    - Files of rules and SRDFs have no bodies: they change no body and no id.
-    Ids are those of the scene file or of the links, or of `plain_ids`, or the paths of nodes (after
-    the id of their file where there are several), with -2, -3, ... where they occur again.
+    - Files of rules and SRDFs have no bodies. They change no body and no id.
+    Ids come from the scene file, the links, `plain_ids`, or the paths of nodes (after the id of
+    their file if there are several files). Repeated ids get the suffix -2, -3, ...
 
-    split: which bodies a mesh file is. "none": the whole file is one. "nodes": each node with a
-    mesh of a GLB, glTF, 3MF or 3DXML file; other formats have no nodes. "components": each piece of
-    these that shares no edge with another. None: "nodes" for one file alone, else "none".
-    packages: where the packages lie that a URDF names, see `robot.MeshPlaces`.
+    split: how a mesh file is split into bodies. "none": the whole file is one body. "nodes": each
+    node with a mesh in a GLB, glTF, 3MF or 3DXML file is a body; other formats have no nodes.
+    "components": each edge-connected component of these is a body. None: "nodes" for a single file,
+    else "none".
+    packages: folders of the packages that a URDF names, see `robot.MeshPlaces`.
     allow_outside: a scene, a robot or a glTF file may name files outside of its folder.
-    hashed: take the SHA-256 of each file, which some reports state.
+    hashed: compute the SHA-256 of each file, which some reports contain.
     units: of the inputs that state none. Inputs of different units are converted into one
     (`common_units`); a body of unknown unit beside them has `units` None. Axes are not converted.
     rules: files of rules, about all bodies. They count after those of the scenes.
     seconds_per_file, megabytes_per_file: limits for reading one mesh file.
 
-    A mesh file or node that cannot be used becomes an Unreadable with an error issue; the rest
-    loads. Raises SceneFileError for a wrong scene file or robot.
+    A mesh file or node that cannot be used becomes an Unreadable with an error issue, and the rest
+    is loaded. Raises SceneFileError for an invalid scene file or robot.
     """
     given = _as_texts(paths)
     files = MeshFiles(
@@ -118,7 +120,7 @@ def read_rules(path: str) -> SceneFile:
 
 
 def is_rules(path: str) -> bool:
-    """Whether it is a scene file without bodies, which has rules about other bodies. Raises
+    """Whether the input is a scene file without bodies, whose rules apply to all bodies. Raises
     SceneFileError."""
     scene = _read_scenes([path], allow_outside=True).get(path)
     return scene is not None and not scene.bodies
@@ -129,5 +131,5 @@ def _has_bodies(path: str, scenes: Mapping[str, SceneFile]) -> bool:
 
 
 def is_mesh(path: str) -> bool:
-    """Whether it is to be read as a mesh file, and not as a scene or a robot."""
+    """Whether the input is read as a mesh file, and not as a scene or a robot."""
     return kind_of(path) == "mesh"

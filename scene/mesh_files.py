@@ -1,4 +1,4 @@
-"""Mesh files, each read once, whole or taken apart, and shapes, each made once."""
+"""Reads each mesh file once, whole or split into nodes, and makes the mesh of each shape once."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ DEFAULT_MEGABYTES_PER_FILE = 2048
 
 
 class MeshFiles:
-    """Reads each file once, by whatever path and however many bodies use it.
+    """Reads each file once, even if several paths lead to it and many bodies use it.
 
     Formats that need large parsers are read in a child process, which ends with this object.
     """
@@ -48,13 +48,13 @@ class MeshFiles:
         self._shapes: dict[tuple[Primitive, str], MeshFile | MeshFileError] = {}
 
     def _absolute(self, location: Path) -> Path:
-        """Once for a path, however many bodies it has."""
+        """The absolute path; cached, because many bodies may share a path."""
         if location not in self._places:
             self._places[location] = Path(location).absolute()
         return self._places[location]
 
     def whole(self, path: str, location: Path) -> MeshFile | MeshFileError:
-        """All of the file as one mesh. path: its name in messages; location: where it lies."""
+        """The whole file as one mesh. path: its name in messages; location: on disk."""
         key = self._absolute(location)
         if key not in self._wholes:
             try:
@@ -64,10 +64,10 @@ class MeshFiles:
         return self._wholes[key]
 
     def read_ahead(self, given: Iterable[tuple[str, Path]]) -> None:
-        """Reads those of these files that are large at the same time; whole() then has them.
+        """Reads the large ones of these files in parallel and caches them for whole().
 
-        given: name in messages and location. Only formats that are read in this process, without
-        the interpreter.
+        given: (name in messages, location). Only formats whose reader runs in this process and
+        releases the GIL.
         """
         waiting = {
             self._absolute(location): (path, location)
@@ -105,7 +105,7 @@ class MeshFiles:
         return load(path, location, self._limits, self._children)
 
     def nodes(self, path: str, location: Path, *, components: bool) -> Nodes | MeshFileError:
-        """The file taken apart."""
+        """The file split into nodes."""
         key = self._absolute(location), components
         if key not in self._nodes:
             try:

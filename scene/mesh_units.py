@@ -1,4 +1,4 @@
-"""Between the coordinates of a file and those of its mesh: times 2**MeshFile.exponent."""
+"""Converts between coordinates of a file and of its mesh: file = mesh * 2**MeshFile.exponent."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from satcheck.scene.errors import MeshFileError
 
 
 def placing_mesh(file: MeshFile | MeshFileError, transform: Transform | None) -> Transform | None:
-    """What places the mesh where the transform places the coordinates of the file."""
+    """The transform for the mesh that corresponds to `transform` for file coordinates."""
     if isinstance(file, MeshFileError):
         return transform
     return scaled_mesh(transform, 2.0**file.exponent)

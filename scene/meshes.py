@@ -1,4 +1,4 @@
-"""Meshes in memory -> Scene, as if each had been read from a file."""
+"""Makes a Scene from meshes in memory, as if each had been read from a file."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ if TYPE_CHECKING:
 
     Array = NDArray[Any]
 
-# A rotation that is kept as float32 is off by 2**-24 an entry. Some thirty products of such
-# rotations are off by less than this. The pose itself is applied as given.
+# Entries of a rotation stored as float32 are off by up to 2**-24. A product of about thirty such
+# rotations is off by less than this. The pose itself is applied as given.
 RIGID_TOLERANCE = 1e-5
-LARGEST_INTEGER = 2**53  # up to which float64 holds all integers
-PRECISIONS: dict[int, Precision] = {2: "float16", 4: "float32"}  # by bytes of a float
+LARGEST_INTEGER = 2**53  # float64 holds all integers up to this
+PRECISIONS: dict[int, Precision] = {2: "float16", 4: "float32"}  # by size in bytes
 
 
 class FacesMesh(Protocol):
-    """Such as trimesh.Trimesh."""
+    """For example trimesh.Trimesh."""
 
     @property
     def vertices(self) -> Any: ...
@@ -41,7 +41,7 @@ class FacesMesh(Protocol):
 
 
 class TrianglesMesh(Protocol):
-    """Such as open3d.geometry.TriangleMesh and satcheck.core.Mesh."""
+    """For example open3d.geometry.TriangleMesh and satcheck.core.Mesh."""
 
     @property
     def vertices(self) -> Any: ...
@@ -102,7 +102,7 @@ def _mesh_file(id_: str, vertices: Array, faces: Array) -> MeshFile:
 
 
 def _arrays(mesh: MeshLike) -> tuple[Array, Array]:
-    """(vertices, faces), checked but for their types."""
+    """(vertices, faces), not checked."""
     vertices: ArrayLike | None
     faces: ArrayLike | None
     if isinstance(mesh, tuple | list) and len(mesh) == 2:

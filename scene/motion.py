@@ -1,8 +1,9 @@
 """Motions: how bodies move, as data.
 
-A motion takes its bodies along as one rigid assembly over a parameter t in [0, 1]. The pose of a
-body at t is M(t) * placement, world frame, column vectors, lengths in the units of the scene; the
-kinds below say what M is. All motions of a scene share one t, and a body has at most one motion.
+A motion moves its bodies as one rigid assembly over a parameter t in [0, 1]. The pose of a body at
+t is M(t) * placement, in the world frame, for column vectors, with lengths in the units of the
+scene. The classes below define M. All motions of a scene share one t, and a body has at most one
+motion.
 
 Rotation interpolated along the shortest arc: Ken Shoemake, "Animating Rotation with Quaternion
 Curves" (1985).
@@ -25,7 +26,7 @@ NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
 class Translation(Struct, frozen=True):
-    """M(t) moves by t * vector. vector: world, may be zero."""
+    """M(t) translates by t * vector. vector: world frame, may be zero."""
 
     vector: Vector
 
@@ -34,10 +35,10 @@ class Translation(Struct, frozen=True):
 
 
 class Rotation(Struct, frozen=True):
-    """M(t) turns by t * degrees about the line through `point` along `axis`, world.
+    """M(t) rotates by t * degrees about the line through `point` along `axis`, world frame.
 
-    Right-handed: seen with the axis pointing at the eye, positive degrees turn counter-clockwise.
-    degrees: any, several turns too. axis: of any length but zero.
+    Right-handed: if the axis points at the viewer, positive degrees turn counter-clockwise.
+    degrees: any finite number, also several turns. axis: of any length except zero.
     """
 
     point: Vector
@@ -53,9 +54,9 @@ class Rotation(Struct, frozen=True):
 
 
 class Waypoint(Struct, frozen=True):
-    """A rigid pose: world = turn(orientation) * (x, y, z) + position, (x, y, z) as placed.
+    """A rigid pose: world = rotation(orientation) * p + position, p a point of the placed body.
 
-    time: in [0, 1]. orientation: a quaternion (x, y, z, w) of any length but zero.
+    time: in [0, 1]. orientation: a quaternion (x, y, z, w) of any length except zero.
     """
 
     time: float
@@ -75,8 +76,8 @@ class PosePath(Struct, frozen=True):
 
     Between two of them the position is interpolated along a line and the orientation along the
     shortest arc, each in proportion to time; opposite orientations (half a turn apart) take the arc
-    of the quaternions as given. The first pose may differ from the identity: the motion then starts
-    elsewhere than at the placement.
+    of the quaternions as given. If the first pose is not the identity, the motion does not start at
+    the placement.
     """
 
     waypoints: tuple[Waypoint, ...]
@@ -125,7 +126,7 @@ def _times(scale: float, vector: Vector) -> Vector:
 
 
 def refuse_second_motions(motions: tuple[Motion, ...]) -> None:
-    """Raises SatcheckError (`bad-motion`) where a body is moved twice."""
+    """Raises SatcheckError (`bad-motion`) if two motions move the same body."""
     for body, times in Counter(body for motion in motions for body in motion.bodies).items():
         if times > 1:
             raise SatcheckError("bad-motion", "a body can have one motion only", body=body)

@@ -1,4 +1,4 @@
-"""Scene files of bodies that were moved: what was read, with other placements."""
+"""Writes scene files of moved bodies."""
 
 from __future__ import annotations
 
@@ -19,10 +19,11 @@ Translation = tuple[float, float, float]
 
 
 def moved_scene_file(source: str, output: Path, translations: Mapping[str, Translation]) -> str:
-    """The text of the scene file `source`, of either form, with these bodies, by id, moved in the
-    world, for the place `output`: mesh paths lead from there on. All else stays as it is written.
+    """The text of the scene file `source`, of either form, with these bodies moved.
 
-    Raises SceneFileError for a source that is wrong.
+    translations: id -> translation in the world. output: the file that the text is for; mesh paths
+    are relative to its folder. The rest is unchanged. Raises SceneFileError if the source is
+    invalid.
     """
     entries = read_scene_file(source, Path(source), allow_outside=True).bodies
     placements = {
@@ -35,9 +36,9 @@ def moved_scene_file(source: str, output: Path, translations: Mapping[str, Trans
 
 
 def scene_file_of(output: Path, scene: Scene, translations: Mapping[str, Translation]) -> str:
-    """The text of a new scene file of the form satcheck.scene/1, TOML or JSON by its suffix, for
-    the place `output`, of a scene of mesh files or of parts of them, as the files place them, and
-    then moved."""
+    """The text of a new scene file satcheck.scene/1 for the file `output`, TOML or JSON by its
+    suffix. The scene consists of mesh files or parts of them, placed by the files and then moved by
+    `translations`."""
     entries = []
     for body in scene.bodies:
         entry: dict[str, Any] = {"id": body.id, "mesh": _path_from(output, Path(body.file.path))}
@@ -68,13 +69,13 @@ def _toml_lines(table: Mapping[str, Any]) -> str:
 
 
 def _quoted(value: object) -> str:
-    """As JSON has it, and TOML too: it alone has no raw DEL in a string."""
+    """A string that is valid in JSON and TOML. TOML allows no raw DEL in a string."""
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def stray_mesh(source: str | None, output: Path, scene: Scene) -> str | None:
-    """A mesh file that lies outside of the folder of `output`, where that would have to be allowed
-    to read the scene written there; None: there is none. source: the scene file, if it is one."""
+    """A mesh file outside of the folder of `output`, if reading the new scene would then need
+    `--allow-outside`; None: there is none. source: the scene file that was read, if any."""
     if source is not None and _is_simple(source):
         return None
     folder = output.absolute().parent.resolve()
@@ -83,7 +84,7 @@ def stray_mesh(source: str | None, output: Path, scene: Scene) -> str | None:
 
 
 def _is_simple(source: str) -> bool:
-    """A scene of the simple form names meshes anywhere."""
+    """Whether the scene has the simple form, which may name meshes in any folder."""
     document = parsed(source, Path(source), read_text(source, Path(source))).document
     return bool(document["schema"] == SIMPLE)
 
@@ -111,7 +112,7 @@ def _with_paths_from(output: Path, source: str, text: str) -> str:
 
 
 def _path_from(output: Path, target: Path) -> str:
-    """The path of `target` from the folder of `output` on; an absolute one stays so."""
+    """The path of `target` relative to the folder of `output`; absolute paths stay absolute."""
     if target.is_absolute():
         return target.as_posix()
     return Path(os.path.relpath(target.absolute(), output.absolute().parent)).as_posix()

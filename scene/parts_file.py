@@ -1,4 +1,4 @@
-"""Convex parts as a mesh file: GLB with a node a part, OBJ with an object a part, or one STL.
+"""Writes convex parts to a mesh file: GLB (a node for each part), OBJ (an object for each), or STL.
 
 GLB and STL hold 32-bit floats (glTF 2.0, section 3.6.2.2; the STL of 3D Systems, 1988).
 """
@@ -24,12 +24,12 @@ Part = tuple[str, Mesh]
 
 def written(parts: Sequence[Part], suffix: str, units: str | None) -> bytes:
     """The content of a file. parts: names, and meshes in one frame. suffix: a key of FORMATS.
-    units: of the coordinates; a GLB file is in metres where they are known."""
+    units: of the coordinates. If they are known, a GLB file is in metres."""
     return FORMATS[suffix]([(_plain(name), mesh) for name, mesh in parts], units)
 
 
 def rounding(parts: Sequence[Part], suffix: str) -> float:
-    """How far the numbers of the file are off: a bound on the distance that a vertex moves."""
+    """An upper bound on how far a vertex moves when its coordinates are rounded for the file."""
     if suffix == ".obj":
         return 0.0
     steps = [mesh.vertices - mesh.vertices.astype("<f4") for _, mesh in parts]

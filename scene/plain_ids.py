@@ -6,11 +6,11 @@ import os
 from collections.abc import Sequence
 from pathlib import Path, PurePath
 
-COMPONENT_MARK = "#"  # between the path of a node and the number of a component: in no name
+COMPONENT_MARK = "#"  # between the path of a node and a component number; never in names
 
 
 class UniqueNames:
-    """Gives out names: one that was given out before gets -2, -3, ..."""
+    """Makes names unique: repeated names get the suffix -2, -3, ..."""
 
     def __init__(self) -> None:
         self._given: dict[str, int] = {}
@@ -25,9 +25,9 @@ class UniqueNames:
 
 
 def plain_ids(paths: Sequence[str]) -> list[str]:
-    """One id for each path, in that order: the stem, or where distinct paths share their stem the
-    shortest ends of the paths that differ ("left/part", "right/part"), with the suffixes where
-    nothing else differs. Paths to the same place get the same id.
+    """One id for each path, in that order. The id is the stem. If different paths share a stem, the
+    ids are the shortest ends of the paths that differ ("left/part", "right/part"), with the
+    suffixes if only these differ. Paths to the same file get the same id.
     """
     same_stem: dict[str, dict[str, PurePath]] = {}
     places = [os.path.normpath(Path(path).absolute()) for path in paths]

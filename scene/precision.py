@@ -1,4 +1,4 @@
-"""How finely a file's coordinates were written: the default width of "touching"."""
+"""The precision of the coordinates in a file. The default tolerance follows from it."""
 
 from __future__ import annotations
 
@@ -19,22 +19,23 @@ STEPS: dict[Precision, float] = {
 
 
 def placement_step(raw: RawMesh, *, by_file: bool) -> float:
-    """How finely the numbers of a placement are known, relative to the coordinates they make.
+    """The relative precision of a placement, as a share of the placed coordinates.
 
-    by_file: the file itself places its mesh. One that stores coordinates as float32 comes from a
-    program that keeps placements no finer; all others are taken as they are written.
+    by_file: the file itself places its mesh. A program that stores coordinates as float32 is
+    assumed to store placements no finer. All other placements are taken as written.
     """
     return FLOAT32_STEP if by_file and raw.precision == "float32" else FLOAT64_ROUNDING
 
 
 def file_resolution(raw: RawMesh, max_coordinate: float) -> float:
-    """The input's own precision, in file units.
+    """The precision of the coordinates, in file units.
 
-    max_coordinate: largest |coordinate| of the mesh. float16, float32: the spacing of these there.
-    float64: half the spacing of float64 there. Written digits: half a unit of the last
-    digit of the most precise number, between these two. A number with an exponent shows digits
-    relative to its own size, so its digits are counted down from the largest coordinate: the
-    -4.4e-08 that stands for 0 in many files does not promise eight decimals.
+    max_coordinate: largest |coordinate| of the mesh. float16, float32: the spacing of these numbers
+    at max_coordinate. float64: half the spacing of float64 there. Written digits: half a unit of
+    the last digit of the most precise number, but no less than for float64 and no more than for
+    float32. The digits of a number with an exponent are relative to its own size, so they are
+    counted down from the largest coordinate: many files write -4.4e-08 for 0, which does not
+    promise eight decimals.
     """
     if raw.precision in STEPS:
         return max_coordinate * STEPS[raw.precision]

@@ -1,8 +1,7 @@
-"""Rules of a scene: which pairs of bodies they are about, and what they ask of them.
+"""Rules of a scene: the pairs of bodies that they apply to, and their limits.
 
-A rule is about every pair with one body in `a` and the other in `b`, whichever comes first. It sets
-some keys and leaves the others alone: of several rules about a pair, the last one that sets a key
-decides that key.
+A rule applies to every pair with one body in `a` and the other in `b`, in either order. A rule sets
+some keys. If several rules for a pair set the same key, the last one counts.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from satcheck.core.errors import SatcheckError
 Severity = Literal["error", "warning", "note", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 LENGTHS = ("max_depth", "max_thickness", "clearance", "tolerance")
-# The keys by which a rule asks something; `reason` explains and `where` finds them.
+# The keys that have an effect. `reason` and `where` only explain a rule.
 KEYS = ("allowed", "max_volume", "severity", *LENGTHS)
 
 GROUP = "group:"
@@ -29,12 +28,12 @@ GROUP = "group:"
 _SPECIAL = r"[*?\[]"
 _ESCAPED = r"(?:\[g\](?=roup:))?(?:[^*?\[]|\[[*?\[]\])*"
 _IN_BRACKETS = r"\[([*?\[g])\]"
-# A byte of a file name that is not text is a surrogate in Python, which is not a character.
+# Python represents a byte of a file name that is not text as a surrogate, which is not a character.
 _NO_CHARACTER = "[!\1-\ud7ff\ue000-\U0010ffff]"
 
 
 class Selectable(Protocol):
-    """A body, as a selector sees it."""
+    """The properties of a body that a selector needs."""
 
     @property
     def id(self) -> str: ...
@@ -47,11 +46,12 @@ B = TypeVar("B", bound=Selectable)
 
 
 class Selector(Struct, frozen=True):
-    """Bodies by the glob of their ids, "arm/*", or of their groups, "group:links*".
+    """Selects bodies by a glob of their ids, "arm/*", or of their groups, "group:links*".
 
-    `*` any text, `?` one character, `[abc]` one of these, `[!abc]` one other; case counts. "[*]" is
-    a star. Where an id (or a group) is exactly this text, it alone is selected: "bricks[0]" is the
-    body of that name if there is one. Raises SatcheckError `bad-rule` for an empty glob.
+    `*` matches any text, `?` one character, `[abc]` one of these, `[!abc]` any other; case counts.
+    "[*]" matches a star. If an id (or a group) is exactly the text of the selector, only this id is
+    selected: "bricks[0]" selects the body of that name if there is one. Raises SatcheckError
+    `bad-rule` for an empty glob.
     """
 
     text: str
@@ -62,20 +62,20 @@ class Selector(Struct, frozen=True):
 
     @classmethod
     def exactly(cls, body: str) -> Selector:
-        """The selector of this one id, whatever characters it is made of."""
+        """The selector of this one id, which may contain any characters."""
         text = re.sub(_SPECIAL, r"[\g<0>]", body)
         return cls(f"[g]{text[1:]}" if text.startswith(GROUP) else text)
 
     @classmethod
     def writable(cls, body: str) -> Selector:
         """The selector of this id, in characters that a text file can hold. A byte of the id that
-        is not text is replaced by a pattern that matches any such byte and no character."""
+        is not text becomes a pattern that matches all such bytes and no character."""
         text = cls.exactly(body).text
         return cls("".join(_NO_CHARACTER if "\ud800" <= c <= "\udfff" else c for c in text))
 
     @classmethod
     def nobody(cls) -> Selector:
-        return cls("[!\0-\U0010ffff]")  # no character is outside of this range
+        return cls("[!\0-\U0010ffff]")  # matches no character
 
     @property
     def of_groups(self) -> bool:
@@ -86,7 +86,7 @@ class Selector(Struct, frozen=True):
         return self.text.removeprefix(GROUP)
 
     def choose(self, names: Collection[str]) -> Collection[str]:
-        """Those that are selected of all these ids, or of all these groups."""
+        """The selected ones of these ids, or of these groups."""
         for text in self._spelt():
             if text in names:
                 return (text,)
@@ -98,13 +98,15 @@ class Selector(Struct, frozen=True):
         return [name for name in names if matches(name)]
 
     def _spelt(self) -> Iterator[str]:
-        """The names that come before the glob: the one that `exactly` writes so, then the text."""
+        """Names that are tried before the glob: the id for which `exactly` writes this text, then
+        the text itself."""
         if "[" in self.glob and re.fullmatch(_ESCAPED, self.glob):
             yield re.sub(_IN_BRACKETS, r"\1", self.glob)
         yield self.glob
 
     def select(self, bodies: Sequence[B]) -> list[B]:
-        """bodies: all from which to select; whether an id is exactly the text depends on them."""
+        """bodies: all bodies of the scene, because an id that is exactly the text overrides the
+        glob."""
         if self.of_groups:
             groups = frozenset(self.choose({group for body in bodies for group in body.groups}))
             return [body for body in bodies if not groups.isdisjoint(body.groups)]
@@ -113,22 +115,22 @@ class Selector(Struct, frozen=True):
 
 
 class Rule(Struct, frozen=True, kw_only=True):
-    """What is asked of the pairs with one body in each selector. None: the rule does not say.
+    """Limits for the pairs with one body in each selector.
 
-    Lengths and volumes are in the units of the scene, absolute.
+    None: the rule does not set the key. Lengths and volumes are in units of the scene.
 
-    allowed: they may overlap, nothing is computed; False takes an earlier permission back.
-    max_depth: an overlap no deeper than this is within budget; the depth is computed.
-    max_thickness: so is one without a ball in both bodies thicker than this; the thickness is
-    computed.
-    max_volume: so is one that shares no more than this; the volume is computed.
-    clearance: the gap they must keep, in the place of the global one; 0.0: none.
-    tolerance: half width of the touch band, in the place of the global one.
-    severity: of what is found about them; what cannot be decided stays a warning at least.
-    reason: why, in words. where: "file:line" or the like, to name the rule in a report. file, line:
-    where it is written, as far as that is known.
+    allowed: they may overlap, and nothing is computed; False revokes an earlier permission.
+    max_depth: an overlap up to this depth is within the limit; the depth is computed.
+    max_thickness: an overlap is within the limit if no ball in both bodies is thicker than this;
+    the thickness is computed.
+    max_volume: an overlap up to this common volume is within the limit; the volume is computed.
+    clearance: the required gap; overrides the global one; 0.0: none.
+    tolerance: half width of the touch band; overrides the global one.
+    severity: of findings about them; an undecided pair is at least a warning.
+    reason: a text. where: such as "file:line"; names the rule in a report.
+    file, line: its place, if known.
 
-    Raises SatcheckError `bad-rule`: a key out of range, or none that asks anything.
+    Raises SatcheckError `bad-rule`: a key is out of range, or no key has an effect.
     """
 
     a: Selector
@@ -154,9 +156,9 @@ class Rule(Struct, frozen=True, kw_only=True):
             names = ", ".join(SEVERITIES)
             raise _refused(f"severity must be one of {names}, not {self.severity!r}")
         if all(getattr(self, key) is None for key in KEYS):
-            raise _refused(f"a rule asks something: give it one of {', '.join(KEYS)}")
+            raise _refused(f"the rule has no effect: give it one of {', '.join(KEYS)}")
         if self.allowed and any(getattr(self, key) is not None for key in KEYS if key != "allowed"):
-            raise _refused("an allowed pair is not looked at: leave the other keys out")
+            raise _refused("an allowed pair is not checked: remove the other keys")
 
     def scaled(self, scale: float) -> Rule:
         """The same rule in another unit: lengths times `scale`, the volume times its cube."""
@@ -171,7 +173,7 @@ class Rule(Struct, frozen=True, kw_only=True):
 
     @property
     def name(self) -> str:
-        """Where it is written, or failing that, which pairs it is about."""
+        """Its place in a file, else its two selectors."""
         return self.where or f"{self.a.text} and {self.b.text}"
 
 

@@ -1,4 +1,4 @@
-"""A scene with numbers beyond the range of the core, scaled into it by a power of two."""
+"""Scales a scene beyond the range of the core into that range, by a power of two."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from satcheck.scene.shape_file import shape_file
 
 
 def exponent_for(scene: Scene) -> int:
-    """The k for which the scene suits the core once its lengths are times 2**k."""
+    """The k for which lengths times 2**k are in the range of the core."""
     spans = [span for body in scene.bodies if (span := _span(body)) is not None]
     if not spans:
         return 0
@@ -29,18 +29,18 @@ def exponent_for(scene: Scene) -> int:
 
 
 def require_in_range(scene: Scene) -> None:
-    """Raises SatcheckError (`out-of-range`) where the scene needs another unit."""
+    """Raises SatcheckError (`out-of-range`) if the scene needs to be scaled."""
     if exponent_for(scene):
         message = (
-            "coordinates beyond 1e45, or a size below 1e-45: such bodies can be checked, "
-            "nothing else; scale them"
+            "coordinates beyond 1e45, or a size below 1e-45: only `satcheck check` supports them; "
+            "scale them for other commands"
         )
         raise SatcheckError("out-of-range", message)
 
 
 def scaled_scene(scene: Scene, exponent: int) -> Scene:
-    """The scene with its lengths times 2**exponent. A body that loses digits by that is unreadable
-    in it."""
+    """The scene with its lengths times 2**exponent. A body that would lose digits becomes
+    unreadable."""
     scaled = [_scaled(body, exponent) for body in scene.bodies]
     lost = tuple(body for body in scaled if isinstance(body, Unreadable))
     return replace(
@@ -55,7 +55,7 @@ def scaled_scene(scene: Scene, exponent: int) -> Scene:
 
 
 def _span(body: Body) -> tuple[int, int] | None:
-    """Exponents of the size of the body and of its largest coordinate; None: it is a point."""
+    """Exponents of the size and of the largest coordinate of the body; None: it is a point."""
     rows = body.transform or IDENTITY
     low, high = body.file.mesh.bounds
     sides = [h - c for c, h in zip(low, high, strict=True)]
@@ -91,7 +91,7 @@ def _scaled_placement(body: Body, exponent: int) -> Body | None:
 
 
 def _scaled_shape(body: Body, exponent: int) -> Body | None:
-    """A primitive takes the scale into its sizes, so that nothing but a motion places it."""
+    """Scales the sizes of a primitive, so that its transform stays rigid."""
     if body.shape is None:
         return None
     own = body.file.exponent + exponent

@@ -1,4 +1,4 @@
-"""Inputs -> Scene: ids are made unique, and what cannot be read becomes an Unreadable."""
+"""Builds a Scene from inputs. Makes ids unique, and turns unreadable inputs into Unreadables."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ ROBOT_UNITS = "m"  # of every URDF
 
 
 class SceneBuilder:
-    """Takes inputs one by one; `scene` is what they are together. files: reads their meshes.
+    """Takes inputs one by one; `scene` returns their scene.
 
-    units: of the inputs that declare none.
+    files: reads their meshes. units: of the inputs that declare none.
     """
 
     def __init__(self, files: MeshFiles, units: str | None = None) -> None:
@@ -45,7 +45,7 @@ class SceneBuilder:
         self._order: list[str] = []
         self._names: list[str] = []
         self._inputs: list[Input] = []
-        self._rule_units: dict[str, str | None] = {}  # of files of rules, as they declare them
+        self._rule_units: dict[str, str | None] = {}  # of files of rules, as declared
         self._only_meshes = True
         self._bodies: list[Body] = []
         self._unreadable: list[Unreadable] = []
@@ -64,7 +64,7 @@ class SceneBuilder:
         self._add(id_, name, path, file, None)
 
     def add_nodes(self, id_: str, path: str, location: Path, split: Split, alone: bool) -> None:
-        """alone: the paths of nodes need nothing before them to be ids."""
+        """alone: the paths of nodes are ids, without the id of the file before them."""
         name = location.stem or path
         self._names.append(name)
         parts = self._files.nodes(path, location, components=split == "components")
@@ -82,7 +82,7 @@ class SceneBuilder:
             self._add(wanted, title, path, node.file, node.transform, node=node.path)
 
     def add_scene(self, scene: SceneFile) -> None:
-        """A scene file without bodies is one of rules; a second time it says nothing new."""
+        """Adds a scene file. One without bodies is a file of rules, which is added only once."""
         path = scene.path
         if not scene.bodies:
             place = os.path.realpath(path)
@@ -101,7 +101,7 @@ class SceneBuilder:
         self._issues.extend(scene.issues)
 
     def _add_entry(self, entry: BodyEntry, names: Mapping[str, str], path: str) -> str:
-        """names: of its groups here. path: of the scene file."""
+        """names: group in the file -> group in the check. path: of the scene file."""
         file: MeshFile | MeshFileError
         transform = entry.transform
         if entry.shape is not None:
@@ -131,7 +131,7 @@ class SceneBuilder:
     def _part(
         self, mesh: MeshPath, part: str, transform: Transform | None, units: str | None
     ) -> tuple[MeshFile | MeshFileError, Transform | None]:
-        """The part, and where it is when the file is placed by the transform."""
+        """The part, and its transform if the file is placed by `transform`."""
         node = self._files.part(mesh.path, mesh.location, part)
         if isinstance(node, MeshFileError):
             return node, None
@@ -184,11 +184,11 @@ class SceneBuilder:
         self._srdfs.append(read_srdf(path, location))
 
     def _begin(self, kind: Kind, path: str, declares: str | None) -> None:
-        """From now on bodies belong to this input."""
+        """Starts an input. The bodies that follow belong to it."""
         self._inputs.append(Input(kind, path, declares, self._given_units))
 
     def _scale(self, file: MeshFile | MeshFileError, units: str | None) -> float:
-        """The factor from the unit of the mesh file to that of the input. units: instead of the
+        """The factor from the unit of the mesh file to the unit of the input. units: override the
         unit that the file states."""
         own = self._inputs[-1].unit
         if isinstance(file, MeshFileError) or own is None:
@@ -210,7 +210,8 @@ class SceneBuilder:
         units: str | None = None,
         surface_tolerance: float | None = None,
     ) -> str:
-        """transform: of coordinates of the file. units: of them, in the place of what it states."""
+        """transform: of coordinates of the file. units: of these; they override what the file
+        states."""
         id_ = self._ids.unique(wanted)
         self._order.append(id_)
         self._inputs[-1].ids.append(id_)
@@ -225,7 +226,7 @@ class SceneBuilder:
         return id_
 
     def scene(self) -> Scene:
-        """Raises SceneFileError for rules that have to be written out for too many pairs."""
+        """Raises SceneFileError if a rule has to be expanded into too many pairs."""
         scene = self._bodies_and_files()
         if not self._robots and not self._srdfs:
             return scene
@@ -273,7 +274,7 @@ class SceneBuilder:
 
 
 def _of_lost(bodies: Sequence[Unreadable]) -> Iterator[Issue]:
-    """One issue a cause: bodies that are lost for the same reason share it."""
+    """One issue for each cause. Unreadable bodies with the same cause share it."""
     causes: dict[tuple[str, str | None, str], list[Issue]] = {}
     for body in bodies:
         reason = body.issue
@@ -291,7 +292,7 @@ def _node_id(path: str | None, file_id: str, alone: bool) -> str:
 
 
 def _issues_of_files(bodies: Sequence[Body]) -> list[Issue]:
-    """Each file's warnings once: with the body's id where only one body uses the file."""
+    """The warnings of each file once; with the id of the body if only one body uses the file."""
     users: dict[tuple[str, str | None], list[Body]] = {}
     for body in bodies:
         users.setdefault((body.file.path, body.file.part), []).append(body)

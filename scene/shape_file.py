@@ -1,4 +1,4 @@
-"""Meshes that are in no file, as if they were: those of shapes, and new ones of a file."""
+"""Makes a MeshFile of a shape, or of a new mesh for a file."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ SHAPE_FORMAT = "shape"
 def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) -> MeshFile:
     """The mesh of the shape. path: the scene file that states it.
 
-    sha256 is that of the shape's values and of how many segments it has. The sizes are taken as the
-    float64 that they were read as, so the resolution is float64 rounding. Raises MeshFileError for
-    sizes that are too far apart. The mesh of a curved shape is only within it.
+    sha256: of the values of the shape and the number of segments. The sizes are exact float64
+    numbers, so the resolution is float64 rounding. Raises MeshFileError if sizes differ too much.
+    The mesh of a curved shape lies within the shape.
     """
     exponent = 0
     try:
@@ -54,9 +54,9 @@ def shape_file(shape: Primitive, path: str, segments: int = DEFAULT_SEGMENTS) ->
 
 
 def remeshed(file: MeshFile, mesh: Mesh) -> MeshFile:
-    """The file with this mesh, inspected and repaired as one that was read.
+    """The file with this mesh instead, inspected and repaired as after reading.
 
-    sha256 is that of the mesh, so that nothing known about the file's own is taken for this one.
+    sha256: of the mesh, so that cached results for the mesh of the file are not used for this one.
     Raises MeshFileError when no triangle has an area.
     """
     examined = examine(mesh, resolution=lambda _: file.resolution)

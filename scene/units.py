@@ -1,4 +1,4 @@
-"""Units of length: their names, and how many of one are another."""
+"""Units of length: names and conversion factors."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-# Micrometres of one unit: whole numbers, so that a conversion rounds once.
+# Micrometres in one unit. They are whole numbers, so that a conversion rounds once.
 MICROMETRES = {"um": 1, "mm": 1_000, "cm": 10_000, "m": 1_000_000, "in": 25_400, "ft": 304_800}
 _SYNONYMS = {
     "micrometre": "um",
@@ -25,15 +25,15 @@ _SYNONYMS = {
     "feet": "ft",
     "inches": "in",
 }
-# How the reader of COLLADA gives the unit of a file: "0.0254 * meters".
+# The COLLADA reader states the unit of a file as "0.0254 * meters".
 _OF_METRES = " * meters"
-_SAME = 1e-9  # relative: a factor in a few digits is that of the unit
+_SAME = 1e-9  # relative: a factor written with few digits still means the unit
 # Few calls need it: compiled at its first use.
 _LENGTH = r"\s*(\+?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([a-zA-Z]*)\s*"
 
 
 class Length(Struct, frozen=True):
-    """A length >= 0 as written. unit None: in the units of the files."""
+    """A length >= 0 as written. unit: None: the unit of the files."""
 
     value: float
     unit: str | None
@@ -42,18 +42,18 @@ class Length(Struct, frozen=True):
         return f"{self.value:g}{self.unit or ''}"
 
     def in_units_of(self, declared: str | None) -> float:
-        """This length in the declared units of a scene; ValueError where they are unknown."""
+        """This length in the declared units of a scene. Raises ValueError if they are unknown."""
         if self.unit is None:
             return self.value
         known = unit_of(declared)
         if known is None:
-            why = f"{declared!r} is no known unit" if declared else "no units are declared"
+            why = f"{declared!r} is not a known unit" if declared else "no units are declared"
             raise ValueError(f"{self}: {why}, so give a plain number")
         return self.value * MICROMETRES[self.unit] / MICROMETRES[known]
 
 
 def parse_length(text: str) -> Length:
-    """`0.5` or `2mm`; ValueError for what is not a length."""
+    """Parses `0.5` or `2mm`. Raises ValueError if the text is not a length."""
     match = re.fullmatch(_LENGTH, text, re.ASCII)
     digits, suffix = match.groups() if match else ("nan", "")
     number, suffix = float(digits), suffix.lower()
@@ -64,7 +64,7 @@ def parse_length(text: str) -> Length:
 
 
 def unit_of(declared: str | None) -> str | None:
-    """The unit that a scene declares, as it is typed; None if unknown or not declared."""
+    """The unit that a scene declares, as a key of MICROMETRES; None if unknown or not declared."""
     name = (declared or "").strip().lower()
     if name.endswith(_OF_METRES):
         return _of_metres(name.removesuffix(_OF_METRES))
@@ -82,18 +82,18 @@ def _of_metres(text: str) -> str | None:
 
 
 def ratio(unit: str, other: str) -> float:
-    """How many of the other unit make one of this unit: exact, or rounded once."""
+    """The number of `other` units in one `unit`: exact, or rounded once."""
     return MICROMETRES[unit] / MICROMETRES[other]
 
 
 def unit_in(unit: str, scale: float) -> str:
-    """The unit for which `ratio(it, unit)` is `scale`."""
+    """The unit X for which `ratio(X, unit)` is `scale`."""
     return next(name for name in MICROMETRES if ratio(name, unit) == scale)
 
 
-@lru_cache(maxsize=64)  # many bodies, few declarations
+@lru_cache(maxsize=64)  # many bodies share few declarations
 def stated_unit(declared: str | None) -> str | None:
-    """The unit that a declaration is, or begins with: "mm", "Metres", "mm (assumed)"."""
+    """The unit at the start of a declaration such as "mm", "Metres", "mm (assumed)"."""
     first = (declared or "").partition("(")[0].split()[:1]
     return unit_of(declared) or unit_of(first[0] if first else None)
 

@@ -1,4 +1,4 @@
-"""What messages about inputs have in common."""
+"""Phrases for messages about inputs."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ _SHOWN = 5  # of a long list
 
 
 def meant(word: str, known: Iterable[str], form: str = " (did you mean {}?)") -> str:
-    """A question for the known word that `word` resembles most, empty when it resembles none."""
+    """A hint with the known word that resembles `word` most; empty if none does."""
     close = _closest(word, frozenset(known))
     return form.format(repr(close)) if close else ""
 
 
-@lru_cache(maxsize=64)  # who misspells a key of one body misspells it in all of them
+@lru_cache(maxsize=64)  # a key that is misspelt in one body is often misspelt in all
 def _closest(word: str, known: frozenset[str]) -> str | None:
     from difflib import get_close_matches
 

@@ -29,7 +29,7 @@ def load_drawing(
 ) -> MeshFile:
     """An SVG or DXF file as one mesh, all its shapes together.
 
-    The resolution is how far flattened curves may be off their polygons, and the rounding of the
+    The resolution is the largest distance between a curve and its polygon, plus the rounding of the
     coordinates. Raises MeshFileError.
     """
     source, drawing = _read(path, location, allowed, children, whole=True)
@@ -38,7 +38,8 @@ def load_drawing(
 
 
 def load_shapes(path: str, location: Path, allowed: ReadLimits, children: ReadingChildren) -> Nodes:
-    """Its shapes, each a node by its name; one that cannot be used does not stop the others."""
+    """The shapes of a drawing, each a node of its own. A shape that cannot be used becomes an
+    error, and the others are still read."""
     source, drawing = _read(path, location, allowed, children, whole=False)
     names = UniqueNames()
     nodes = []

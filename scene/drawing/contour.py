@@ -16,8 +16,8 @@ Point = tuple[float, float]
 Affine = tuple[float, float, float, float, float, float]
 FillRule = Literal["nonzero", "evenodd"]
 
-# How far a polygon may stay inside its curve, relative to the curve's size. It is part of the
-# input's precision from then on: contacts within it read as touching.
+# The largest distance between a polygon and its curve, relative to the size of the curve. The
+# precision of the input includes it: contacts within it count as touching.
 FLATNESS = 2.0**-14
 MAX_SEGMENTS = 4096  # of one curve
 
@@ -25,8 +25,8 @@ MAX_SEGMENTS = 4096  # of one curve
 class Contour(Struct, frozen=True):
     """A closed polygon, drawing units; the last corner joins the first.
 
-    deviation: the curve that it stands for is nowhere farther from it than this; 0.0: a polygon.
-    inscribed: it lies within that curve, as in a circle.
+    deviation: the largest distance to the curve that it replaces; 0.0: it is exact. inscribed: it
+    lies within that curve, like a polygon in a circle.
     """
 
     points: tuple[Point, ...]
@@ -34,7 +34,7 @@ class Contour(Struct, frozen=True):
     inscribed: bool = False
 
     def mapped(self, affine: Affine) -> Contour:
-        """Raises MeshFileError: it does not stay finite."""
+        """The image of the contour. Raises MeshFileError if a coordinate is not finite."""
         a, b, c, d, e, f = affine
         points = tuple((a * x + b * y + c, d * x + e * y + f) for x, y in self.points)
         refuse_non_finite(points)
@@ -42,7 +42,7 @@ class Contour(Struct, frozen=True):
 
 
 class DrawnShape(Struct, frozen=True):
-    """What lies within the contours by the fill rule, or within one of `filled`."""
+    """The area inside the contours by the fill rule, and inside each of `filled`."""
 
     name: str
     contours: tuple[Contour, ...]
@@ -59,7 +59,8 @@ class RefusedShape(Struct, frozen=True, tag=True):
 
 
 class Drawing(Struct, frozen=True):
-    """units: of its coordinates, where the file says so. ignored: what was left out, in words."""
+    """units: of its coordinates, if the file states them. ignored: a text for each kind of content
+    that was left out."""
 
     shapes: tuple[DrawnShape | RefusedShape, ...]
     units: str | None
@@ -105,7 +106,7 @@ class Tracer:
 
         It is the image of a circle under a map that stretches no length by more than the larger
         half axis (they are perpendicular), so a chord over an angle w deviates by at most that
-        times 1 - cos(w / 2); what the ends are off the ellipse comes on top.
+        times 1 - cos(w / 2). The distance of the given ends from the ellipse is added.
         """
 
         def at(t: float) -> Point:
@@ -125,7 +126,7 @@ class Tracer:
         self._deviation = max(self._deviation, deviation)
 
     def points(self, corners: list[Point], deviation: float) -> None:
-        """Corners that somebody else put on a curve."""
+        """Adds corners that a library placed on a curve."""
         self._points += corners
         self._deviation = max(self._deviation, deviation)
 
@@ -140,8 +141,8 @@ class Tracer:
 
 
 def _stretch(a: float, b: float, d: float, e: float) -> float:
-    """No length is stretched by more: the square of the largest singular value of M is at most the
-    largest row sum of |M^T M|."""
+    """A bound on how far the map stretches a length: the square of the largest singular value of M
+    is at most the largest row sum of |M^T M|."""
     largest = max(map(abs, (a, b, d, e)))
     if largest == 0:
         return 0.0

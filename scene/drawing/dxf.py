@@ -1,9 +1,9 @@
-"""DXF through ezdxf: closed lines and filled areas of the model space, as a program shows them.
+"""Reads DXF with ezdxf: the closed lines and filled areas that are visible in the model space.
 
 A block reference is one shape, with the closed lines inside others as holes. A closed line outside
-any block is a shape of its own: the format does not say whether one line within another is a hole
-or a part put in the wrong place, and a hole taken for a part is found out, a part taken for a hole
-not. Separate lines and arcs that join end to end make a closed one.
+any block is a shape of its own. The format does not say whether a line inside another is a hole or
+a misplaced part. A hole that is read as a part shows up as an overlap, while a part that is read as
+a hole would hide one. Separate lines and arcs that join end to end form a closed line.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from satcheck.scene.errors import MeshFileError
 from satcheck.scene.loading.placing import MAX_DEPTH, refuse_explosion
 
 _UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 13: "um"}
-_OF_THE_REFERENCE = "0"  # the layer whose entities lie on that of the reference to their block
+_OF_THE_REFERENCE = "0"  # entities of a block on this layer take the layer of the block reference
 
 
 def read_dxf(data: bytes) -> Drawing:
@@ -36,7 +36,7 @@ def read_dxf(data: bytes) -> Drawing:
     from ezdxf import recover
     from ezdxf.lldxf.const import DXFError
 
-    if not data.rstrip(b"\0 \r\n\t").endswith(b"EOF"):  # ezdxf mends what is cut off, unasked
+    if not data.rstrip(b"\0 \r\n\t").endswith(b"EOF"):  # ezdxf silently repairs truncated files
         raise MeshFileError("bad-record", "not a DXF file, or truncated: it does not end with EOF")
     try:
         document, auditor = recover.read(io.BytesIO(data))
@@ -90,7 +90,7 @@ class _Reading:
         return len(self._document.blocks.get(block) or ())
 
     def _shown(self, entities: Iterable[Any], layer: str) -> Iterator[Any]:
-        """Those that a program shows. layer: that of the reference to the block."""
+        """The visible entities. layer: of the block reference."""
         for entity in entities:
             if self._is_hidden(entity, layer):
                 self.warnings.add("entities that are invisible, or on layers off, are left out")
@@ -105,7 +105,8 @@ class _Reading:
         layer = layers.get(name) if layers.has_entry(name) else None
         if entity.dxf.get("invisible", 0) or (layer is not None and layer.is_frozen()):
             return True
-        # What a block holds is shown by its own layers, if the reference's layer is not frozen.
+        # Entities of a block follow their own layers, unless the layer of the reference is
+        # frozen.
         return layer is not None and layer.is_off() and entity.dxftype() != "INSERT"
 
     def _layer(self, entity: Any, reference: str) -> str:
@@ -125,7 +126,7 @@ class _Reading:
                 yield DrawnShape(copy, contours, "evenodd", filled)
 
     def _within(self, insert: Any, reference: str) -> list[Outline]:
-        """The outlines of a block, in its own coordinates; made once for each layer."""
+        """The outlines of a block, in its own coordinates; cached for each layer."""
         layer = self._layer(insert, reference)
         key = (insert.dxf.name, layer)
         if key not in self._blocks:
@@ -151,7 +152,7 @@ class _Reading:
                 yield from (outline.mapped(affine) for outline in inner)
 
     def _contours(self, outlines: Iterable[Outline]) -> Iterator[Contour]:
-        """Raises MeshFileError after the closed ones: separate lines make no single outlines."""
+        """Yields closed contours first. Raises MeshFileError if the other lines branch."""
         outlines = list(outlines)
         yield from self._closed([o for o in outlines if o.kind == "closed"])
         joined = join([Line(o.points, o.deviation) for o in outlines if o.kind == "open"])
@@ -178,7 +179,7 @@ class _Reading:
 
 
 def _affines(insert: Any) -> list[Affine]:
-    """Where its copies are, seen from above."""
+    """The transforms of its copies, seen from above."""
     copies = insert.multi_insert() if insert.mcount > 1 else [insert]
     return [_affine(copy) for copy in copies]
 

@@ -1,4 +1,4 @@
-"""What a DXF entity outlines: its corners, seen from above."""
+"""The outline of a DXF entity: its corners, seen from above."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from satcheck.scene.drawing.contour import FLATNESS, Affine, Contour, Point, ref
 from satcheck.scene.drawing.joining import JOIN
 from satcheck.scene.errors import MeshFileError
 
-# No part of what is drawn to scale.
+# Annotations: not geometry.
 _MEASURES = frozenset(
     {"ARC_DIMENSION", "DIMENSION", "LARGE_RADIAL_DIMENSION", "LEADER", "MLEADER", "MULTILEADER"}
 )
@@ -27,8 +27,8 @@ _FITTED = 2 | 4  # of a POLYLINE: its vertices are not corners, or not all of th
 
 
 class Outline(Struct, frozen=True):
-    """closed: a line, the last point next to the first; open: a line; filled: an area. inscribed:
-    as of a Contour."""
+    """closed: a line whose last point joins the first; open: a line; filled: an area. inscribed: as
+    in Contour."""
 
     points: tuple[Point, ...]
     deviation: float
@@ -41,7 +41,7 @@ class Outline(Struct, frozen=True):
 
 
 def outline_of(entity: Any) -> Outline | None:
-    """None: the entity bounds nothing. Raises MeshFileError for what cannot be read."""
+    """None: the entity has no outline. Raises MeshFileError if it cannot be read."""
     kind = entity.dxftype()
     if kind in _POLYLINES:
         return _polyline(entity)
@@ -96,7 +96,7 @@ def _curve(entity: Any) -> Outline:
 
 
 def _corners(entity: Any) -> tuple[list[Point], float]:
-    """Corners on the entity, and how far it may be off the chords between them."""
+    """Corners on the entity, and the largest distance between it and the chords."""
     if entity.dxftype() == "LINE":
         return [_flat(entity.dxf.start), _flat(entity.dxf.end)], 0.0
     is_round = entity.dxftype() in ("CIRCLE", "ARC")
@@ -107,8 +107,8 @@ def _corners(entity: Any) -> tuple[list[Point], float]:
     if not (size > 0 and math.isfinite(size)):
         raise MeshFileError("bad-record", f"{entity.dxftype()} without size")
     deviation = FLATNESS * size
-    # ezdxf measures in the middle of a chord, where a curve of many bends may cross it: half of
-    # what is granted leaves room.
+    # ezdxf measures the error at the middle of a chord, where a wavy curve may cross the chord.
+    # Half of the allowed deviation leaves a margin.
     return [_flat(point) for point in entity.flattening(deviation / 2)], deviation
 
 

@@ -15,13 +15,13 @@ from msgspec import Struct
 
 from satcheck.scene.drawing.contour import Point
 
-# Ends of lines that meet lie within this of each other, relative to the drawing: a rounding of
-# the written digits, no gap.
+# Ends of lines closer than this, relative to the drawing, are joined: the difference is a
+# rounding of the written digits and not a gap.
 JOIN = 1e-9
 
 
 class Line(Struct, frozen=True):
-    """An open line through its points. deviation: as of a Contour."""
+    """An open line through its points. deviation: as in Contour."""
 
     points: tuple[Point, ...]
     deviation: float

@@ -1,6 +1,6 @@
-"""Drawings are untrusted input to large parsers: they are read in a child process.
+"""Reads drawings in a child process, because they are untrusted input to large parsers.
 
-A request and its answer are messages in MessagePack, of which msgspec checks the types.
+The request and its answer are MessagePack messages, and msgspec checks their types.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class _Request(msgspec.Struct, frozen=True):
-    """whole: all shapes together."""
+    """whole: all shapes become one sheet."""
 
     format: str
     whole: bool
@@ -37,7 +37,7 @@ class SheetMessage(msgspec.Struct, frozen=True, tag=True):
 
 
 class DrawingMessage(msgspec.Struct, frozen=True, tag=True):
-    """sheets: one for all shapes together, or one each. units, ignored: as of a Drawing."""
+    """sheets: one for all shapes, or one for each. units, ignored: as in Drawing."""
 
     units: str | None
     ignored: tuple[str, ...]
@@ -47,7 +47,7 @@ class DrawingMessage(msgspec.Struct, frozen=True, tag=True):
 def read_drawing(
     form: str, data: bytes, children: ReadingChildren, *, whole: bool, seconds: float
 ) -> DrawingMessage:
-    """Raises MeshFileError for a refusal, WorkerError for a child that died."""
+    """Raises MeshFileError if the drawing is refused, WorkerError if the child died."""
     request = msgspec.msgpack.encode(_Request(form, whole, data))
     reply = children.ask(__name__, request, seconds=seconds)
     answer = msgspec.msgpack.decode(reply, type=DrawingMessage | Refusal)
@@ -57,7 +57,7 @@ def read_drawing(
 
 
 def serve(message: bytes) -> bytes:
-    """In the child."""
+    """Runs in the child process."""
     request = msgspec.msgpack.decode(message, type=_Request)
     answer: DrawingMessage | Refusal
     try:

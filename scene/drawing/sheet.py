@@ -1,8 +1,9 @@
-"""From contours to triangles in the plane: a sheet.
+"""Turns contours into a sheet: signed triangles in the plane.
 
-The triangles are signed, and their boundary is the contours, edge by edge. So the number of
-triangles that cover a point, clockwise ones taken off, is the winding number of the contours there:
-no area has to be compared, and what the triangles cover is what the non-zero rule fills.
+The boundary of the triangles is exactly the edges of the contours. Therefore the number of
+counter-clockwise triangles over a point minus the number of clockwise ones is the winding number of
+the contours there. The triangles cover exactly what the non-zero rule fills, and no areas have to
+be compared.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from satcheck.scene.planar.turns import turns
 
 
 class Sheet(Struct, frozen=True):
-    """points: (n, 2); triangles: (m, 3), signed as above. deviation, inscribed: as of a contour, of
+    """points: (n, 2); triangles: (m, 3), signed as above. deviation, inscribed: as in Contour, for
     the whole area."""
 
     name: str
@@ -35,8 +36,8 @@ class Sheet(Struct, frozen=True):
 
 
 def sheet_of(shape: DrawnShape) -> Sheet:
-    """Raises MeshFileError: the library's triangles are not bounded by the contours, or contours
-    cross under the even-odd rule."""
+    """Raises MeshFileError if the contours are not the boundary of the triangles from the library,
+    or if contours cross under the even-odd rule."""
     areas = [_sheet_of(shape)] if shape.contours else []
     for contour in shape.filled:
         areas.append(_sheet_of(DrawnShape(shape.name, (contour,), "nonzero")))
@@ -44,8 +45,8 @@ def sheet_of(shape: DrawnShape) -> Sheet:
 
 
 def united(sheets: list[Sheet]) -> Sheet:
-    """What any of them covers, by the name of the first. Raises MeshFileError: one winds both ways
-    round, and another could take back what it covers."""
+    """The union of the sheets, named as the first. Raises MeshFileError if one winds in both
+    directions, because another sheet could then cancel what it covers."""
 
     if len(sheets) == 1:
         return sheets[0]
@@ -61,7 +62,7 @@ def united(sheets: list[Sheet]) -> Sheet:
 
 
 def _upward(sheet: Sheet) -> npt.NDArray[np.int64]:
-    """Its triangles, turned over where they cover points less than never."""
+    """Its triangles, turned over if they cover points a negative number of times."""
 
     turned = sheet.triangles[:, ::-1]
     signs = turns(sheet.points, sheet.triangles)
@@ -89,7 +90,7 @@ def _sheet_of(shape: DrawnShape) -> Sheet:
             f"shape {shape.name!r}: outlines that cross under the even-odd rule are not read",
         )
     deviation = max(contour.deviation for contour in contours)
-    inscribed = len(contours) == 1 and contours[0].inscribed  # a hole within its curve adds area
+    inscribed = len(contours) == 1 and contours[0].inscribed  # polygons of holes lie within them
     return Sheet(shape.name, points, triangles, deviation, inscribed)
 
 
@@ -108,7 +109,7 @@ def _edges(sizes: list[int]) -> Counter[tuple[int, int]]:
 
 
 def _boundary(triangles: npt.NDArray[np.int64]) -> Counter[tuple[int, int]]:
-    """Directed edges that no neighbour takes back, each as often as it is left over."""
+    """Directed edges without an opposite edge, each with its multiplicity."""
     edges: Counter[tuple[int, int]] = Counter()
     for a, b, c in triangles.tolist():
         edges.update(((a, b), (b, c), (c, a)))
@@ -116,10 +117,11 @@ def _boundary(triangles: npt.NDArray[np.int64]) -> Counter[tuple[int, int]]:
 
 
 def _alternating(contours: tuple[Contour, ...]) -> list[Contour]:
-    """Contours that hold an even number of others' areas counter-clockwise, the rest clockwise.
+    """Turns each contour: counter-clockwise if it lies within an even number of others, else
+    clockwise.
 
-    For contours that do not cross, the non-zero rule then fills what the even-odd rule does; that
-    they do not is seen later, by no point being covered twice.
+    If contours do not cross, the non-zero rule then fills the same points as the even-odd rule. A
+    later step checks that they do not cross: no point may be covered twice.
     """
     turned = []
     for contour in contours:
@@ -133,8 +135,8 @@ def _alternating(contours: tuple[Contour, ...]) -> list[Contour]:
 
 
 def _holds(polygon: tuple[Point, ...], point: Point) -> bool:
-    """By the parity of the edges that a ray to the right crosses, in float64: a wrong answer makes
-    a shape that covers a point twice or less than never, and is refused."""
+    """Decides by the parity of the edges that a ray to the right crosses, in float64. A wrong
+    answer leads to a shape with a coverage other than 0 or 1, which is refused."""
     x, y = point
     inside = False
     for (ax, ay), (bx, by) in zip(polygon, (*polygon[1:], polygon[0]), strict=True):

@@ -1,8 +1,8 @@
-"""SVG by a reader of our own: every shape that is filled or closed is a body's outline.
+"""Reads SVG: every shape that is filled or closed is the outline of a body.
 
-Coordinates are the user units of the outermost element, in the unit that its width and height state
-(`svg_size`), and y is as in the file: no conversion to pixels, which would round them. An element
-that cannot be read is a shape that cannot be used, with all that it holds.
+Coordinates are user units of the outermost element, in the unit that its width and height state
+(`svg_size`). They are not converted to pixels, because that would round them. y points as in the
+file. If an element cannot be read, the element and all its children become one refused shape.
 Source: W3C, "Scalable Vector Graphics (SVG) 1.1".
 """
 
@@ -39,13 +39,13 @@ _HREFS = ("href", "{http://www.w3.org/1999/xlink}href")
 _SIZE = frozenset({"width", "height"})
 _GROUPS = frozenset({"a", "g"})
 _ANIMATIONS = frozenset({"animate", "animateMotion", "animateTransform", "set"})
-# Drawn only where something else refers to them, or never.
+# Drawn only if another element refers to them, or never.
 _APART = frozenset(
     {"clipPath", "cursor", "defs", "desc", "filter", "font", "font-face", "linearGradient"}
     | {"marker", "mask", "metadata", "pattern", "radialGradient", "style", "symbol", "title"}
     | {"view", *_ANIMATIONS}
 )
-_HARMLESS = re.compile(r"color|opacity|fill-opacity|stop-|stroke")  # of what is animated
+_HARMLESS = re.compile(r"color|opacity|fill-opacity|stop-|stroke")  # if animated
 _DRAWN = SHAPES | _GROUPS | {"svg", "switch", "symbol", "use"}
 
 
@@ -54,14 +54,14 @@ def read_svg(data: bytes) -> Drawing:
     _check_xml(data)
     root = ElementTree.fromstring(data)
     if _kind(root) != "svg":
-        raise MeshFileError("not-this-format", "not an SVG file: its root is no svg element")
+        raise MeshFileError("not-this-format", "not an SVG file: its root is not an svg element")
     reading = _Reading(root)
     shapes = tuple(reading.shapes())
     return Drawing(shapes, reading.drawn.units, tuple(sorted(reading.warnings)))
 
 
 def _check_xml(data: bytes) -> None:
-    """No entities, no style sheets elsewhere, and a line number for what is not well formed."""
+    """Refuses entities, external style sheets, and XML that is not well formed, with the line."""
     parser = guarded_parser()
 
     def check_instruction(target: str, _: str) -> None:
@@ -73,7 +73,7 @@ def _check_xml(data: bytes) -> None:
 
 
 def _kind(element: Element) -> str:
-    """Its local name; "" for what is no element of SVG."""
+    """Its local name; "" if it is not an element of SVG."""
     space, _, name = str(element.tag).rpartition("}")
     return name if space in ("", "{" + _NAMESPACE) else ""
 
@@ -143,7 +143,7 @@ class _Reading:
         return Viewport(*sides)
 
     def _held(self, element: Element) -> Iterator[tuple[Element, int]]:
-        """What is drawn with an element."""
+        """The elements drawn with an element, once each."""
         yield from ((child, 1) for child in element if _kind(child) not in _APART | {""})
         if _kind(element) == "use":
             target = self._by_id.get(_href(element)[1:])
@@ -151,7 +151,7 @@ class _Reading:
                 yield target, 1
 
     def _drawn(self, element: Element, place: _Place) -> DrawnShape | list[tuple[Element, _Place]]:
-        """A shape, or what is to be drawn in the place of an element, the last first."""
+        """A shape, or the elements to draw instead of this one, the last first."""
         kind = _kind(element)
         if kind in _APART and not (kind == "symbol" and place.caller is not None):
             return []
@@ -185,7 +185,7 @@ class _Reading:
         href = _href(element)
         target = self._by_id.get(href[1:]) if href.startswith("#") else None
         if target is None:
-            raise MeshFileError("index-out-of-range", f"it refers to {href!r}, which is not there")
+            raise MeshFileError("index-out-of-range", f"it refers to the missing {href!r}")
         moved = self._offset(element, place)
         return [(target, replace(place, affine=compose(place.affine, moved), caller=element))]
 
@@ -243,7 +243,7 @@ def _href(element: Element) -> str:
 
 
 def _check_still(element: Element) -> None:
-    """Nothing that is set in time moves or shows it."""
+    """Refuses animations that move, show or hide the element."""
     for child in element:
         if _kind(child) in _ANIMATIONS and not _HARMLESS.match(child.get("attributeName", "")):
             raise unread("animations are not read")
@@ -251,12 +251,12 @@ def _check_still(element: Element) -> None:
 
 def _is_css(element: Element) -> bool:
     if element.get("media", "all").strip() not in ("", "all", "screen"):
-        raise unread("a style sheet for some media alone is not read")
+        raise unread("a style sheet for some media only is not read")
     return element.get("type", "text/css").strip() in ("", "text/css")
 
 
 def _is_chosen(element: Element) -> bool:
-    """By its conditions: none is a program that has extensions."""
+    """Whether its conditions hold. No extensions are supported."""
     if element.get("systemLanguage") or element.get("requiredFeatures"):
-        raise unread("drawn for some languages or features alone: not read")
+        raise unread("drawn for some languages or features only: not read")
     return _kind(element) != "" and not element.get("requiredExtensions")

@@ -12,9 +12,9 @@ _ARGUMENTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a
 
 
 def contours_of(d: str, filled: bool) -> tuple[list[Contour], bool]:
-    """The closed contours, and whether an open line was left out; filling closes every one.
+    """The closed contours, and whether an open line was left out.
 
-    Raises MeshFileError where the data are malformed.
+    A filled path closes every line. Raises MeshFileError if the data are malformed.
     """
     pen = _Pen(filled)
     for letter, given in _commands(d):
@@ -28,7 +28,7 @@ def _commands(d: str) -> Iterator[tuple[str, list[float]]]:
     while place < len(d):
         letter = d[place]
         if letter.lower() not in _ARGUMENTS or (first and letter not in "mM"):
-            raise bad(f"path data: {d[place : place + 12]!r} is no command")
+            raise bad(f"path data: {d[place : place + 12]!r} is not a command")
         start, place, first = place, skip(d, place + 1), False
         goes_on = True
         while goes_on:
@@ -41,10 +41,10 @@ def _commands(d: str) -> Iterator[tuple[str, list[float]]]:
 
 
 def _arguments(d: str, place: int, letter: str) -> tuple[list[float] | None, int]:
-    """Of one command, and the place after them; None: they are not all there."""
+    """The arguments of one command, and the place after them; None: some are missing."""
     given: list[float] = []
     for k in range(_ARGUMENTS[letter]):
-        if letter == "a" and k in (3, 4):  # a flag, which needs no space before what follows
+        if letter == "a" and k in (3, 4):  # a flag, which needs no space after it
             if d[place : place + 1] not in ("0", "1"):
                 return None, place
             value, place = float(d[place]), place + 1
@@ -65,7 +65,7 @@ class _Pen:
         self._filled = filled
         self._tracer: Tracer | None = None
         self._start = self._here = (0.0, 0.0)
-        self._control: tuple[str, Point] | None = None  # of the curve before, for smooth ones
+        self._control: tuple[str, Point] | None = None  # last control point, for smooth curves
 
     def draw(self, letter: str, given: list[float]) -> None:
         kind = letter.lower()
@@ -119,7 +119,7 @@ class _Pen:
 
 
 def trace_arc(tracer: Tracer, given: list[float], end: Point) -> None:
-    """given: radii, turn of the axis in degrees, flags, and what is left."""
+    """given: radii, turn of the axis in degrees, flags, end point."""
     start = tracer.here
     rx, ry = abs(given[0]), abs(given[1])
     if rx == 0 or ry == 0 or start == end:
@@ -128,7 +128,7 @@ def trace_arc(tracer: Tracer, given: list[float], end: Point) -> None:
         return
     c, s = math.cos(math.radians(given[2])), math.sin(math.radians(given[2]))
     dx, dy = (start[0] - end[0]) / 2, (start[1] - end[1]) / 2
-    x, y = (c * dx + s * dy) / rx, (c * dy - s * dx) / ry  # of the unit circle, from the middle
+    x, y = (c * dx + s * dy) / rx, (c * dy - s * dx) / ry  # unit circle, from mid-chord
     reach = math.hypot(x, y)
     if reach > 1:
         rx, ry, x, y = rx * reach, ry * reach, x / reach, y / reach

@@ -32,7 +32,7 @@ def outlines(
     else:
         rx, ry = sizes.size("rx", "x"), sizes.size("ry", "y")
         if (rx is None) != (ry is None):
-            raise unread("an ellipse with one radius alone: versions of SVG differ")
+            raise unread("an ellipse with only one radius: versions of SVG differ")
         contour = _ellipse(sizes, rx, ry)
     return [] if contour is None else [contour], False
 

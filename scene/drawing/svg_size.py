@@ -1,9 +1,9 @@
-"""How large the outermost element is drawn: the scale of its user units, and the unit it states.
+"""The drawn size of the outermost element: the scale of its user units, and the unit it states.
 
-`width` and `height` are the size of what the viewBox shows. `preserveAspectRatio` says how that
-fits: the smaller of the two scales (meet), the larger (slice), or each along its own side (none). A
-side that is not given follows from the other by the proportions of the viewBox. Source: W3C,
-"Scalable Vector Graphics (SVG) 2", chapter 8.
+`width` and `height` are the drawn size of the viewBox. `preserveAspectRatio` chooses the scale: the
+smaller one (meet), the larger one (slice), or a separate one for each side (none). A missing side
+follows from the other by the proportions of the viewBox. Source: W3C, "Scalable Vector Graphics
+(SVG) 2", chapter 8.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from satcheck.scene.drawing.svg_values import (
     view_box,
 )
 
-# The unit that a length states, and how many of the written ones make one of it.
+# Unit in a length -> (unit of length, how many of the written ones make one of it).
 _STATED = {
     "um": ("um", 1.0),
     "mm": ("mm", 1.0),
@@ -41,7 +41,7 @@ _SIDE = re.compile(rf"\s*({NUMBER})\s*([a-z]*)\s*")
 
 
 class Drawn(Struct, frozen=True):
-    """affine: from user units to coordinates. units: of these; None: the file does not say."""
+    """affine: from user units to coordinates. units: of the coordinates; None: not stated."""
 
     affine: Affine = IDENTITY
     units: str | None = None
@@ -53,8 +53,8 @@ class _Side(Struct, frozen=True):
 
 
 def drawn_size(attributes: Mapping[str, str], styled: bool) -> Drawn:
-    """Of the outermost element. styled: a style sets its size, which is not read. Raises
-    MeshFileError: it is not stretched evenly, and not said how far; it has no size."""
+    """The size of the outermost element. styled: a style sets its size; such a size is not read.
+    Raises MeshFileError if it has no size, or if it is stretched unevenly by an unknown amount."""
     box = view_box(attributes.get("viewBox", ""))
     if box is None:
         return Drawn()
@@ -86,7 +86,7 @@ def drawn_size(attributes: Mapping[str, str], styled: bool) -> Drawn:
 
 
 def _side(text: str, key: str) -> _Side | Literal["auto", "open"]:
-    """open: it depends on what the file does not say."""
+    """ "open": it depends on something outside of the file."""
     if text.strip() in ("auto", ""):
         return "auto"
     match = _SIDE.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
@@ -94,12 +94,12 @@ def _side(text: str, key: str) -> _Side | Literal["auto", "open"]:
         return "open"
     value = float(match[1])
     if not value > 0:
-        raise bad(f"{key}: {text.strip()} leaves nothing to draw")
+        raise bad(f"{key}: {text.strip()} is not positive")
     return _Side(value, match[2])
 
 
 def _length(side: _Side, units: str | None) -> float:
-    """In these units; None: pixels."""
+    """The length in these units; None: in pixels."""
     if units is None:
         return side.value * _PIXELS_IN[side.written]
     unit, parts = _STATED.get(side.written, (None, 1.0))

@@ -1,6 +1,6 @@
-"""What attributes, style and style sheets say of an element: tinycss2 reads them, and cssselect2
-says which rules are about it. A rule that neither understands is left out where it sets nothing
-that a shape depends on, and refused where it does. Source: W3C, "SVG 1.1", chapter 6.
+"""Computes the style of an element from its attributes and style sheets. tinycss2 parses the rules,
+and cssselect2 matches them to elements. A rule that they do not understand is refused if it sets a
+property that a shape depends on, and is ignored otherwise. Source: W3C, "SVG 1.1", chapter 6.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from msgspec import Struct
 from satcheck.scene.drawing.contour import FillRule
 from satcheck.scene.drawing.svg_values import unread
 
-# What is drawn, and where: by its value, or it may not be set by style at all.
+# Properties whose values are read. All other properties that move or change a shape are refused
+# in styles.
 _READ = frozenset({"clip-path", "display", "fill", "fill-rule", "mask", "visibility"})
 _MOVING = frozenset(
     {"cx", "cy", "d", "height", "r", "rx", "ry", "width", "x", "y"}
@@ -27,13 +28,13 @@ _MOVING = frozenset(
 _HARMLESS_RULES = frozenset({"charset", "font-face", "namespace"})
 _SHOWN = frozenset({"inline", "block", "inline-block", "list-item", "flex", "grid", "table"})
 _FILL_RULES: dict[str, FillRule] = {"nonzero": "nonzero", "evenodd": "evenodd"}
-_SIZE = frozenset({"width", "height"})  # of the outermost element: shapes keep their user units
+_SIZE = frozenset({"width", "height"})  # of the outermost element
 _OF_TRANSFORM = frozenset({"transform-origin", "transform-box"})
 _HARMLESS_VALUES = {"transform": "none", "transform-origin": "0 0"}
 
 
 class Style(Struct, frozen=True):
-    """As computed. is_cut: by a clip path or a mask."""
+    """The computed style. is_cut: a clip path or a mask cuts the element."""
 
     is_displayed: bool = True
     is_visible: bool = True
@@ -49,7 +50,7 @@ class _Declaration(Struct, frozen=True):
 
 
 class StyleSheets:
-    """All rules of a document. Raises MeshFileError for those that are not read."""
+    """All rules of a document. Raises MeshFileError for unsupported rules."""
 
     def __init__(self, sheets: Iterable[str], root: Element) -> None:
         elements = cssselect2.ElementWrapper.from_xml_root(root).iter_subtree()
@@ -71,11 +72,11 @@ class StyleSheets:
             if declarations:
                 selector = tinycss2.serialize(rule.prelude).strip()[:60]
                 key = declarations[0].key
-                message = f"style sheet: {selector!r} sets {key}: no selector that is read"
+                message = f"style sheet: {selector!r} sets {key}: this selector is not read"
                 raise unread(message) from None
 
     def style_of(self, element: Element, above: Style, is_root: bool) -> Style:
-        """above: of the element that it is drawn in. Raises MeshFileError for what is not read."""
+        """above: the style of its parent. Raises MeshFileError for unsupported styles."""
         values = self.values_of(element)
         for key in sorted(_MOVING & values.keys()):
             if (is_root and key in _SIZE) or (
@@ -103,9 +104,10 @@ class StyleSheets:
         )
 
     def values_of(self, element: Element) -> dict[str, str]:
-        """What is set at the element itself, of the properties that its outline depends on.
+        """The properties set at the element itself that its outline depends on.
 
-        Attributes weigh less than rules, these less than its style, and what is important most.
+        Rules override attributes, the style attribute overrides rules, and `!important` overrides
+        all.
         """
         declarations = [
             _Declaration(key, value.strip().lower())
@@ -135,7 +137,7 @@ def _check_other_rule(rule: Any) -> None:
 
 
 def _declarations(block: Any) -> Iterator[_Declaration]:
-    """Those of _READ and _MOVING. Raises MeshFileError."""
+    """The declarations of properties in _READ and _MOVING. Raises MeshFileError."""
     for node in tinycss2.parse_blocks_contents(block, True, True):
         if node.type in ("at-rule", "qualified-rule"):
             raise unread(f"style: {node.serialize()[:40]!r} is not read")

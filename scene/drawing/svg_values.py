@@ -19,7 +19,7 @@ _ONE = re.compile(NUMBER)
 _BETWEEN = re.compile(r"[\s,]*")
 LONGEST_LENGTH = 64  # characters
 _LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-z%]*)\s*")
-# User units of a length with a unit, where the drawing is not scaled.
+# User units in one of a unit, if the drawing is not scaled.
 PIXELS = {
     "": 1.0,
     "px": 1.0,
@@ -49,9 +49,9 @@ def skip(text: str, place: int) -> int:
 
 
 def number_at(text: str, place: int, what: str) -> tuple[float, int] | None:
-    """The number that begins there, as long as it can be, and the place after it; None: none does.
+    """The longest number that starts at `place`, and the place after it; None: there is none.
 
-    Raises MeshFileError for one that is not finite.
+    Raises MeshFileError for a number that is not finite.
     """
     match = _ONE.match(text, place)
     if match is None:
@@ -63,29 +63,31 @@ def number_at(text: str, place: int, what: str) -> tuple[float, int] | None:
 
 
 def numbers(text: str, what: str) -> list[float]:
-    """Separated by spaces or commas, or where one cannot go on. Raises MeshFileError."""
+    """All numbers of a text. A space, a comma or a character that cannot continue a number ends a
+    number. Raises MeshFileError."""
     values = []
     place = skip(text, 0)
     while place < len(text):
         parsed = number_at(text, place, what)
         if parsed is None:
-            raise bad(f"{what}: {text[place : place + 40]!r} is no number")
+            raise bad(f"{what}: {text[place : place + 40]!r} is not a number")
         values.append(parsed[0])
         place = skip(text, parsed[1])
     return values
 
 
 class Viewport(Struct, frozen=True):
-    """What percentages are of, user units; None: the file does not say."""
+    """The lengths that percentages refer to, user units; None: not stated."""
 
     width: float | None
     height: float | None
 
     def length(self, text: str, along: str, what: str) -> float:
-        """User units. along: "x", "y", or "d" for what is neither. Raises MeshFileError."""
+        """A length in user units. along: "x", "y", or "d" for the diagonal. Raises
+        MeshFileError."""
         match = _LENGTH.fullmatch(text) if len(text) <= LONGEST_LENGTH else None
         if match is None:
-            raise bad(f"{what}: {text[:40]!r} is no length")
+            raise bad(f"{what}: {text[:40]!r} is not a length")
         if match[2] == "%":
             return float(match[1]) / 100 * self._whole(along, what)
         if match[2] not in PIXELS:
@@ -159,18 +161,18 @@ def _function(name: str, given: list[float]) -> Affine:
 
 
 def view_box(text: str) -> tuple[float, float, float, float] | None:
-    """min x, min y, width, height; None where the attribute is empty. Raises MeshFileError."""
+    """min x, min y, width, height; None if the attribute is empty. Raises MeshFileError."""
     if not text.strip():
         return None
     sides = numbers(text, "viewBox")
     if len(sides) != 4 or sides[2] <= 0 or sides[3] <= 0:
-        raise bad(f"viewBox: {text[:40]!r} is no rectangle")
+        raise bad(f"viewBox: {text[:40]!r} is not a rectangle")
     return (sides[0], sides[1], sides[2], sides[3])
 
 
 class AspectRatio(Struct, frozen=True):
-    """left, top: the share of the room that is left over before the drawing. slices: the larger
-    scale is taken, and the drawing reaches beyond its room."""
+    """left, top: the share of the free space before the drawing. slices: the larger scale is used,
+    and the drawing reaches beyond its frame."""
 
     left: float
     top: float

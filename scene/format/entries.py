@@ -1,4 +1,4 @@
-"""A scene file as data, checked, its meshes not yet read."""
+"""A scene file as checked data. Its meshes are not read yet."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from satcheck.scene.motion import Motion
     from satcheck.scene.rules import Rule
 
-# What a scene file of each form names as its schema.
+# The name of the schema in a scene file of each form.
 SCENE_1 = "satcheck.scene/1"
 SIMPLE = "satcheck-scene-1"
 
@@ -36,8 +36,8 @@ NO_MESH = MeshPath("", Path())
 class BodyEntry(Struct, frozen=True):
     """One body as the scene file describes it.
 
-    mesh: NO_MESH where there is a shape instead. part: what to take of the mesh file; None: all.
-    units: of the mesh, in the place of what its file states. surface_tolerance: in units of the
+    mesh: NO_MESH if the body is a shape. part: the name of a part of the mesh file; None: the whole
+    file. units: of the mesh; they override those of its file. surface_tolerance: in units of the
     scene.
     """
 
@@ -54,7 +54,7 @@ class BodyEntry(Struct, frozen=True):
 
 
 class SceneFile(Struct, frozen=True):
-    """ids are as written; rules and motions speak of the bodies of this file alone."""
+    """ids: as written. Rules and motions refer to bodies of this file only."""
 
     path: str
     name: str
@@ -68,7 +68,7 @@ class SceneFile(Struct, frozen=True):
 
 
 def unknown_units(units: str | None, path: str) -> list[Issue]:
-    """A warning about units that a scene declares and that are none."""
+    """A warning if a scene declares unknown units."""
     if units is None or is_unit(units):
         return []
     message = f"unknown units {units!r}: lengths are plain numbers"
@@ -76,7 +76,7 @@ def unknown_units(units: str | None, path: str) -> list[Issue]:
 
 
 def unknown_groups(ignored: frozenset[str], bodies: Iterable[BodyEntry], path: str) -> list[Issue]:
-    """Warnings about groups of ignore_within_groups that have no body."""
+    """Warnings about groups in ignore_within_groups without a body."""
     groups = {group for body in bodies for group in body.groups}
     return [
         issue(

@@ -1,7 +1,7 @@
-"""Scene files as one scene, beside each other and other inputs.
+"""Joins several scene files and other inputs into one scene.
 
-Motions and groups of a file are about its own bodies. Its rules are about these and about what has
-no rules, the mesh files and robots beside it; the rules of a file without bodies are about all
+Motions and groups of a file apply to its own bodies. Its rules apply to these, and to mesh files
+and robots, which have no rules of their own. The rules of a file without bodies apply to all
 bodies.
 """
 
@@ -18,13 +18,13 @@ from satcheck.scene.motion import Motion, scaled_motion
 from satcheck.scene.plain_ids import UniqueNames
 from satcheck.scene.rules import Rule, Selector
 
-MOST_PAIRS = 100_000  # of a rule that has to be written out
+MOST_PAIRS = 100_000  # of a rule that is expanded pair by pair
 
 
 class JoinedScenes:
-    """What the scene files of a check say besides their bodies, in the names of the check.
+    """Rules, motions and groups of all scene files, with the ids that bodies have in the check.
 
-    check_static: as one of them asks. ignored: groups whose pairs are not checked.
+    check_static: whether any file requires it. ignored: groups whose pairs are not checked.
     """
 
     def __init__(self) -> None:
@@ -35,13 +35,14 @@ class JoinedScenes:
         self._motions: list[tuple[str, Motion]] = []  # with the path of their file
 
     def groups_of(self, scene: SceneFile) -> dict[str, str]:
-        """Its groups -> their names here: one that another scene has too is another group."""
+        """Its groups -> their names in the check. Groups of different scenes are different, even if
+        they have the same name."""
         groups = dict.fromkeys(group for entry in scene.bodies for group in entry.groups)
         groups |= dict.fromkeys(sorted(scene.ignore_within_groups))
         return {group: self._group_names.unique(group) for group in groups}
 
     def add(self, scene: SceneFile, ids: Mapping[str, str], groups: Mapping[str, str]) -> None:
-        """ids: those in the file -> those here; groups: likewise, from `groups_of`."""
+        """ids: in the file -> in the check; groups: likewise, from `groups_of`."""
         self._scenes.append((scene, ids))
         self.ignored.update(groups[group] for group in scene.ignore_within_groups)
         self.check_static |= scene.check_static
@@ -51,7 +52,7 @@ class JoinedScenes:
         ]
 
     def motions(self, scales: Mapping[str, float]) -> tuple[Motion, ...]:
-        """scales: path of a scene -> the factor of its lengths; 1 where left out."""
+        """scales: path of a scene -> the factor of its lengths; 1 if missing."""
         if not self._motions:
             return ()
         return tuple(scaled_motion(motion, scales.get(path, 1.0)) for path, motion in self._motions)
@@ -59,8 +60,8 @@ class JoinedScenes:
     def rules(
         self, everybody: Sequence[Body | Unreadable], scales: Mapping[str, float]
     ) -> tuple[Rule, ...]:
-        """everybody: all bodies of the check. scales: as for motions. Raises SceneFileError where a
-        rule has to be written out for too many pairs."""
+        """everybody: all bodies of the check. scales: as for motions. Raises SceneFileError if a
+        rule has to be expanded into too many pairs."""
         placed = {id_ for _, ids in self._scenes for id_ in ids.values()}
         bare = [body for body in everybody if body.id not in placed]
         rules: list[Rule] = []
@@ -80,14 +81,14 @@ def _own_rules(
     bare: Sequence[Body | Unreadable],
     everybody: Sequence[Body | Unreadable],
 ) -> Iterator[Rule]:
-    """A rule whose selectors match the same bodies among all as in its file and among the bare ones
-    stays; another one is written out, pair by pair."""
+    """Keeps a rule if its selectors match the same bodies in the whole check as in its file and
+    among the bodies without rules. Otherwise it is expanded pair by pair."""
     known: dict[Selector, tuple[bool, list[str]]] = {}
     known_here = (*scene.bodies, *bare)
     final = {id(b): ids[b.id] for b in scene.bodies} | {id(b): b.id for b in bare}
 
     def chosen(selector: Selector) -> tuple[bool, list[str]]:
-        """(whether it matches among all what it matches in the file, these)."""
+        """(whether it matches the same bodies in the whole check as in its file, these bodies)."""
         if selector not in known:
             own = [final[id(b)] for b in selector.select(known_here)]
             among_all = {b.id for b in selector.select(everybody)}

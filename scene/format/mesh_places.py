@@ -12,10 +12,11 @@ from satcheck.scene.loading.source import FORMATS
 
 
 class MeshPlaces:
-    """Finds the mesh files of one scene file, each judged once however many bodies use it.
+    """Finds the mesh files of one scene file.
 
-    path: of the scene file, for messages; location: where it lies. anywhere: meshes may lie
-    outside of its folder. Links are followed before that is judged.
+    Each is checked once, even if many bodies use it. path: of the scene file, for messages;
+    location: on disk. anywhere: meshes may lie outside of its folder. Links are resolved before
+    this is decided.
     """
 
     def __init__(self, path: str, location: Path, *, anywhere: bool) -> None:
@@ -25,7 +26,7 @@ class MeshPlaces:
         self._known: dict[str, MeshPath | Wrong] = {}
 
     def find(self, value: object) -> MeshPath:
-        """The mesh file that a body names; Wrong for one that is not to be opened, or not there."""
+        """The mesh file that a body names. Raises Wrong if it is missing or may not be opened."""
         mesh = text(value)
         if mesh not in self._known:
             try:
@@ -48,7 +49,7 @@ class MeshPlaces:
         if self._root is not None and not location.resolve().is_relative_to(self._root):
             message = (
                 f"mesh file {shown(mesh)} lies outside of the scene's folder: refused "
-                "(--allow-outside lets it)"
+                "(allow it with --allow-outside)"
             )
             raise Wrong(message, code="outside-path")
         if not location.is_file():

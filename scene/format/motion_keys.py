@@ -30,17 +30,17 @@ _NO_TURN: Quaternion = (0.0, 0.0, 0.0, 1.0)
 def read_motion(
     table: Table, bodies: Sequence[BodyEntry] | None, moved: dict[str, str]
 ) -> Motion | None:
-    """None where it is wrong, which the table then knows.
+    """Reads one motion; None if it has errors, which the table collects.
 
-    bodies: of the scene; None where they are not known for certain. moved: the bodies that move
-    already, each with the motion that moves it; is added to.
+    bodies: of the scene; None if they are not known. moved: id of each moving body -> its motion;
+    this call adds to it.
     """
     found_before = table.problem_count
     table.only(_KNOWN)
     selectors: list[Selector] = table.required("bodies", _selectors, [])
     ids = () if bodies is None else _ids(table, selectors, bodies, moved)
     if sum(key in table for key in PATHS) != 1:
-        table.wrong(f"one of {', '.join(PATHS)} is needed, and no more")
+        table.wrong(f"exactly one of {', '.join(PATHS)} is required")
         return None
     try:
         path = _path(table)
@@ -101,7 +101,7 @@ def _path(table: Table) -> Path:
 def _waypoint(table: Table) -> Waypoint:
     table.only(_WAYPOINT_KEYS)
     if "quaternion" in table and "euler" in table:
-        table.wrong("the quaternion says how the body is turned: leave this out", "euler")
+        table.wrong("the quaternion already sets the rotation: remove this key", "euler")
     return Waypoint(
         time=table.required("time", _time, 0.0),
         position=table.required("position", triple, _ORIGIN),
@@ -111,7 +111,8 @@ def _waypoint(table: Table) -> Waypoint:
 
 
 def _refuse_long_turns(before: Table, after: Table) -> None:
-    """Between two poses a body takes the shortest turn, which angles may not mean."""
+    """Refuses more than half a turn between two poses: a body takes the shortest turn, which may
+    differ from what the angles mean."""
     if "quaternion" in before or "quaternion" in after:
         return
     start, end = (table.read("euler", triple, _ORIGIN) for table in (before, after))

@@ -1,4 +1,4 @@
-"""Where a body is: position, rotation and scale, or a matrix -> one transform."""
+"""Reads a placement, by position, rotation and scale or as a matrix, into one transform."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from satcheck.scene.format.values import (
     triple,
 )
 
-# A matrix whose determinant is this small against the product of its row lengths is singular up
-# to the rounding of its own entries.
+# A matrix counts as singular if its determinant is smaller than this share of the product of its
+# row lengths. Such a determinant may come from the rounding of the entries alone.
 _SINGULAR = 2.0**-40
 
 _TURNS = ("quaternion", "euler")
@@ -40,16 +40,16 @@ _ORIGIN = (0.0, 0.0, 0.0)
 
 
 def placement(table: Table) -> Transform | None:
-    """Scaled first, then turned, then moved; None where the table says nothing of it."""
+    """Scales first, then rotates, then translates; None if the table has no such keys."""
     if table.values.keys().isdisjoint(KEYS):
         return None
     if "matrix" in table:
         for key in PARTS:
             if key in table:
-                table.wrong("the matrix says where the body is: leave this out", key)
+                table.wrong("the matrix already places the body: remove this key", key)
         return table.read("matrix", matrix, None)
     if all(key in table for key in _TURNS):
-        table.wrong("the quaternion says how the body is turned: leave this out", "euler")
+        table.wrong("the quaternion already sets the rotation: remove this key", "euler")
     x, y, z = table.read("position", triple, _ORIGIN)
     turn = table.read("quaternion", _quaternion, None) or table.read("euler", _euler, _NO_TURN)
     scale = table.read("scale", _scale, _NO_SCALE)
@@ -72,8 +72,8 @@ def moved(turn: Rotation, scale: Sequence[float], position: Sequence[float]) -> 
 
 
 def matrix(rows: Any) -> Transform:
-    """Four rows of four numbers, affine and not singular. Wrong names the first that is no finite
-    number."""
+    """Four rows of four numbers, affine and not singular. Raises Wrong, which names the first entry
+    that is not a finite number."""
     if not isinstance(rows, list) or [_length(row) for row in rows] != [4, 4, 4, 4]:
         raise Wrong(f"4 rows of 4 numbers expected, not {shown(rows)}")
     entries = numbers([entry for row in rows for entry in row])
@@ -90,7 +90,7 @@ def _length(row: Any) -> int:
 
 
 def singular(transform: Transform) -> str | None:
-    """Why a body cannot be placed by these finite numbers, None if it can."""
+    """The reason why the matrix cannot place a body; None: it can. All entries are finite."""
     if transform[12:] != (0.0, 0.0, 0.0, 1.0):
         return "the last row should be 0 0 0 1"
     a, b, c, _, d, e, f, _, g, h, i, _ = transform[:12]
@@ -105,10 +105,10 @@ def singular(transform: Transform) -> str | None:
 
 
 def quaternion(value: Any) -> Quaternion:
-    """(x, y, z, w) from [w, x, y, z], the order of scene files; of any length but zero."""
+    """(x, y, z, w) from [w, x, y, z], the order of scene files; of any length except zero."""
     w, x, y, z = quadruple(value)
     if not any((w, x, y, z)):
-        raise Wrong("a quaternion is not zero")
+        raise Wrong("a quaternion must not be zero")
     return x, y, z, w
 
 
@@ -123,18 +123,18 @@ def _euler(value: Any) -> Rotation:
 def _scale(value: Any) -> Vector:
     factors = triple(value) if isinstance(value, list) else (number(value),) * 3
     if 0.0 in factors:
-        raise Wrong("a scale of 0 leaves nothing", code="singular-transform")
+        raise Wrong("a scale must not be 0", code="singular-transform")
     return factors
 
 
 def euler_matrix(degrees: Sequence[float]) -> Rotation:
-    """Turned about the fixed axes x, then y, then z. Quarter turns are exact."""
+    """The rotation about the fixed axes x, then y, then z. Quarter turns are exact."""
     x, y, z = map(cos_sin, degrees)
     return about_fixed_axes(x, y, z)
 
 
 def quaternion_of_euler(degrees: Sequence[float]) -> Quaternion:
-    """The same turn as a unit quaternion (x, y, z, w)."""
+    """The same rotation as a unit quaternion (x, y, z, w)."""
     (cx, sx), (cy, sy), (cz, sz) = (cos_sin(angle / 2.0) for angle in degrees)
     return (
         sx * cy * cz - cx * sy * sz,

@@ -1,6 +1,7 @@
-"""Where the values of a document are written in its text; needed only for errors and edits.
+"""Finds where values stand in the text of a document.
 
-The syntax trees are those of tree-sitter, only for text that `tomllib` or `json` has accepted.
+Only errors and edits need this. tree-sitter builds the syntax trees, and only for text that
+`tomllib` or `json` has accepted.
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ _TABLES = frozenset({"object", "inline_table", "table", "table_array_element"})
 
 
 class Place(Struct, frozen=True):
-    """Offsets in the text: where the key or, in a list, the item starts; the value's extent.
+    """Offsets in the text: the start of the key (in a list, of the item), and the extent of the
+    value.
 
-    A TOML table under a header of its own has its header as key, and nothing as value.
+    A TOML table with a header has the header as its key and an empty value.
     """
 
     key: int
@@ -35,7 +37,7 @@ class Place(Struct, frozen=True):
 
 @dataclass(slots=True)
 class _Value:
-    """Offsets in bytes. unread: the nodes that hold members which are not in `members` yet."""
+    """Offsets in bytes. unread: nodes whose members are not in `members` yet."""
 
     key: int
     start: int
@@ -63,13 +65,13 @@ class _Value:
         owner.members[names[-1]] = value
 
     def table(self, name: str, header: int) -> _Value:
-        """The table, or the last one of an array of tables, that a header means."""
+        """The table of a header; of an array of tables, the last one."""
         value = self.members.setdefault(name, _Value(header, header, header))
         return value.members[len(value.members) - 1] if 0 in value.members else value
 
 
 class Positions:
-    """A value is found by going down to it; what lies beside the way is not looked at."""
+    """Places of values. A lookup parses only the nodes on the way to the value."""
 
     def __init__(self, text: str, *, toml: bool) -> None:
         self._text = text
@@ -82,7 +84,7 @@ class Positions:
         self._root = _toml_root(document) if toml else _value(0, _values(document)[0])
 
     def line(self, keys: Keys) -> int:
-        """Of what `keys` lead to, or of the innermost of them that is there; the first is 1."""
+        """The line of the value at `keys`, or of its innermost existing parent; counted from 1."""
         value = self._root
         for key in keys:
             inner = value.member(key)
@@ -92,7 +94,7 @@ class Positions:
         return self._text.count("\n", 0, self._offset(value.key)) + 1
 
     def place(self, keys: Keys) -> Place:
-        """KeyError where there is no such value."""
+        """Raises KeyError if there is no such value."""
         value = self._root
         for key in keys:
             inner = value.member(key)
@@ -102,7 +104,7 @@ class Positions:
         return Place(self._offset(value.key), self._offset(value.start), self._offset(value.end))
 
     def duplicates(self) -> Iterator[Keys]:
-        """The keys to each member that an object of a JSON document has twice."""
+        """The keys of each member that occurs twice in an object of a JSON document."""
         to_visit: list[tuple[Keys, Node]] = [((), node) for node in _values(self._document)]
         while to_visit:
             keys, node = to_visit.pop()

@@ -10,11 +10,11 @@ from satcheck.scene.errors import SceneFileError
 if TYPE_CHECKING:
     from satcheck.scene.format.positions import Key, Keys, Positions
 
-MOST = 20  # problems that are told of one file
+MOST = 20  # problems reported for one file
 
 
 class Wrong(Exception):
-    """A value is not what its key asks for. keys: the way to the culprit within the value."""
+    """A value is not what its key requires. keys: the path to the wrong part within the value."""
 
     def __init__(self, message: str, *keys: Key, code: str = "bad-scene") -> None:
         super().__init__(message)
@@ -24,7 +24,7 @@ class Wrong(Exception):
 
 
 class Problems:
-    """Collects the problems of one scene file. entries: each with the keys that lead to it."""
+    """Collects the problems of one scene file. entries: each problem with its keys."""
 
     def __init__(self) -> None:
         self.entries: list[tuple[Keys, Wrong]] = []
@@ -36,11 +36,12 @@ class Problems:
         return len(self.entries)
 
     def add(self, keys: Keys, wrong: Wrong) -> None:
-        """keys: the way from the top of the document to the value that was read."""
+        """keys: the path from the top of the document to the value."""
         self.entries.append(((*keys, *wrong.keys), wrong))
 
     def raise_any(self, path: str, positions: Callable[[], Positions]) -> None:
-        """Raises SceneFileError where there are any, the first in the file with its `others`."""
+        """Raises SceneFileError if there are problems: the first in the file, with the rest as
+        `others`."""
         if not self.entries:
             return
         where = positions()

@@ -16,7 +16,7 @@ _severity = one_of(SEVERITIES)
 
 
 def read_rule(table: Table, units: str | None, file: str, line: int) -> Rule | None:
-    """None where it is wrong, which the table then knows. file, line: where it is written."""
+    """Reads one rule; None if it has errors, which the table collects. file, line: its place."""
     found_before = table.problem_count
     table.only(_KNOWN)
     length = length_in(units)
@@ -50,7 +50,7 @@ def selector(value: Any) -> Selector:
 
 
 def length_in(units: str | None) -> Reader[float]:
-    """Reads 0.5, and "2mm" where the scene declares units."""
+    """Reads a length such as 0.5; also "2mm" if the scene declares units."""
 
     def read(value: Any) -> float:
         if not isinstance(value, str):

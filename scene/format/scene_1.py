@@ -1,7 +1,7 @@
 """The scene form `satcheck.scene/1`, in TOML or JSON; docs/scenes.md describes its keys.
 
-A scene with errors is refused as a whole: half a scene has no meaning, and an unknown key may be
-important.
+A scene with errors is refused as a whole, because a part of a scene has no meaning. An unknown key
+is an error, because it may be important.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _texts = list_of("texts", text)
 
 
 def read_scene(parsed: Parsed, *, allow_outside: bool) -> SceneFile:
-    """Raises SceneFileError with all that is wrong in the file."""
+    """Raises SceneFileError with all errors of the file."""
     problems = parsed.problems()
     scene = _Reader(parsed, problems, allow_outside).read()
     problems.raise_any(parsed.path, lambda: parsed.positions)
@@ -75,7 +75,7 @@ class _Reader:
         bodies = read_bodies(top, lambda table: self._body(table, units))
         are_sound = not self._problems
         ignored = frozenset(top.read("ignore_within_groups", _texts, []))
-        for key in ("$schema", "description"):  # for others, and still texts
+        for key in ("$schema", "description"):  # not used here, but they have to be texts
             top.read(key, text, None)
         return SceneFile(
             path=self._parsed.path,
@@ -109,11 +109,11 @@ class _Reader:
     def _body(self, table: Table, units: str | None) -> BodyEntry:
         table.only(_BODY_KEYS)
         if ("mesh" in table) == ("shape" in table):
-            table.wrong('one of "mesh" and "shape" is needed, and not both')
+            table.wrong('exactly one of "mesh" and "shape" is required')
         if "part" in table and "shape" in table:
-            table.wrong("a shape has no parts: leave this out", "part")
+            table.wrong("a shape has no parts: remove this key", "part")
         if "units" in table and "shape" in table:
-            table.wrong("a shape is in the units of the scene: leave this out", "units")
+            table.wrong("a shape is in the units of the scene: remove this key", "units")
         return BodyEntry(
             id=table.required("id", text, ""),
             mesh=table.read("mesh", self._places.find, NO_MESH),
@@ -135,7 +135,7 @@ class _Reader:
         return tuple(rule for rule in candidates if rule is not None)
 
     def _motions(self, top: Table, bodies: tuple[BodyEntry, ...] | None) -> tuple[Motion, ...]:
-        moved: dict[str, str] = {}  # a body, and by which motion
+        moved: dict[str, str] = {}  # id of a body -> its motion
         candidates = (read_motion(table, bodies, moved) for table in top.tables("motion"))
         return tuple(motion for motion in candidates if motion is not None)
 

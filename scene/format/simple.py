@@ -5,9 +5,9 @@
                  "group", "static"}],
      "ignore_within_groups": [group], "allowed_pairs": [[id, id, reason]]}
 
-A misspelt key of a body would move it or put it into no group, so it is wrong; at the top a scene
-may carry more than is read here, and an unknown key there is a warning. Scenes of this form share
-meshes across folders: not the place of a mesh is judged, but its suffix.
+A misspelt key of a body would misplace it or leave it without a group, so an unknown key there is
+an error. At the top level a scene may carry other data, so an unknown key there is only a warning.
+Scenes of this form share meshes across folders: the suffix of a mesh is checked, its folder is not.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ _BODY_KEYS = frozenset(("id", "mesh", "transform", "group", "static"))
 _SCENE_KEYS = frozenset(
     ("schema", "name", "units", "bodies", "ignore_within_groups", "allowed_pairs")
 )
-# What says where a scene comes from, and changes nothing.
+# Keys that say where a scene comes from. They change no answer.
 _INFORMATION = frozenset(
     ("$schema", "author", "comment", "description", "licence", "license", "original", "source")
 )
 
 
 def read_scene(parsed: Parsed) -> SceneFile:
-    """Raises SceneFileError with all that is wrong in the file."""
+    """Raises SceneFileError with all errors of the file."""
     path, problems = parsed.path, parsed.problems()
     top = Table(parsed.document, (), problems)
     places = MeshPlaces(path, parsed.location, anywhere=True)

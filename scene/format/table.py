@@ -1,4 +1,4 @@
-"""One table of a document, read key by key; what is wrong is collected, and reading goes on."""
+"""Reads one table of a document key by key. Errors are collected, and reading continues."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ D = TypeVar("D")
 
 
 class Table:
-    """keys: the way to it from the top of the document."""
+    """keys: the path to it from the top of the document."""
 
     __slots__ = ("_problems", "keys", "values")
 
@@ -31,7 +31,7 @@ class Table:
         return key in self.values
 
     def read(self, key: str, reader: Reader[T], default: D) -> T | D:
-        """The value of a key; the default where it is left out or wrong."""
+        """The value of a key; the default if it is missing or wrong."""
         if key not in self.values:
             return default
         try:
@@ -41,13 +41,13 @@ class Table:
             return default
 
     def required(self, key: str, reader: Reader[T], default: T) -> T:
-        """The same for a key that may not be left out."""
+        """The same for a required key."""
         if key not in self.values:
             self.wrong(f'"{key}" is missing')
         return self.read(key, reader, default)
 
     def only(self, known: frozenset[str]) -> None:
-        """Reports every other key as wrong: a misspelt key would be ignored."""
+        """Reports every other key as an error, because a misspelt key would be ignored."""
         if not self.values.keys() <= known:
             for key in self.values.keys() - known:
                 hint = meant(key, known - self.values.keys())
@@ -58,11 +58,11 @@ class Table:
 
     @property
     def problem_count(self) -> int:
-        """Of the whole document so far."""
+        """Number of problems in the whole document so far."""
         return len(self._problems)
 
     def table(self, key: str) -> Table | None:
-        """The table that a key holds, None where it is left out or something else."""
+        """The table at a key; None if it is missing or not a table."""
         values = self.values.get(key)
         if isinstance(values, dict):
             return Table(values, (*self.keys, key), self._problems)
@@ -85,7 +85,7 @@ class Table:
 
 
 def read_bodies(top: Table, read: Callable[[Table], BodyEntry]) -> tuple[BodyEntry, ...]:
-    """The bodies of a scene; a second one of the same id is wrong."""
+    """The bodies of a scene. Two bodies with the same id are an error."""
     bodies, ids = [], set()
     for table in top.tables("bodies"):
         body = read(table)

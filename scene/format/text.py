@@ -1,4 +1,4 @@
-"""The text of a scene file, and the document in it: TOML by its suffix, JSON otherwise."""
+"""Reads and parses a scene file: TOML if its suffix says so, else JSON."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _TOML_PLACE = r"(?s)(.*) \(at (?:line (\d+), column \d+|end of document)\)"
 
 
 class Parsed:
-    """path: for messages. repeated_keys: JSON objects had a key twice, of which the last counts."""
+    """path: for messages. repeated_keys: a JSON object has a key twice; the last one counts."""
 
     def __init__(
         self, path: str, location: Path, text: str, document: Any, repeated_keys: bool
@@ -42,7 +42,7 @@ class Parsed:
         return Positions(self.text, toml=is_toml(self.location))
 
     def problems(self) -> Problems:
-        """A second value for a key is one already."""
+        """A new collection of problems. It starts with the keys that occur twice."""
         problems = Problems()
         for keys in self.positions.duplicates() if self.repeated_keys else ():
             problems.add(keys, Wrong("a second value for this key"))
@@ -63,12 +63,12 @@ def read_text(path: str, location: Path) -> str:
 
 
 def parse(path: str, location: Path) -> Parsed:
-    """Raises SceneFileError for what is neither TOML nor JSON."""
+    """Raises SceneFileError if the file is not well-formed TOML or JSON."""
     return parsed(path, location, read_text(path, location))
 
 
 def parsed(path: str, location: Path, text: str) -> Parsed:
-    """The same for a text that was read already."""
+    """The same for a text that is already in memory."""
     if is_toml(location):
         return Parsed(path, location, text, _toml(path, text), False)
     return Parsed(path, location, text, *_json(path, text))
@@ -100,7 +100,7 @@ def _json(path: str, text: str) -> tuple[Any, bool]:
         return members
 
     def refuse(_: str) -> float:
-        return math.nan  # found again, with the body's name, where a number is expected
+        return math.nan  # reported later, with the name of the body
 
     try:
         document = json.loads(text, parse_constant=refuse, object_pairs_hook=unique)

@@ -1,4 +1,4 @@
-"""Readers of single values: what the document holds -> what its key asks for, or Wrong."""
+"""Readers of single values. Each converts a value of the document, or raises Wrong."""
 
 from __future__ import annotations
 
@@ -69,12 +69,12 @@ def _numbers(value: Any, count: int, word: str) -> list[float]:
         raise Wrong(f"{word} numbers expected, not {shown(value)}")
     if len(value) != count:
         raise Wrong(f"{word} numbers expected, not {len(value)}")
-    # One by one only to name the one at fault: a large scene has a million of them.
+    # A large scene has a million numbers, so they are read one by one only to name the wrong one.
     return numbers(value) or items(value, number)
 
 
 def numbers(values: list[Any]) -> list[float] | None:
-    """Each as a finite float64; None where one is something else."""
+    """Each as a finite float64; None if one is not a finite number."""
     if not _NUMBERS.issuperset(map(type, values)):
         return None
     try:
@@ -85,7 +85,7 @@ def numbers(values: list[Any]) -> list[float] | None:
 
 
 def items(values: list[Any], read: Reader[T]) -> list[T]:
-    """Each item read; Wrong names the first at fault."""
+    """Reads each item. Wrong names the first one at fault."""
     converted = []
     for index, value in enumerate(values):
         try:
@@ -119,7 +119,7 @@ def one_of(names: Iterable[str]) -> Reader[str]:
 
 
 def shown(value: Any) -> str:
-    """What stands there instead, in a few words."""
+    """A short text for the value, for messages."""
     if isinstance(value, str):
         short = value if len(value) <= _MOST_SHOWN else value[:_MOST_SHOWN] + "..."
         return repr(short)

@@ -1,4 +1,4 @@
-"""A scene file with moved bodies: only the numbers that change are written anew."""
+"""Writes moved bodies into a scene file. Only the numbers that change are replaced."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from satcheck.scene.format.problems import Problems
 from satcheck.scene.format.table import Table
 from satcheck.scene.format.text import Parsed, is_toml, parsed
 
-Edit = tuple[int, int, str]  # what stands between these offsets becomes this
+Edit = tuple[int, int, str]  # (start, end, new text)
 
 
 def moved(path: str, text: str, placements: Mapping[str, Transform]) -> str:
-    """The text of a scene file in which these bodies are placed anew, all else as it was.
+    """The text of a scene file with new placements for these bodies. The rest is unchanged.
 
-    path: tells TOML from JSON. text: of a scene that was read without an error, of either form.
-    placements: id in the file -> world placement, which differs from that in the file in its
-    translation alone; ValueError otherwise, and for an id that the file does not have. Reading the
-    new text gives exactly these placements.
+    path: its suffix says whether the text is TOML or JSON. text: a valid scene file of either form.
+    placements: id in the file -> world placement. Only its translation may differ from the file.
+    Raises ValueError if the rotation or scale differs, or if the id is unknown. Reading the new
+    text gives exactly these placements.
     """
     scene = parsed(path, Path(path), text)
     indices = {entry["id"]: index for index, entry in enumerate(scene.document["bodies"])}
@@ -69,7 +69,7 @@ def _simple_placement(entry: dict[str, Any]) -> Transform:
 
 
 def _addition(scene: Parsed, keys: Keys, key: str, value: str) -> Edit:
-    """A key that the body does not have, or null, written after its id."""
+    """Writes a key that is missing or null after the id of the body."""
     text, toml = scene.text, is_toml(scene.location)
     if key in scene.document["bodies"][keys[1]]:
         place = scene.positions.place((*keys, key))
@@ -83,7 +83,7 @@ def _addition(scene: Parsed, keys: Keys, key: str, value: str) -> Edit:
 
 
 def _new_line(text: str, place: Place) -> str:
-    """A line break with the indent of what stands there; empty where it starts no line."""
+    """A line break with the indent of the place; empty if it is not at the start of a line."""
     end = text.rfind("\n", 0, place.key)
     before = text[end + 1 : place.key]
     if end < 0 or before.strip():

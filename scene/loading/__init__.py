@@ -27,10 +27,10 @@ Made = TypeVar("Made")
 
 
 class ReadLimits(Struct, frozen=True):
-    """What reading one file may take, of which the file itself may be a quarter of the megabytes.
+    """Limits for reading one file.
 
-    allow_outside: whether the files that it refers to may lie outside of its folder. hashed:
-    whether somebody wants its SHA-256.
+    The file itself may have a quarter of the megabytes. allow_outside: whether the files that it
+    refers to may lie outside of its folder. hashed: whether its SHA-256 is needed.
     """
 
     seconds: float
@@ -46,10 +46,10 @@ class ReadLimits(Struct, frozen=True):
 def load_mesh_file(
     path: str, location: Path, allowed: ReadLimits, children: ReadingChildren
 ) -> MeshFile:
-    """Reads one mesh file as one mesh: all that it holds, where it places it.
+    """Reads one mesh file as one mesh: all meshes of the file at their placements.
 
-    path: its name in messages and reports. location: where it lies. children: read the formats that
-    this process does not. Raises MeshFileError.
+    path: its name in messages and reports. location: on disk. children: the child processes for
+    formats that this process does not read. Raises MeshFileError.
     """
     source = open_source(path, location, allowed)
     scene = read_scene(source, allowed, children, flat=True)
@@ -64,7 +64,7 @@ def open_source(path: str, location: Path, allowed: ReadLimits) -> Source:
 def read_scene(
     source: Source, allowed: ReadLimits, children: ReadingChildren, *, flat: bool
 ) -> RawScene:
-    """The meshes of a file and where it places them; flat: as one mesh. Raises MeshFileError."""
+    """The meshes of a file and their placements; flat: as one mesh. Raises MeshFileError."""
     try:
         return _read(source, allowed, children, flat)
     except MeshFileError as error:
@@ -113,9 +113,9 @@ def _only_mesh(scene: RawScene) -> RawMesh:
 
 
 def mesh_of(source: Source, raw: RawMesh) -> tuple[RawMesh, Mesh]:
-    """The mesh, and what it was made of: `raw`, or `raw` brought into the range of the core.
+    """The mesh and its source: `raw`, scaled into the range of the core if necessary.
 
-    Raises MeshFileError for what a reader let through.
+    Raises MeshFileError for errors that a reader does not check.
     """
     try:
         return _in_range(raw, lambda raw: Mesh.from_bytes(raw.vertices, raw.triangles))
@@ -139,9 +139,10 @@ def mesh_file(
     *,
     placed: bool = False,
 ) -> MeshFile:
-    """A mesh of a file, inspected. raw: what was read. mesh: a piece of it; None: all.
+    """Inspects a mesh of a file.
 
-    part: its name in the file. placed: by the file itself. Raises MeshFileError.
+    raw: the mesh as read. mesh: a piece of it; None: all. part: its name in the file. placed: the
+    file itself places it. Raises MeshFileError.
     """
     path = source.path
     try:
@@ -176,7 +177,7 @@ def _examined(mesh: Mesh | None, raw: RawMesh) -> Examined:
 
 
 def resolution_of(raw: RawMesh, mesh: Mesh) -> float:
-    """How finely the coordinates of the mesh are known, in its units."""
+    """The precision of the coordinates of the mesh, in its units."""
     low, high = mesh.bounds
     largest = math.ldexp(max(map(abs, (*low, *high))), raw.exponent)
     return math.ldexp(file_resolution(raw, largest), -raw.exponent)

@@ -1,8 +1,8 @@
-"""The formats that are read in a child process: 3MF, DAE, 3DXML, XAML, ZAE, and some of glTF.
+"""Reads 3MF, DAE, 3DXML, XAML, ZAE and some glTF files in a child process.
 
-A file of such a format is untrusted input to large parsers, so all of its reading (the checks
-before, the parser, the checks after) happens in `serve`, with a time and memory limit. A request
-and its answer are messages in MessagePack, of which msgspec checks the types.
+Such a file is untrusted input to large parsers. All of its reading, checks included, happens in
+`serve`, with a time limit and a memory limit. The request and its answer are MessagePack messages,
+and msgspec checks their types.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ _CODE_OF_WORKER = {
 
 
 class Request(msgspec.Struct, frozen=True):
-    """A file to read: its format, its bytes, the directory its references start from and whether
-    they may leave it, and whether all of it is wanted as one mesh."""
+    """A file to read: its format, its bytes, the directory that its references are relative to,
+    whether they may leave that directory, and whether to return one mesh for the whole file."""
 
     format: str
     directory: str
@@ -61,7 +61,7 @@ def read_in_child(
 
 
 def refused_by_worker(error: WorkerError, source: Source, megabytes: int) -> MeshFileError:
-    """What to tell of a child that was stopped or died while it read."""
+    """The error for a child that was stopped or died while it read a file."""
     code = _CODE_OF_WORKER.get(error.code, "reader-failed")
     return MeshFileError(code, _explain(error, source, megabytes), file=source.path)
 
@@ -85,7 +85,7 @@ def _one_line(text: str) -> str:
 
 
 def serve(message: bytes) -> bytes:
-    """In the child. A file that cannot be used is an answer, too."""
+    """Runs in the child process. The answer may be a Refusal."""
     request = msgspec.msgpack.decode(message, type=Request)
     answer: RawScene | Refusal
     try:

@@ -1,8 +1,8 @@
 """COLLADA 1.4: the triangles of the visual scene, placed by its nodes, as the file stores them.
 
-Khronos, "COLLADA 1.4.1 specification" (2008). Read here and not by pycollada, which passes over
-what it does not know: to find out whether it did takes as much code as to read the file. What could
-be geometry, or move it, and is not read, refuses the file.
+Khronos, "COLLADA 1.4.1 specification" (2008). This reader is our own, because pycollada silently
+skips elements that it does not know. To find out whether it skipped geometry takes as much code as
+to read the file. If an element is unknown and could be geometry or move it, the file is refused.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Geometry = tuple[Floats, Indices]  # vertices (n, 3), triangles (m, 3)
 _MOVES = {"matrix": 16, "translate": 3, "rotate": 4, "scale": 3}
 _BENDS = frozenset({"lookat", "skew"})
 _MESHES = frozenset({"instance_geometry", "instance_controller"})
-_BESIDE = frozenset(  # what a node or a visual scene has besides what it places
+_BESIDE = frozenset(  # elements of a node or a visual scene that place nothing
     ("asset", "extra", "evaluate_scene", "instance_camera", "instance_light", *_MOVES, *_BENDS)
 )
 _LINES = frozenset({"lines", "linestrips"})
@@ -43,7 +43,7 @@ _AXES = (["X", "Y", "Z"], ["", "", ""])
 def read_collada(data: bytes | memoryview) -> RawMesh:
     """The visual scene of a COLLADA file, flattened; raises MeshFileError without a file name.
 
-    The programs that write COLLADA keep coordinates as float32, hence the precision.
+    The precision is that of float32, because the programs that write COLLADA store coordinates so.
     """
     root = read_elements(data)
     if root.tag != "COLLADA":
@@ -109,7 +109,7 @@ class _Document:
         return self._target(references[0], "visual_scene")
 
     def _target(self, element: Element, tag: str, attribute: str = "url") -> Element:
-        """The element of that tag that a reference means."""
+        """The element of that tag that a reference points to."""
         url = element.attributes.get(attribute, "")
         if not url.startswith("#"):
             element.refuse(f"reference {url!r} leaves the file: refused", "outside-path")
@@ -120,7 +120,7 @@ class _Document:
         return targets[0]
 
     def _children(self, element: Element) -> list[tuple[Element, Transform | None]]:
-        """What is placed in a node. Transforms of what has no triangles are not read."""
+        """The elements placed in a node. Transforms of elements without triangles are not read."""
         return [
             (child, _matrix_of(child) if self._carries(child) else None)
             for child in self._placed_in(element)
@@ -138,9 +138,9 @@ class _Document:
                 child.refuse("could be geometry, and is not read", "unsupported-feature")
 
     def _carries(self, element: Element) -> bool:
-        """Whether it has triangles, or something in it does."""
+        """Whether the element or one of its descendants has triangles."""
         if element not in self._carriers:
-            self._carriers[element] = False  # in a circle, which is refused later
+            self._carriers[element] = False  # for cycles, which are refused later
             self._carriers[element] = (
                 len(self._mesh_of(element)[1]) > 0
                 if element.tag in _MESHES
@@ -149,7 +149,7 @@ class _Document:
         return self._carriers[element]
 
     def _shaper(self, element: Element) -> Element | None:
-        """The skin or morph of an <instance_controller>; None of an <instance_geometry>."""
+        """The skin or morph of an <instance_controller>; None for an <instance_geometry>."""
         if element.tag == "instance_geometry":
             return None
         controller = self._target(element, "controller")
@@ -157,7 +157,7 @@ class _Document:
         return shaper or controller.refuse("a controller without <skin> and <morph>")
 
     def _mesh_of(self, element: Element) -> Geometry:
-        """What an instance shows, before anything moves its vertices."""
+        """The mesh of an instance, before skins and morph targets move its vertices."""
         shaper = self._shaper(element)
         owner, attribute = (element, "url") if shaper is None else (shaper, "source")
         return self._geometry(self._target(owner, "geometry", attribute))
@@ -165,7 +165,7 @@ class _Document:
     def _placed(
         self, element: Element, matrix: Transform | None, scene: Element
     ) -> tuple[Geometry, Transform | None]:
-        """A mesh, its vertices moved by a skin or by morph targets, and what places it."""
+        """A mesh, with vertices moved by its skin or morph targets, and its placement."""
         points, triangles = self._mesh_of(element)
         shaper = self._shaper(element)
         if shaper is None:
@@ -187,8 +187,8 @@ class _Document:
     def _joints(
         self, scene: Element, skeletons: list[str], attribute: str, names: list[str]
     ) -> dict[str, Transform]:
-        """Where the nodes of these names stand in the world: those below the skeletons, if there
-        are any, else anywhere. attribute: that holds the name."""
+        """World matrices of the nodes with these names. Only nodes below the skeletons count, if
+        there are skeletons. attribute: the one that holds the name."""
         roots = [k for id_ in skeletons for k in self._by_id.get(("node", id_), [])]
         joints: dict[str, Transform] = {}
         stack: list[tuple[Element, ...]] = [(scene,)]
@@ -235,7 +235,7 @@ def _without_extras(root: Element) -> Iterator[Element]:
 
 
 def _world(chain: tuple[Element, ...]) -> Transform:
-    """The matrices of a node and of all around it."""
+    """The product of the matrices of a node and its ancestors."""
     matrix = IDENTITY
     for node in chain:
         matrix = compose(matrix, _matrix_of(node))

@@ -1,8 +1,8 @@
-"""What moves the vertices of a COLLADA mesh: skins and morph targets, as the file stores them.
+"""Skins and morph targets, which move the vertices of a COLLADA mesh, as the file stores them.
 
-Khronos, "COLLADA 1.4.1 specification" (2008), chapter 4, skin: a vertex lies where its joints put
-it, at the sum of weight * joint in the world * inverse bind matrix * bind shape matrix * vertex,
-over the sum of weights. The node that holds the skin does not matter.
+Khronos, "COLLADA 1.4.1 specification" (2008), chapter 4, skin: the position of a vertex is the sum
+of weight * world matrix of the joint * inverse bind matrix * bind shape matrix * vertex, divided by
+the sum of weights. The node that holds the skin does not matter.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def skinned(
 ) -> tuple[Floats, bool]:
     """(the vertices in the world, whether the skin mirrors them). Raises MeshFileError.
 
-    joints_by: an attribute, "sid" or "id", and names -> where the nodes of these names stand.
+    joints_by: an attribute, "sid" or "id", and names -> world matrices of the nodes.
     """
     shape = skin.find("bind_shape_matrix")
     bind = np.eye(4) if shape is None else _matrices(shape, np.array(shape.floats_of_text()))[0]
@@ -76,7 +76,7 @@ def _blended(skin: Element, points: Floats, matrices: dict[str, Floats], bind: F
     names = _names(_source(skin, inputs, "JOINT"))[1]
     if any(name not in matrices for name in names):
         table.refuse("a joint without a bind matrix", "index-out-of-range")
-    of_joint = np.array([*(matrices[name] for name in names), bind])  # -1 takes the last
+    of_joint = np.array([*(matrices[name] for name in names), bind])  # index -1 is the last
     weights = _floats(_source(skin, inputs, "WEIGHT"))
     stride = 1 + max(element.integer("offset") for element in inputs.values())
     counts = np.array(table.need("vcount").integers(), np.int64)
@@ -91,7 +91,7 @@ def _blended(skin: Element, points: Floats, matrices: dict[str, Floats], bind: F
     chosen = numbers[inputs["WEIGHT"].integer("offset") :: stride]
     fits = not len(joints) or (joints.max() < len(names) and chosen.max() < len(weights))
     if not fits or (chosen < 0).any():
-        table.refuse("a joint or a weight that is not there", "index-out-of-range")
+        table.refuse("a joint or a weight that does not exist", "index-out-of-range")
     vertices = np.repeat(np.arange(len(counts)), counts)
     total = np.zeros(len(points))
     np.add.at(total, vertices, weights[chosen])
@@ -122,12 +122,12 @@ def _floats(source: Element) -> Floats:
 
 def _matrices(element: Element, numbers: Floats) -> Floats:
     if numbers.size % 16:
-        element.refuse(f"{numbers.size} numbers are no 4x4 matrices", "count-mismatch")
+        element.refuse(f"{numbers.size} numbers do not form 4x4 matrices", "count-mismatch")
     return numbers.reshape(-1, 4, 4)
 
 
 def _names(source: Element) -> tuple[str, list[str]]:
-    """(the attribute that the names are of, the names)."""
+    """(the attribute that the names refer to, the names)."""
     array = source.find("IDREF_array")
     return (
         ("sid", source.need("Name_array").text.split())

@@ -1,4 +1,4 @@
-"""The meshes of a file as one, each where the file places it."""
+"""Joins the meshes of a file, each at its placement, into one."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from satcheck.scene.loading.raw_mesh import NO_SURFACE, Block, RawMesh, RawScene
 
 
 def flattened(scene: RawScene) -> RawMesh:
-    """One mesh of all nodes; one of lines or points alone adds nothing but a warning.
+    """One mesh of all nodes.
 
-    Raises MeshFileError when another one cannot be used, and when all together exceed the triangle
-    limit.
+    A mesh of lines or points only adds a warning. Raises MeshFileError if another mesh cannot be
+    used, or if all together exceed the triangle limit.
     """
     warnings = dict(scene.warnings)
     placed = []
@@ -51,7 +51,7 @@ def flattened(scene: RawScene) -> RawMesh:
 
 
 def concatenate(parts: Sequence[tuple[Block, Block, Transform | None]]) -> tuple[Block, Block]:
-    """(vertices, triangles) of all parts together, each at its matrix.
+    """(vertices, triangles) of all parts, each transformed by its matrix.
 
     parts: float64 vertices and uint32 triangles as in RawMesh. A mirroring matrix flips the
     winding.

@@ -1,9 +1,9 @@
 """glTF 2.0 and GLB: the meshes of the default scene, placed by its nodes, as the file stores them.
 
-Read here and not by a general loader: everything that has to be checked before such a loader may
-be trusted (chunks, buffers, views, accessors, the node graph) is most of the reading itself, and a
-scene of fifty GLB files would wait a second for each to be loaded that way. Materials, textures,
-cameras, animations are never touched. Sources: the Khronos glTF 2.0 specification.
+This reader is our own. A general loader would need checks of chunks, buffers, views, accessors and
+the node graph first, which is most of the reading itself, and it would take about a second for each
+file. Materials, textures, cameras and animations are not read. Sources: the Khronos glTF 2.0
+specification.
 """
 
 from __future__ import annotations
@@ -70,9 +70,9 @@ def read_gltf(
 ) -> RawScene:
     """The default scene of a glTF file: its meshes, and the nodes that have one.
 
-    directory: where relative buffer URIs start, and what they may not leave unless allow_outside.
-    binary: GLB. isolated: whether this process may crash. Raises MeshFileError without a file
-    name, and NeedsChild where it must be isolated and is not.
+    directory: the base of relative buffer URIs; they may leave it only if allow_outside is set.
+    binary: GLB. isolated: this process is a child that may crash. Raises MeshFileError without a
+    file name, and NeedsChild if the data need an isolated process and this one is not.
     """
     text, chunk = split_glb(data) if binary else (data, None)
     document = _parse_json(text)
@@ -154,7 +154,7 @@ class _Scene:
         return Shape(mesh, self._meshes.weights(mesh, node), skin)
 
     def _mesh(self, shape: Shape) -> RawMesh | Refusal:
-        """A mesh that cannot be used is an error here, so that its nodes do not get lost."""
+        """Returns a Refusal for a mesh that cannot be used, so that its nodes stay in the scene."""
         try:
             skin = None if shape.skin is None else self._skin(shape.skin)
             return self._meshes.read(shape, skin)
@@ -162,7 +162,7 @@ class _Scene:
             return Refusal(error.code, error.message)
 
     def _copies(self, node: Instance[int]) -> list[tuple[str, Transform | None]]:
-        """(path, matrix) of a node, or of each instance that it draws in its own place."""
+        """(path, matrix) of a node, or of each GPU instance of the node."""
         instancing = extension(self._nodes[node.key], _INSTANCING)
         if "skin" in self._nodes[node.key]:  # its joints place it
             return [(node.path, None)]
@@ -178,7 +178,7 @@ class _Scene:
         given = ((translations, 3), (rotations, 4), (scales, 3))
         counts = {len(rows) // width for rows, width in given if rows is not None}
         if len(counts) != 1 or 0 in counts:
-            raise MeshFileError("count-mismatch", f"node {node.key}: how many instances is unclear")
+            raise MeshFileError("count-mismatch", f"node {node.key}: unclear count of instances")
         (count,) = counts
         self._copied += count
         if self._copied > limits.MAX_PLACEMENTS:
@@ -202,7 +202,7 @@ class _Scene:
         return Skin(tuple(self._world(joint) or IDENTITY for joint in joints), bound)
 
     def _world(self, node: int) -> Transform | None:
-        """Where a node stands in the world."""
+        """The world matrix of a node; None: the identity."""
         if self._parents is None:
             self._parents = {
                 child: parent
@@ -241,7 +241,7 @@ class _Scene:
         return [(child := self._node_number(n), self._matrix(child)) for n in numbers]
 
     def _name(self, number: int) -> str:
-        """A node's own, or that of its mesh, or its number."""
+        """The name of a node, else of its mesh, else its number."""
         name = tidy_name(self._nodes[number].get("name"), "")
         mesh = self._mesh_of(number)
         if not name and mesh >= 0:
@@ -265,7 +265,7 @@ class _Scene:
         """The number of a node's mesh, -1 for none."""
         mesh = integer(member(self._nodes, number, "node"), "mesh", -1)
         if mesh >= 0:
-            self._meshes.name(mesh)  # there is one
+            self._meshes.name(mesh)  # raises if there is no such mesh
         return mesh
 
 
@@ -290,7 +290,7 @@ def _placement(
     rotation: Sequence[float] | None,
     scale: Sequence[float] | None,
 ) -> Transform | None:
-    """Scaled, then turned by a quaternion x, y, z, w, then moved."""
+    """Scales, then rotates by a quaternion x, y, z, w, then translates."""
     placement: Transform | None = None
     if translation is not None:
         x, y, z = translation

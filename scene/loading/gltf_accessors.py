@@ -21,7 +21,7 @@ _UNSIGNED = frozenset("BHI")
 _LARGEST = {"b": 127, "B": 255, "h": 32767, "H": 65535}
 _COLUMNS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 
-# (name, type) -> that vertex attribute, row by row; None if there is none.
+# (name, type) -> the vertex attribute row by row; None: it is missing.
 Columns = Callable[[str, str], "array[float] | None"]
 
 
@@ -66,7 +66,7 @@ class Accessors:
         return "bufferView" in accessor or "sparse" in accessor
 
     def largest_integer(self, index: int) -> int | None:
-        """The integer that stands for 1.0; None where integers stand for themselves."""
+        """The integer that means 1.0 in a normalized accessor; None: not normalized."""
         accessor = member(self._accessors, index, "accessor")
         stands = accessor.get("normalized") is True
         return _LARGEST.get(self._type(accessor)) if stands else None
@@ -100,7 +100,7 @@ class Accessors:
     def _rows(
         self, owner: dict[str, Any], what: str, count: int, columns: int, code: str
     ) -> array[Any]:
-        """The elements where the owner says that they lie."""
+        """The elements in the range that the owner states."""
         values = array(code)
         number, row = integer(owner, "bufferView", 0), columns * values.itemsize
         view, stride = self._views.view(number), self._views.stride(number, row)
@@ -139,7 +139,7 @@ class Accessors:
 
 
 def normalized(values: Iterable[float], largest: int | None) -> array[float]:
-    """As float64. largest: the integer that stands for 1.0."""
+    """As float64. largest: the integer that means 1.0."""
     if largest is None:
         return array("d", values)
     return array("d", (max(value / largest, -1.0) for value in values))

@@ -26,7 +26,7 @@ def items(owner: Any, key: str) -> list[Any]:
     """The list `owner[key]`; empty where it is missing."""
     value = owner.get(key, []) if isinstance(owner, dict) else None
     if not isinstance(value, list):
-        raise MeshFileError("bad-record", f"glTF: {key} should be a list of an object")
+        raise MeshFileError("bad-record", f"glTF: {key} should be a list in an object")
     return value
 
 
@@ -90,7 +90,7 @@ def _two_numbers(data: memoryview, offset: int) -> tuple[int, int]:
 
 
 def extension(owner: dict[str, Any], name: str) -> dict[str, Any] | None:
-    """What the extension of this name says of an object."""
+    """The data of an extension of an object; None: it has none."""
     extensions = owner.get("extensions", {})
     content = extensions.get(name) if isinstance(extensions, dict) else None
     return content if isinstance(content, dict) else None

@@ -1,7 +1,7 @@
-"""Primitives of glTF that Draco packed (KHR_draco_mesh_compression), through DracoPy.
+"""Primitives of glTF compressed with Draco (KHR_draco_mesh_compression), decoded by DracoPy.
 
-Draco's decoder may crash on damaged data, so this runs in the reading child only. Positions are
-those that the decoder gives: packing rounded them, and may have put them in another order.
+Draco's decoder may crash on damaged data, so this runs only in the child process. Positions are
+taken as decoded: the compression has rounded them and may have changed their order.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from satcheck.scene.loading.gltf_buffers import integer
 
 
 class Unpacked:
-    """packed: what the extension says. attributes: accessors of the primitive by name.
+    """packed: the data of the extension. attributes: accessors of the primitive by name.
 
     Raises MeshFileError. triangles: vertex numbers, three each.
     """
@@ -58,12 +58,13 @@ class Unpacked:
         return positions
 
     def columns(self, name: str, kind: str) -> array[float] | None:
-        """As Accessors.columns(): what Draco did not pack has an accessor of its own."""
+        """As Accessors.columns(). Attributes that Draco does not hold have an accessor of their
+        own."""
         rows = self._columns(name, 4)
         return self._accessors.columns(self._attributes)(name, kind) if rows is None else rows
 
     def _columns(self, name: str, count: int) -> array[float] | None:
-        """An attribute that Draco packed; the accessor says what its integers stand for."""
+        """An attribute that Draco holds. The accessor says how to normalize its integers."""
         id_ = self._ids.get(name)
         if id_ is None:
             return None

@@ -23,12 +23,11 @@ _NO_TRIANGLES = frozenset({_POINTS, _LINES, _LINE_LOOP, _LINE_STRIP})
 
 
 class NeedsChild(Exception):
-    """The file has data for a library that may crash: it is to be read in a child process."""
+    """The file needs a library that may crash, so it has to be read in a child process."""
 
 
 class Shape(Struct, frozen=True):
-    """A mesh in the shape that it has at a node: with these weights of its morph targets and this
-    skin, by its number."""
+    """A mesh with the weights of its morph targets and the number of its skin at a node."""
 
     mesh: int
     weights: tuple[float, ...] = ()
@@ -36,8 +35,8 @@ class Shape(Struct, frozen=True):
 
 
 class Skin(Struct, frozen=True):
-    """joints: where each stands in the world. bound: for each the matrix from the mesh to the joint
-    as it was bound, 16 numbers column by column; None: the identity."""
+    """joints: the world matrix of each. bound: the inverse bind matrix of each, from the mesh to
+    the joint, 16 numbers column by column; None: the identity."""
 
     joints: tuple[Transform, ...]
     bound: array[float] | None = None
@@ -56,7 +55,7 @@ class Meshes:
         return member(self._meshes, number, "mesh").get("name")
 
     def weights(self, number: int, node: dict[str, Any]) -> tuple[float, ...]:
-        """Of the morph targets of a mesh at a node; () where none is moved."""
+        """Weights of the morph targets of a mesh at a node; () if all are 0."""
         mesh = member(self._meshes, number, "mesh")
         values = items(node if "weights" in node else mesh, "weights")
         if not all(type(value) in (int, float) for value in values):
@@ -64,9 +63,10 @@ class Meshes:
         return tuple(map(float, values)) if any(values) else ()
 
     def read(self, shape: Shape, skin: Skin | None) -> RawMesh:
-        """All primitives that have triangles, as one.
+        """All primitives with triangles, as one mesh.
 
-        skin: that of the shape. Raises MeshFileError, `NO_SURFACE` where there are no triangles.
+        skin: of the shape. Raises MeshFileError; its code is `NO_SURFACE` if there are no
+        triangles.
         """
         warnings: dict[str, str] = {}
         where = f"mesh {shape.mesh}"
@@ -94,7 +94,7 @@ class Meshes:
         where: str,
         warnings: dict[str, str],
     ) -> tuple[array[float], array[int]] | None:
-        """x, y, z of each vertex and the corners of each triangle; None where it has none."""
+        """x, y, z of each vertex and the corners of each triangle; None without triangles."""
         mode = integer(primitive, "mode", _TRIANGLES)
         if mode in _NO_TRIANGLES:
             warnings["ignored-geometry"] = f"{where}: points or lines are ignored"
@@ -130,7 +130,7 @@ class Meshes:
     def _packed(
         self, primitive: dict[str, Any], attributes: dict[str, Any]
     ) -> dict[str, Any] | None:
-        """What Draco packed, unless the file has the same without it."""
+        """The Draco data; None if the file also has the data without compression."""
         packed = extension(primitive, DRACO)
         plain = all(map(self._accessors.has_data, _needed(primitive, attributes)))
         return None if plain and not self._requires_draco else packed
@@ -138,8 +138,8 @@ class Meshes:
     def _refuse_unread(
         self, primitive: dict[str, Any], attributes: dict[str, Any], where: str
     ) -> None:
-        """Without data all positions are 0, and so are all corners: an extension that is not read
-        has the geometry, most likely."""
+        """Refuses accessors without data. Their values would all be 0, and the geometry is most
+        likely in an extension that is not read."""
         if not all(map(self._accessors.has_data, _needed(primitive, attributes))):
             raise MeshFileError(
                 "unsupported-feature", f"{where}: the positions or indices are not in the file"
@@ -176,7 +176,7 @@ class Meshes:
 
 
 def _needed(primitive: dict[str, Any], attributes: dict[str, Any]) -> list[int]:
-    """The accessors that triangles are made of."""
+    """The accessors that the triangles need."""
     owners = ((attributes, "POSITION"), (primitive, "indices"))
     return [integer(owner, key, -1) for owner, key in owners if key in owner]
 

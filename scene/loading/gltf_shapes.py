@@ -1,4 +1,4 @@
-"""What moves the vertices of a glTF mesh before its node places it: morph targets and skins."""
+"""Morph targets and skins, which move the vertices of a glTF mesh before its node places it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from satcheck.scene.loading.gltf_accessors import Columns
 
 
 def morphed(positions: array[float], moves: Sequence[tuple[float, array[float]]]) -> array[float]:
-    """positions: x, y, z of each vertex. moves: a weight, and how far 1.0 moves each vertex."""
+    """positions: x, y, z of each vertex. moves: (weight, displacement of each vertex at weight
+    1)."""
     moved = np.array(positions)
     for weight, move in moves:
         if len(move) != len(moved):
@@ -34,8 +35,8 @@ def skinned(
 
     positions: x, y, z of each vertex. columns: of the attributes JOINTS_0, WEIGHTS_0, JOINTS_1 and
     so on. joints: row-major 4x4, from each joint to the world. bound: column-major 4x4, from the
-    mesh to each joint. As the last rows of matrices and the sums of weights are rounded in many
-    files, what they make is divided by its fourth coordinate.
+    mesh to each joint. Many files round the last rows of matrices and the sums of weights. Each
+    result is therefore divided by its fourth coordinate.
     """
     points = np.array(positions).reshape(-1, 3)
     matrices = np.array(joints, np.float64).reshape(-1, 4, 4)

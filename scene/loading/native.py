@@ -1,4 +1,4 @@
-"""OBJ, STL, PLY and OFF through the strict native readers, in this process."""
+"""Reads OBJ, STL, PLY and OFF with the strict C++ readers, in this process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A mesh file taken apart: a body for each node, or for each connected component of each."""
+"""Splits a mesh file into one body for each node, or for each connected component of a node."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ _CORNER = Mesh.from_bytes(
 
 
 class Node(Struct, frozen=True):
-    """A mesh of a file where the file places it, or why it cannot be used.
+    """A mesh of a file with its placement, or the error if it cannot be used.
 
-    path: unique in the file, "#3" at its end for the third component; None: the whole file, which
-    has no parts. Nodes with one mesh share the MeshFile. transform: as in Body.
+    path: unique in the file; it ends in "#3" for the third component. None: the file has no parts.
+    Nodes with one mesh share the MeshFile. transform: as in Body.
     """
 
     path: str | None
@@ -47,7 +47,7 @@ class Node(Struct, frozen=True):
 
 
 class Nodes(Struct, frozen=True):
-    """All nodes of a file, in its order, and warnings that belong to none of them."""
+    """All nodes of a file, in file order, and the warnings that concern no single node."""
 
     nodes: tuple[Node, ...]
     issues: tuple[Issue, ...] = ()
@@ -61,11 +61,11 @@ def load_nodes(
     *,
     components: bool,
 ) -> Nodes:
-    """Reads one mesh file and takes it apart.
+    """Reads one mesh file and splits it.
 
-    components: each node once more, into parts that share no edge once cracks are closed. They are
+    components: also split each node into edge-connected parts, after cracks are closed. Parts are
     numbered by their lowest corners, so that the order of the triangles in the file does not
-    matter. Raises MeshFileError where nothing can be used.
+    matter. Raises MeshFileError if no node can be used.
     """
     source = open_source(path, location, allowed)
     scene = read_scene(source, allowed, children, flat=False)
@@ -95,7 +95,7 @@ def _placed(path: str | None, file: MeshFile | MeshFileError, matrix: Transform 
             _CORNER.transformed(matrix)
         except ValueError as error:
             file = MeshFileError("singular-transform", f"{path}: {error}", file=file.path)
-        except OverflowError:  # of this corner; that of the mesh is found when it is placed
+        except OverflowError:  # of this corner; placing the mesh reports its overflow
             pass
     return Node(path, file, matrix)
 
@@ -107,7 +107,7 @@ class _Splitter:
         self.issues: list[Issue] = []
 
     def split(self, part: RawPart) -> list[tuple[str, MeshFile | MeshFileError]]:
-        """What is appended to a node's path, and its mesh, one for each body."""
+        """(suffix of the node's path, mesh) for each body."""
         raw = part.mesh
         if isinstance(raw, Refusal):
             return [("", self._named(part, raw))]
@@ -126,7 +126,7 @@ class _Splitter:
     def _pieces(
         self, part: RawPart, raw: RawMesh, pieces: list[Mesh]
     ) -> list[tuple[str, MeshFile | MeshFileError]]:
-        """Those that have an area; what was read with a warning is warned about once."""
+        """The components with an area. Those of area 0 cause one warning."""
         _refuse_too_many(len(pieces), self._source.path)
         bodies: list[tuple[str, MeshFile | MeshFileError]] = []
         flat = 0

@@ -1,4 +1,4 @@
-"""From a graph of placed parts to a list of them: no circle, no explosion, a name for each."""
+"""Expands a graph of placed parts into a list with names. Cycles and huge expansions are errors."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from satcheck.scene.loading.raw_mesh import RawMesh, RawNode, RawPart, RawScene,
 from satcheck.scene.plain_ids import COMPONENT_MARK, UniqueNames
 
 _LONGEST_NAME = 80
-_LONGEST_PATH = 200  # of a deep graph the last steps are kept
+_LONGEST_PATH = 200  # characters; of a longer path only the end is kept
 _CUT = "..."
-MAX_DEPTH = 200  # of the elements of a drawing: deeper than any program writes them
+MAX_DEPTH = 200  # of the elements of a drawing; no program writes deeper ones
 
 Key = TypeVar("Key", bound=Hashable)
 
 
 class Instance(Struct, Generic[Key], frozen=True):
-    """Part `key` at `matrix` (None: as it is). path: the names that lead to it, unique."""
+    """Part `key` at `matrix` (None: identity). path: the names that lead to it, unique."""
 
     key: Key
     matrix: Transform | None
@@ -38,10 +38,10 @@ def instances(
     name: Callable[[Key], str],
     kind: str,
 ) -> list[Instance[Key]]:
-    """Every part under the roots with a mesh of its own, once for each way that leads to it.
+    """Every part under the roots that has a mesh, once for each path that leads to it.
 
-    children: the parts placed inside a part; kind: what a part is called in messages. Depth first,
-    in the order of the file. Raises MeshFileError for a circle, and for more parts than the limit.
+    children: the parts placed inside a part; kind: the noun for a part in messages. Depth first, in
+    file order. Raises MeshFileError for a cycle, and for more parts than the limit.
     """
     refuse_explosion(
         [root for root, _ in roots],
@@ -64,7 +64,7 @@ def instances(
 def _named(
     prefix: str, placed: Iterable[tuple[Key, Transform | None]], name: Callable[[Key], str]
 ) -> Iterator[tuple[str, Key, Transform | None]]:
-    """With the path of each; siblings of one name are numbered."""
+    """Adds a path to each. Siblings with the same name are numbered."""
     names = UniqueNames()
     for key, matrix in placed:
         path = prefix + names.unique(name(key))
@@ -74,8 +74,8 @@ def _named(
 
 
 def tidy_name(name: object, otherwise: str) -> str:
-    """A name from a file as a step of a path: printable, not too long, without the mark of
-    components; `otherwise` where nothing is left."""
+    """A name from a file as a step of a path: printable, not too long, and without the mark of
+    components; `otherwise` if the result is empty."""
     if not isinstance(name, str):
         return otherwise
     shown = name[:_LONGEST_NAME]
@@ -91,10 +91,11 @@ def refuse_explosion(
     describe: Callable[[Key], str],
     most_depth: float = math.inf,
 ) -> None:
-    """What references expand to is counted before any of it is made; each thing is visited once.
+    """Counts the elements that references expand to, before any is created.
 
-    within: what a thing holds directly, and how often. size: what it counts by itself, without
-    that. Raises MeshFileError: a thing contains itself, or is too deep or too much in all.
+    Visits each element once. within: the direct children of an element, and how often each occurs.
+    size: its own count, without children. Raises MeshFileError if an element contains itself, is
+    nested too deeply, or expands to too many elements.
     """
     totals: dict[Key, int] = {}
     depths: dict[Key, int] = {}
@@ -127,7 +128,7 @@ def raw_scene(
     name: Callable[[Key], str],
     mesh: Callable[[Key], RawMesh | Refusal],
 ) -> RawScene:
-    """Each part once, however many nodes have it."""
+    """A scene with each part once, even if many nodes use it."""
     used = {key: place for place, key in enumerate(dict.fromkeys(node.key for node in nodes))}
     names = UniqueNames()
     return RawScene(

@@ -1,4 +1,4 @@
-"""The result of a reader: plain arrays, their placements, and their precision."""
+"""The result of a reader: plain arrays, their placements, and their number format."""
 
 from __future__ import annotations
 
@@ -15,18 +15,19 @@ Precision = Literal["written-digits", "float16", "float32", "float64"]
 if TYPE_CHECKING:
     Block = bytes | memoryview
 else:
-    Block = memoryview  # what msgspec decodes to
-NO_SURFACE = "no-surface"  # the code of a mesh of lines or points alone
+    Block = memoryview  # the type that msgspec decodes to
+NO_SURFACE = "no-surface"  # the code for a mesh with lines or points only
 
 
 class RawMesh(Struct, frozen=True, tag=True):
-    """What a reader found, in file units, not welded.
+    """A mesh as read, in file units, not welded.
 
     vertices: little-endian float64 x, y, z of each vertex; triangles: little-endian uint32 vertex
-    numbers, three a triangle. exponent: vertices times 2**exponent are those of the file; 0 but
-    where the core could not hold these. decimals: most digits after the point in a coordinate
-    written without exponent; significant: most significant digits in one written with an exponent.
-    units: as the file declares them, or None. warnings: (code, message).
+    numbers, three a triangle. exponent: vertices times 2**exponent are in file units; 0 unless they
+    are beyond the range of the core. decimals: the largest number of digits after the point in a
+    coordinate without exponent. significant: the largest number of significant digits in a
+    coordinate with an exponent. units: as the file declares them, or None. warnings: (code,
+    message).
     """
 
     vertices: Block
@@ -47,14 +48,14 @@ class Refusal(Struct, frozen=True, tag=True):
 
 
 class RawPart(Struct, frozen=True):
-    """One mesh of a file in its own coordinates, or why it cannot be used. name: unique there."""
+    """One mesh of a file in its own coordinates, or its Refusal. name: unique in the file."""
 
     name: str
     mesh: RawMesh | Refusal
 
 
 class RawNode(Struct, frozen=True):
-    """Part number `part` where the file places it. path: unique there; None: the whole file."""
+    """Part number `part` and its placement. path: unique in the file; None: the whole file."""
 
     path: str | None
     part: int
@@ -64,7 +65,7 @@ class RawNode(Struct, frozen=True):
 class RawScene(Struct, frozen=True, tag=True):
     """The meshes of a file and where they are placed; every part is placed at least once.
 
-    warnings: (code, message) about what belongs to no part.
+    warnings: (code, message) that concern no single part.
     """
 
     parts: tuple[RawPart, ...]
@@ -73,14 +74,14 @@ class RawScene(Struct, frozen=True, tag=True):
 
 
 def alone(mesh: RawMesh) -> RawScene:
-    """A file that holds one mesh and does not place it."""
+    """A scene of one mesh without a placement."""
     return RawScene((RawPart("", mesh),), (RawNode(None, 0),))
 
 
 def into_range(raw: RawMesh) -> RawMesh:
-    """The mesh times a power of two with which the core can hold it.
+    """The mesh scaled by a power of two into the range of the core.
 
-    Raises OverflowError where no power of two helps, or a coordinate would lose digits by it.
+    Raises OverflowError if no power of two suffices, or if a coordinate would lose digits.
     """
     coordinates = array("d")
     coordinates.frombytes(raw.vertices)

@@ -1,7 +1,7 @@
-"""The child processes that read the files of a run: one for each reader, file after file.
+"""The child processes that read the files of a run: one for each reader.
 
-A child imports large parsers, which takes longer than reading most files. If a file stops or kills
-its child, only this file is lost: the next one gets a new child.
+Each child reads many files, because importing its large parsers takes longer than reading most
+files. If a file stops or kills its child, only this file fails, and the next file gets a new child.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 
 class ReadingChildren:
-    """megabytes: limit for each child. The children end with this object, at the latest with the
-    process."""
+    """megabytes: limit for each child. The children end when this object is deleted, or when the
+    process ends."""
 
     def __init__(self, megabytes: int) -> None:
         self._megabytes = megabytes
@@ -23,8 +23,8 @@ class ReadingChildren:
     def ask(self, module: str, request: bytes, *, seconds: float) -> bytes:
         """`serve(request)` of that module. seconds: for this request. Raises WorkerError.
 
-        A child that has read other files may have less memory left, or be damaged by them. Where it
-        fails, a fresh one decides, so that no answer depends on the files before.
+        Earlier files may have used up the memory of a child, or damaged it. If such a child fails,
+        a new one decides, so that no answer depends on earlier files.
         """
         from satcheck.core.worker import WorkerCrashed, WorkerOutOfMemory
 

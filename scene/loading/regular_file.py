@@ -1,4 +1,4 @@
-"""Files that can be read from start to end: pipes, devices and folders cannot."""
+"""Reads regular files only. Pipes, devices and folders are refused."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from satcheck.core.errors import SatcheckError
 STANDARD_INPUT = "-"
 E = TypeVar("E", bound=SatcheckError)
 
-# Opening one of these may block for ever, or read without an end.
+# Opening one of these may block, or reading it may never end.
 _SPECIAL = (
     (stat.S_ISFIFO, "a pipe"),
     (stat.S_ISSOCK, "a socket"),
@@ -21,7 +21,8 @@ _SPECIAL = (
 
 
 def size_of(location: Path) -> int:
-    """Bytes of a regular file; SatcheckError, without a file name, for whatever else it is."""
+    """Size of a regular file in bytes. Raises SatcheckError, without a file name, for anything
+    else."""
     if str(location) == STANDARD_INPUT:
         raise SatcheckError("not-a-file", "standard input is not read: give the path of a file")
     try:
@@ -41,8 +42,8 @@ def size_of(location: Path) -> int:
 
 
 def read_whole(path: str, location: Path, most: int, kind: type[E]) -> bytes:
-    """All bytes of a file. Raises an error of this kind, with the path, for what is not a regular
-    file, what has more bytes than `most`, and what cannot be read."""
+    """All bytes of a file. Raises an error of this kind, with the path, if it is not a regular
+    file, has more than `most` bytes, or cannot be read."""
     try:
         if size_of(location) > most:
             raise SatcheckError("too-large", f"larger than {most} bytes")

@@ -1,4 +1,4 @@
-"""One mesh file's bytes: read once, hashed, and recognised by suffix and by content."""
+"""Reads the bytes of a mesh file once, hashes them, and checks its suffix and content."""
 
 from __future__ import annotations
 
@@ -37,16 +37,17 @@ _WIDE_MARKS = (
     (codecs.BOM_UTF16_LE, "utf-16-le"),
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
-# Formats of text, or of text and numbers behind it, that may begin with a byte order mark. XML is
-# not among them: its parser knows the mark, and what the text says of its own encoding.
+# Text formats, and formats with a text header, that may begin with a byte order mark. XML is not
+# listed, because its parser handles the mark and the declared encoding.
 _MARKED_FORMATS = frozenset({"obj", "stl", "ply", "off", "gltf"})
 
-LARGE_FILE_BYTES = 1_000_000  # worth a thread of its own, and to be read in pieces
+LARGE_FILE_BYTES = 1_000_000  # larger files get their own thread and are read in pieces
 _STL_HEADER_BYTES = 84
 _STL_FACET_BYTES = 50
 _STL_COUNT = slice(80, 84)
 
-# The first bytes of what people misname as meshes: (signature, name, our formats of that kind).
+# The first bytes of files that are often misnamed as meshes: (signature, name, our formats of
+# that kind).
 _SIGNATURES = (
     (b"\x89PNG\r\n", "a PNG image", ()),
     (b"\xff\xd8\xff", "a JPEG image", ()),
@@ -61,7 +62,7 @@ _SIGNATURES = (
     (b"ply\r\n", "a PLY file", ("ply",)),
 )
 
-# With what the lines of a text format begin, comments left out.
+# The words at the start of lines in a text format, without comments.
 _FIRST_WORDS = (
     ((b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl"), "an OBJ file"),
     ((b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF"), "an OFF file"),
@@ -75,10 +76,11 @@ _TEXT_HEAD_BYTES = 4096
 class Source(Struct, frozen=True):
     """A mesh file as it lies on disk.
 
-    path: as given, for messages. location: where it was read from. sha256: of the file, hex; None:
-    not asked for. data: its bytes; of text without a byte order mark, which is UTF-8 if there was
-    one. size: of the data; of a large binary STL file whose SHA-256 is not needed only the first
-    bytes are there, as its reader reads it in pieces.
+    path: as given, for messages. location: on disk. sha256: of the file, hex; None: not requested.
+    data: its bytes; a byte order mark is removed, and its text is converted to UTF-8. Of a large
+    binary STL file, if its SHA-256 is not needed, data holds only the first bytes, because its
+    reader reads it in pieces. size: bytes of the data, or of the whole file if data holds only its
+    start.
     """
 
     path: str
@@ -134,8 +136,8 @@ def read_source(
 
 
 def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
-    """Its size and all of it, whatever its size is in the meantime; in_pieces: of a large binary
-    STL file the head will do."""
+    """The size and the bytes of the file, even if its size has changed. in_pieces: of a large
+    binary STL file only the first bytes are read."""
     with location.open("rb", buffering=0) as file:
         if in_pieces and size >= LARGE_FILE_BYTES:
             head = file.read(_TEXT_HEAD_BYTES)
@@ -149,7 +151,7 @@ def _read(location: Path, size: int, in_pieces: bool) -> tuple[int, bytes]:
 
 
 def _without_mark(path: str, data: bytes) -> bytes:
-    """Text that begins with a byte order mark, as UTF-8 without one."""
+    """Converts text with a byte order mark to UTF-8 without one."""
     if data.startswith(codecs.BOM_UTF8):
         return data[len(codecs.BOM_UTF8) :]
     for mark, encoding in _WIDE_MARKS:
@@ -183,7 +185,7 @@ def _refuse_other_content(path: str, file_format: str, size: int, data: bytes) -
 
 
 def _sniff(size: int, data: bytes) -> tuple[str | None, tuple[str, ...]]:
-    """(what the content unmistakably is, our formats of that kind), or (None, ())."""
+    """(name of the content, our formats of that kind); (None, ()) if it is not certain."""
     for signature, name, formats in _SIGNATURES:
         if data.startswith(signature):
             return name, formats
@@ -198,9 +200,10 @@ def _is_binary_stl(size: int, data: bytes) -> bool:
 
 
 def _other_text(data: bytes) -> str | None:
-    """What a text that is not ASCII STL looks like; None for STL and for data that is not text.
+    """A phrase for text that is not ASCII STL; None for STL and for data that are not text.
 
-    Only the head is looked at. A binary STL has a 0 there: its facet count, short of 2^24 facets.
+    Only the first bytes are read. A binary STL file has a zero byte there, because its facet count
+    is less than 2^24.
     """
     head = data[:_TEXT_HEAD_BYTES]
     lines = [words for line in head.splitlines() if (words := line.split())]

@@ -1,8 +1,8 @@
 """3DXML 4: an assembly of tessellated parts in a zip archive, as CATIA and SolidWorks write it.
 
-Dassault Systemes, "3D XML user's guide, version 4.3" (2009). Read here and not by trimesh, which
-puts one part in the place of another of its name, adds coarser levels of detail to the finest, and
-passes over parts of other formats. Lengths are millimetres.
+Dassault Systemes, "3D XML user's guide, version 4.3" (2009). This reader is our own: trimesh
+confuses parts of the same name, adds coarser levels of detail to the finest one, and silently skips
+parts of other formats. Lengths are millimetres.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from satcheck.scene.loading.zip_guard import open_part, opened_zip
 
 _URN = "urn:3DXML:"
 _UNITS = "millimeter"
-_PASSED_OVER = frozenset(  # without area, or about looks
+_PASSED_OVER = frozenset(  # without area, or for display only
     ("Edges", "SurfaceAttributes", "LineAttributes", "PointAttributes", "PolygonalLOD")
 )
 
 
 def read_3dxml(data: memoryview) -> RawScene:
-    """What the product structure places; raises MeshFileError without a file name."""
+    """The parts that the product structure places. Raises MeshFileError without a file name."""
     with opened_zip(data, "a 3DXML file") as archive:
         return _Assembly(archive).read()
 
 
 class _Assembly:
-    """References are keyed by their ids; a part is a reference as well, without children."""
+    """References by their ids. A part is a reference without children."""
 
     def __init__(self, archive: zipfile.ZipFile) -> None:
         self._archive = archive
@@ -116,7 +116,7 @@ def _reference(element: Element) -> str:
 
 
 def _matrix(element: Element | None) -> Transform | None:
-    """Three columns and where the origin goes, as a 4x4 by rows."""
+    """A row-major 4x4 matrix from three columns and the translation."""
     if element is None:
         return None
     values = element.floats(element.text.split())
@@ -127,8 +127,8 @@ def _matrix(element: Element | None) -> Transform | None:
 
 
 def _refuse_moved_views(document: Element, root: str) -> None:
-    """A default view can move occurrences. A view of the root only turns the whole product; like an
-    up axis, it is not applied."""
+    """Refuses default views that move occurrences. A view of the root rotates the whole product and
+    is not applied, like an up axis."""
     for element in document.below():
         if element.tag == "DefaultViewProperty" and element.find("RelativePosition"):
             path = [_reference(id_) for id_ in element.below() if id_.tag == "id"]
@@ -169,7 +169,7 @@ def _add_polygons(shape: Element, mesh: WrittenMesh) -> None:
 
 
 def _corners(face: Element, count: int) -> list[int]:
-    """Of all triangles of a face, three each."""
+    """The corners of all triangles of a face, three each."""
     given = face.attributes
     corners = face.indices(given.get("triangles", ""), count, 3)
     for strip in given.get("strips", "").split(","):

@@ -1,9 +1,9 @@
 """3MF core specification 1.3 with the production extension: packages of XML model parts.
 
-Read here and not by trimesh, which inflates every part of the package, merges objects of equal id
-from different parts, and skips what it does not find. Only the parts that the build refers to are
-opened. An object with a mesh is placed once for each way that leads to it from the build, through
-items and components; supports count like any other object.
+This reader is our own: trimesh inflates every part of the package, merges objects of equal id from
+different parts, and skips missing ones. Only the parts that the build refers to are opened. An
+object with a mesh is placed once for each path of items and components that leads to it from the
+build. Supports count like any other object.
 """
 
 from __future__ import annotations
@@ -45,19 +45,20 @@ _BUILD = frozenset(f"{namespace} build" for namespace in _CORE)
 # Any other element of the core namespace in an object or in the build is misspelt.
 _KNOWN = frozenset({"mesh", "vertices", "triangles", "components", "metadatagroup", "metadata"})
 _PRODUCTION_PATH = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06 path"
-# Extensions a model may require and that leave its triangles as they are.
+# Extensions that a model may require. They do not change its triangles.
 _HARMLESS = ("/production/", "/material/", "/slice/", "/trianglesets/")
 _ENCODINGS = frozenset({"utf-8", "utf-16"})
 _DEFAULT_UNIT = "millimeter"
-_MESH = frozenset({"vertex", "triangle"})  # what is wrong with them concerns their object alone
-# Elements of extensions that make a body of something else than triangles, or add to these.
+_MESH = frozenset({"vertex", "triangle"})  # errors in them refuse only their object
+# Elements of extensions that define geometry other than triangles.
 _OTHER_GEOMETRY = frozenset(
     {"beamlattice", "booleanshape", "displacementmesh", "levelset", "volumedata"}
 )
 
 
 def read_3mf(data: memoryview) -> RawScene:
-    """What the build of a 3MF package places; raises MeshFileError without a file name."""
+    """The objects that the build of a 3MF package places. Raises MeshFileError without a file
+    name."""
     with opened_zip(data, "a 3MF file") as package:
         return _Package(package).read()
 
@@ -179,10 +180,11 @@ class Model:
 
 
 def read_model(part: str, stream: IO[bytes], *, undeclared_prefixes: bool = False) -> Model:
-    """part: its name in the package. undeclared_prefixes: whether XML prefixes need no declaration,
-    as some programs write those of their own data; within an object they do.
+    """Reads the objects of a model part.
 
-    Raises MeshFileError; what is wrong with the mesh of one object is kept with it.
+    part: its name in the package. undeclared_prefixes: accept XML prefixes without a declaration,
+    which some programs write for their own data; within an object they are refused. Raises
+    MeshFileError. An error in the mesh of one object is stored in this object.
     """
     return _ModelReader(part, undeclared_prefixes).read(stream)
 
@@ -192,7 +194,7 @@ def part_name(target: str) -> str:
 
 
 class _ModelReader:
-    """Nothing but coordinates, indices and references is kept."""
+    """Keeps only coordinates, indices and references."""
 
     def __init__(self, part: str, undeclared_prefixes: bool) -> None:
         self._part = part
@@ -258,7 +260,7 @@ class _ModelReader:
             self._in_build = False
 
     def _on_other(self, namespace: str, local: str) -> None:
-        """What holds no coordinates and places nothing, as far as we know."""
+        """Refuses other elements unless they are known to hold and place no geometry."""
         if local == "build" and namespace in _CORE:
             self._in_build = True
         elif not (self._in_object or self._in_build):
@@ -272,7 +274,7 @@ class _ModelReader:
             self._refuse(f"<{prefix}:{local}> could be geometry: its prefix is not declared")
 
     def _refuse(self, message: str) -> None:
-        """Refuses the object that is read, or all of the build."""
+        """Refuses the current object, or the whole build."""
         refusal = self._fail("unsupported-feature", message)
         if self._object is None or self._in_build:
             raise refusal

@@ -1,4 +1,4 @@
-"""A mesh of coordinates in decimal digits, put together piece by piece."""
+"""Builds a mesh from pieces whose coordinates are written in decimal digits."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from satcheck.scene.loading.raw_mesh import RawMesh
 
 
 class WrittenMesh:
-    """Vertices and triangles of several pieces, and how finely the coordinates are written."""
+    """Vertices and triangles of several pieces, and the number of digits in their coordinates."""
 
     def __init__(self) -> None:
         self.vertices = array("d")
@@ -41,7 +41,7 @@ class WrittenMesh:
 
 
 def digits_of(number: str) -> tuple[int, int]:
-    """(digits after the point, 0), or of a number with an exponent (0, its significant digits)."""
+    """(digits after the point, 0); for a number with an exponent (0, its significant digits)."""
     mantissa, exponent, _ = number.lower().partition("e")
     if exponent:
         return 0, len(mantissa.lstrip("+-0.").replace(".", ""))
@@ -49,7 +49,7 @@ def digits_of(number: str) -> tuple[int, int]:
 
 
 def strip_triangles(strip: Sequence[int]) -> list[int]:
-    """Corners of the triangles of a strip: every other one is turned."""
+    """Corners of the triangles of a strip. Every other triangle is turned over."""
     corners: list[int] = []
     for k, (a, b, c) in enumerate(zip(strip, strip[1:], strip[2:], strict=False)):
         corners += (b, a, c) if k % 2 else (a, b, c)

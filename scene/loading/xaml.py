@@ -1,8 +1,8 @@
 """XAML: the triangles of a WPF 3-D scene, as SolidWorks writes it.
 
-Microsoft, "System.Windows.Media.Media3D": MeshGeometry3D, Transform3D. Read here and not by
-trimesh, which applies no transform but MatrixTransform3D and passes over the others. XAML states no
-unit. What is bound to data, kept in resources or of another namespace could be anything: refused.
+Microsoft, "System.Windows.Media.Media3D": MeshGeometry3D, Transform3D. This reader is our own:
+trimesh applies only MatrixTransform3D and ignores other transforms. XAML states no unit. Data
+bindings, resources and other namespaces are refused, because their content is unknown.
 """
 
 from __future__ import annotations
@@ -61,9 +61,9 @@ def _flattened(meshes: list[tuple[WrittenMesh, Transform]]) -> RawMesh:
 
 
 def _refuse_foreign(element: Element) -> None:
-    """Models of other kinds, and values that are looked up elsewhere."""
+    """Refuses models of other kinds, and values that come from bindings or resources."""
     if element.namespace != _PRESENTATION:
-        element.refuse("is no element of WPF: it could be geometry", "unsupported-feature")
+        element.refuse("is not an element of WPF: it could be geometry", "unsupported-feature")
     if element.tag.endswith(".Resources") and any(
         inside.tag.endswith("3D") for inside in element.below()
     ):
@@ -76,13 +76,13 @@ def _refuse_foreign(element: Element) -> None:
 
 
 def _mesh(element: Element) -> WrittenMesh:
-    """Without TriangleIndices every three positions are a triangle."""
+    """Without TriangleIndices, every three positions form a triangle."""
     words = element.words(element.attribute("Positions"), 3)
     count = len(words) // 3
     indices = element.attributes.get("TriangleIndices", "")
     corners = element.indices(indices, count, 3) if indices.split() else list(range(count))
     if len(corners) % 3:
-        element.refuse(f"{count} positions are no whole number of triangles")
+        element.refuse(f"{count} positions do not form whole triangles")
     if not corners:
         element.refuse("a mesh without triangles", "empty-mesh")
     mesh = WrittenMesh()
@@ -121,7 +121,7 @@ def _transform(element: Element) -> Transform:
 
 
 def _group(element: Element) -> Transform:
-    """Its transforms are applied in the order in which they stand."""
+    """Applies its transforms in the order of the file."""
     matrix = _IDENTITY
     holders = element.all("Transform3DGroup.Children") or [element]
     for holder in holders:
@@ -131,7 +131,7 @@ def _group(element: Element) -> Transform:
 
 
 def _matrix(element: Element, text: str) -> Transform:
-    """WPF writes it for row vectors."""
+    """WPF writes matrices for row vectors."""
     if text.strip() == "Identity":
         return _IDENTITY
     values = element.floats(element.words(text, 16))

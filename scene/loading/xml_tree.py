@@ -1,4 +1,4 @@
-"""XML of untrusted files: a parser that refuses entities, and elements that know their lines."""
+"""Parses XML of untrusted files. Entities are refused, and elements keep their line numbers."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from satcheck.scene.errors import MeshFileError
 
 _NAMESPACE_SEPARATOR = " "
 UNDECLARED = "undeclared:"
-_DECLARATION = "<?xml version="  # a parser that fails within this many characters has read no XML
+_DECLARATION = "<?xml version="  # if a parser fails within these characters, the file is not XML
 
 
 def guarded_parser(
     allowed_encodings: frozenset[str] | None = None, *, namespaces: bool = True
 ) -> expat.XMLParserType:
-    """A parser whose element and attribute names read "namespace local-name".
+    """A parser that reports names of elements and attributes as "namespace local-name".
 
-    allowed_encodings: lower-case names the XML declaration may give; None: any that expat knows.
-    namespaces: False leaves names as they are written, "prefix:local-name", declared or not.
-    Raises MeshFileError from within the parse.
+    allowed_encodings: lower-case names of encodings that are accepted; None: all that expat knows.
+    namespaces: False reports names as written, "prefix:local-name", even if the prefix is not
+    declared. Parsing raises MeshFileError.
     """
     separator = _NAMESPACE_SEPARATOR if namespaces else None
     parser = expat.ParserCreate(namespace_separator=separator)
@@ -52,11 +52,11 @@ def guarded_parser(
 
 
 class UnboundPrefix(MeshFileError):
-    """A prefix is used and not declared."""
+    """A prefix is used but not declared."""
 
 
 def parse_xml(parse: Callable[[], object]) -> None:
-    """Runs a parse and turns expat's complaint into a MeshFileError."""
+    """Runs a parser and turns an error of expat into a MeshFileError."""
     try:
         parse()
     except expat.ExpatError as error:
@@ -79,16 +79,16 @@ def parse_stream(parser: expat.XMLParserType, stream: IO[bytes]) -> None:
 
 
 def split_name(name: str) -> tuple[str, str]:
-    """(namespace, local name); the namespace is "" where there is none."""
+    """(namespace, local name); the namespace is "" if there is none."""
     namespace, _, local = name.rpartition(_NAMESPACE_SEPARATOR)
     return namespace, local
 
 
 class UndeclaredPrefixes:
-    """The namespaces of a parser that leaves names as they are written, for XML that uses prefixes
-    which it does not declare: these stand for themselves, as `UNDECLARED` and the prefix.
+    """Resolves namespaces for XML that uses undeclared prefixes. The namespace of such a prefix is
+    `UNDECLARED` and the prefix.
 
-    start, end: called for each element, with names as those of a parser that knows namespaces.
+    start, end: called for each element, with names as a parser with namespaces reports them.
     """
 
     def __init__(
@@ -120,7 +120,7 @@ class UndeclaredPrefixes:
         self._scopes.pop()
 
     def namespace(self, prefix: str) -> str | None:
-        """That of a prefix here; of "" for names without one."""
+        """The namespace of a prefix at this point; prefix "" for names without one."""
         return self._scopes[-1].get(prefix)
 
     def _resolved(self, name: str, default: str) -> str:
@@ -133,7 +133,7 @@ class UndeclaredPrefixes:
 
 @dataclass(slots=True, eq=False)
 class Element:
-    """tag and names of attributes: without their namespaces. text: all of it, in one piece."""
+    """tag and names of attributes: without namespaces. text: the whole text of the element."""
 
     tag: str
     namespace: str
@@ -169,7 +169,7 @@ class Element:
             waiting.extend(reversed(element.children))
 
     def words(self, text: str, multiple: int) -> list[str]:
-        """Numbers with commas or spaces between them, a multiple of `multiple` of them."""
+        """Numbers separated by commas or spaces. Their count has to be a multiple of `multiple`."""
         words = text.replace(",", " ").split()
         if len(words) % multiple:
             self.refuse(f"{len(words)} numbers, not a multiple of {multiple}")
@@ -198,7 +198,7 @@ class Element:
         return self.floats(self.text.split())
 
     def counted_floats(self) -> NDArray[np.float64]:
-        """The numbers in the element, as many as its `count` says."""
+        """The numbers in the element. Their count has to equal its `count`."""
         words, count = self.text.split(), self.integer("count")
         if len(words) != count:
             message = f"{self.tag} promises {count} numbers and has {len(words)}"
@@ -216,9 +216,9 @@ class Element:
         return values
 
     def integer(self, name: str) -> int:
-        """An attribute that has to be there: a whole number >= 0."""
+        """A required attribute: a whole number >= 0."""
         word = self.attribute(name).strip()
-        return int(word) if word.isdecimal() else self.refuse(f"{name}={word!r} is no number")
+        return int(word) if word.isdecimal() else self.refuse(f"{name}={word!r} is not a number")
 
     def refuse(self, message: str, code: str = "bad-record") -> NoReturn:
         raise MeshFileError(code, f"line {self.line}: <{self.tag}>: {message}")
@@ -232,7 +232,7 @@ def read_elements(
     *,
     encodings: frozenset[str] | None = None,
 ) -> Element:
-    """The outermost element. encodings: as of `guarded_parser`. Raises MeshFileError."""
+    """The outermost element. encodings: as in `guarded_parser`. Raises MeshFileError."""
     stream = io.BytesIO(data) if isinstance(data, bytes | memoryview) else data
     return parse_elements(guarded_parser(encodings), stream, Element)
 
@@ -242,7 +242,7 @@ def parse_elements(
     stream: IO[bytes],
     make: Callable[[str, str, dict[str, str], int], E],
 ) -> E:
-    """The outermost element. make: an element of a tag, a namespace, attributes and a line."""
+    """The outermost element. make: creates an element from tag, namespace, attributes and line."""
     outermost: list[E] = []
     around: list[E] = []
 

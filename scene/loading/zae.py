@@ -1,7 +1,8 @@
-"""ZAE: a COLLADA document in a zip archive, beside its textures.
+"""ZAE: a zip archive of a COLLADA document and its textures.
 
 Khronos, "COLLADA 1.5.0 specification" (2008), chapter 2: manifest.xml names the document in
-<dae_root>. Many archives have no manifest; then the only document counts.
+<dae_root>. Many archives have no manifest. Then the archive has to hold exactly one document, which
+is read.
 """
 
 from __future__ import annotations

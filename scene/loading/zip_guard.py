@@ -1,4 +1,4 @@
-"""Untrusted zip archives: damage is an error, and so is a part that unpacks too large."""
+"""Opens untrusted zip archives. Damage is an error, and so is a part that unpacks to too much."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from satcheck.scene.loading import limits
 
 @contextmanager
 def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]:
-    """kind: "a 3MF file" and the like, for messages. Raises MeshFileError for any fault of the
-    archive, also while the block reads its parts."""
+    """kind: such as "a 3MF file", for messages. Raises MeshFileError for any error in the archive,
+    also while the `with` block reads its parts."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             yield archive
@@ -29,7 +29,7 @@ def opened_zip(data: bytes | memoryview, kind: str) -> Iterator[zipfile.ZipFile]
 
 
 def open_part(archive: zipfile.ZipFile, name: str) -> IO[bytes]:
-    """A part of the archive; raises MeshFileError for one that unpacks too far."""
+    """A part of the archive. Raises MeshFileError if it unpacks to too much."""
     entry = archive.getinfo(name)
     inflation = entry.file_size / max(entry.compress_size, 1)
     if entry.file_size > limits.MAX_PART_BYTES or (

@@ -1,8 +1,9 @@
-"""Whether an outline stays the same whatever fills the holes of its mesh.
+"""Decides whether an outline is the same for every fill of the holes of its mesh.
 
-A fill lies within the convex hull of its boundary loop, so it is seen within the outline of that
-hull. Where triangles of the mesh cover all of that, no fill adds anything. Exact: the polygon is
-cut by one triangle after the other, in rational numbers, until nothing of it is left.
+A fill lies within the convex hull of its boundary loop, so its outline lies within the outline of
+that hull. If triangles of the mesh cover that outline, no fill changes the outline. The test is
+exact: it subtracts one triangle after another from the polygon, in rational numbers, until nothing
+remains.
 """
 
 from __future__ import annotations
@@ -15,13 +16,13 @@ from satcheck.scene.planar.turns import Floats
 Point = tuple[Fraction, Fraction]
 Polygon = list[Point]  # convex, counter-clockwise
 
-# Triangles over one hole that are looked at; of more nothing is told.
+# Limit on the triangles over one hole. With more triangles, the answer is unknown.
 _MOST_TRIANGLES = 1000
 
 
 def covers(region: Region, outline: Floats) -> bool:
-    """Whether the triangles of the region, each taken as covering, cover a convex polygon of
-    counter-clockwise corners (n, 2). False where that would take too long to tell."""
+    """Whether the triangles of the region cover a convex polygon; their signs do not matter.
+    outline: its corners, counter-clockwise, (n, 2). False if the test would take too long."""
     corners = region.points[region.triangles]
     low, high = outline.min(axis=0), outline.max(axis=0)
     meets = (corners.min(axis=1) < high).all(axis=1) & (corners.max(axis=1) > low).all(axis=1)
@@ -48,7 +49,7 @@ def _outside(polygon: Polygon, triangle: Polygon) -> list[Polygon]:
 
 
 def _left_of(polygon: Polygon, start: Point, end: Point) -> Polygon:
-    """What lies to the left of a line; empty where that has no area."""
+    """The part to the left of a line; empty if it has no area."""
     sides = [_side(start, end, point) for point in polygon]
     if not any(side > 0 for side in sides):
         return []

@@ -30,29 +30,29 @@ from satcheck.scene.planar.region import (
     region_of,
 )
 
-# How many times the width of the widest body the prisms reach up and down at least: nothing that
-# separates two bodies in the plane is longer than both are wide together.
+# The prisms reach at least this many times the width of the widest body up and down. A
+# translation that separates two bodies in the plane is no longer than the sum of their widths.
 _REACH = 2.0
-# Wider than this, the prisms would be higher than what is decided exactly.
+# For wider bodies the heights of the prisms would exceed the range of exact arithmetic.
 _WIDEST = 1e44
-# Of the polygon of a ball: it is off the disc by about 1/13000 of its width.
+# Segments of the polygon of a ball. Its error is about 1/13000 of the width of the disc.
 _SEGMENTS = 256
-# What rounding adds to how far a polygon is off its curve: by its own computation, relatively, and
-# by that of its corners, relative to the coordinates (sine, cosine, a sum, a placement: fewer than
-# 8 roundings).
+# Rounding adds to the deviation of a polygon from its curve: a relative error of the deviation
+# itself, and an error of the corners relative to the coordinates (sine, cosine, a sum, a placement:
+# fewer than 8 roundings).
 _ROUNDED = 2.0**-30
 _STEPS_OFF = 2.0**-50
 
 
 def flat_scene(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene:
-    """The bodies as they are placed, as prisms across the plane; answers lie in the plane.
+    """Replaces each placed body by the prism over its outline, so that all answers lie in the
+    plane.
 
-    A body without an outline (all its triangles are seen edge on) is unreadable from then on, and
-    so is one that cannot be placed, and one whose outline hangs on what fills its holes, unless
-    they are meant to be open (allow_open). A curved shape becomes a polygon, its corners on the
-    outline.
-    Raises SatcheckError (`planar-motion`, `planar-volume`): bodies that move leave the plane, and
-    a volume is none there.
+    A body becomes unreadable if it has no outline (all its triangles are seen edge on), if it
+    cannot be placed, or if its outline depends on the fill of its holes and allow_open is not set.
+    A curved shape becomes a polygon with its corners on the outline.
+    Raises SatcheckError for a scene with motions (`planar-motion`), because moving bodies may leave
+    the plane, and for a limit on volume (`planar-volume`), because a plane has no volumes.
     """
     if scene.motions:
         raise SatcheckError("planar-motion", "a scene with motions is not checked in a plane")
@@ -81,8 +81,8 @@ def flat_scene(scene: Scene, plane: Plane, *, allow_open: bool = False) -> Scene
 
 
 def _region(body: Body, plane: Plane, *, allow_open: bool) -> Region:
-    """Raises MeshFileError for a body without an outline, one whose outline is open, or beyond what
-    is decided exactly."""
+    """Raises MeshFileError for a body without an outline, with an open outline, or beyond the range
+    of exact arithmetic."""
     try:
         region = _outline(body, plane)
     except OverflowError as error:
@@ -125,7 +125,8 @@ def _fine_mesh(shape: Primitive) -> Mesh:
 
 
 def _deviation(body: Body, region: Region) -> float:
-    """How far the body may be off its outline's polygon, world units; 0.0: not at all."""
+    """The largest distance between the outline of the body and its polygon, world units; 0.0: the
+    polygon is exact."""
     stretch = 1.0 if body.transform is None else largest_stretch(body.transform)
     if body.shape is None:
         exact = body.file.deviation * stretch
@@ -137,7 +138,7 @@ def _deviation(body: Body, region: Region) -> float:
 
 
 def _is_inscribed(body: Body) -> bool:
-    """Whether the polygon lies within the outline: the mesh of a curved shape lies within it."""
+    """Whether the polygon lies within the outline, as for the mesh of a curved shape."""
     return body.file.inscribed if body.shape is None else is_curved(body.shape)
 
 
@@ -147,9 +148,10 @@ def _lost(body: Body, error: MeshFileError) -> Unreadable:
 
 
 def _heights(regions: Sequence[Region]) -> list[float]:
-    """How far each prism reaches from the plane: all different, none twice as far as another.
+    """The height of each prism above the plane.
 
-    They go by the outlines, so that the same bodies in another order have the same prisms.
+    All differ, and each is less than twice any other. They are assigned by the outlines, so that
+    the order of the bodies does not matter.
     """
     widest = max((float(np.ptp(region.points, axis=0).max()) for region in regions), default=1.0)
     least = 2.0 ** math.ceil(math.log2(_REACH * widest)) if widest > 0 else 1.0
@@ -188,7 +190,7 @@ def _flat(body: Body, region: Region, plane: Plane, height: float) -> Body:
 
 
 def _stood_up(mesh: Mesh, plane: Plane) -> Mesh:
-    """From (u, v, height) to world axes, mirrored where these are not in cyclic order."""
+    """From (u, v, height) to world axes; mirrored if these are not in cyclic order."""
     first, second = axes_of(plane)
     vertices = np.empty((mesh.vertex_count, 3))
     vertices[:, [first, second, axis_across(plane)]] = mesh.vertices

@@ -1,10 +1,10 @@
-"""A flat region made solid: the prism over it.
+"""The prism over a flat region.
 
-All prisms of a check reach farther above and below the plane than any of them is wide. Two of them
-then overlap or touch exactly as the regions do. They are also as deep in each other as the regions:
-a translation that separates them has to separate the regions, unless it is as long as the prisms
-are high, and those that separate the regions need no third component. No two are of one height,
-so that their ends never meet: only walls do.
+All prisms of a check reach farther above and below the plane than any of them is wide. Two prisms
+therefore overlap or touch exactly if their regions do. They also have the same depth as the
+regions: a translation that separates them separates the regions or is as long as the prisms are
+high, and a translation that separates the regions needs no third component. All heights differ, so
+only walls can touch, never the ends.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from satcheck.scene.planar.turns import Floats, Indices
 def prism(points: Floats, triangles: Indices, height: float) -> Mesh:
     """The closed mesh, |z| <= height, over signed triangles in the plane, (n, 2) and (m, 3).
 
-    Its winding number at a point between its ends is the sum of the signs of the triangles under
-    it. Walls stand on the edges that no neighbour takes back. No wall is welded here.
+    Its winding number at a point between its ends is the sum of the signs of the triangles below
+    that point. Walls stand on the boundary edges. They are not welded.
     """
     count = len(points)
     ground = np.column_stack((points, np.full(count, -height)))

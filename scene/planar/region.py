@@ -11,7 +11,7 @@ from satcheck.scene.planar.turns import Floats, Indices, turns
 
 
 class Region(Struct, frozen=True):
-    """The points where the signs of the triangles do not add up to 0. points: (n, 2), each once;
+    """All points where the sum of the signs of the triangles is not 0. points: (n, 2), each once;
     triangles: (m, 3), none of area 0."""
 
     points: Floats
@@ -21,8 +21,8 @@ class Region(Struct, frozen=True):
 def region_of(mesh: Mesh, solid: bool, plane: Plane) -> Region:
     """The outline of a mesh, exactly: dropping one coordinate rounds nothing.
 
-    Of a solid, the triangles that face the eye: a line of sight that meets the solid leaves it as
-    often as it enters, so they cover what all together do. Of another mesh, all triangles.
+    For a solid, only the triangles that face the viewer: a line of sight enters the solid as often
+    as it leaves it, so these triangles cover the whole outline. For other meshes, all triangles.
     """
     points, triangles = _merged(np.asarray(mesh.vertices)[:, axes_of(plane)], mesh.triangles)
     signs = turns(points, triangles)
@@ -33,20 +33,20 @@ def region_of(mesh: Mesh, solid: bool, plane: Plane) -> Region:
 
 
 def drawn_region(mesh: Mesh) -> Region:
-    """A sheet in the plane z = 0, its triangles with the signs they have."""
+    """The region of a sheet in the plane z = 0. Its triangles keep their signs."""
     points, triangles = _merged(np.asarray(mesh.vertices)[:, :2], mesh.triangles)
     return Region(points, triangles[turns(points, triangles) != 0])
 
 
 def _merged(points: Floats, triangles: object) -> tuple[Floats, Indices]:
-    """Points that coincide in the plane as one, so that walls between neighbours cancel."""
+    """Merges points that coincide in the plane, so that walls between neighbours cancel."""
     unique, index = np.unique(points + 0.0, axis=0, return_inverse=True)
     return unique, index.reshape(-1)[np.asarray(triangles, dtype=np.int64)]
 
 
 def convex_corners(region: Region) -> Floats | None:
-    """The corners, counter-clockwise, of a region whose triangles make up a convex polygon, each
-    point of it covered once; None for any other."""
+    """The corners, counter-clockwise, of a region that is a convex polygon covered exactly once;
+    None for any other region."""
     from satcheck.scene.planar.prism import prism
 
     if not len(region.triangles):
@@ -58,7 +58,7 @@ def convex_corners(region: Region) -> Floats | None:
 
 
 def convex_region(mesh: Mesh, plane: Plane) -> Region:
-    """The outline of a mesh that is convex: the polygon of its outermost corners."""
+    """The outline of a convex mesh: the convex hull of its corners."""
     points = np.unique(np.asarray(mesh.vertices)[:, axes_of(plane)] + 0.0, axis=0)
     corners = _outermost(points)
     if corners is None:
@@ -80,5 +80,5 @@ def _outermost(points: Floats) -> Floats | None:
 
 
 def fan_of(corners: int) -> Indices:
-    """The triangles of a convex polygon from its first corner."""
+    """The triangles of a convex polygon, as a fan around its first corner."""
     return np.array([(0, k, k + 1) for k in range(1, corners - 1)], dtype=np.int64).reshape(-1, 3)

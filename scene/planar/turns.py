@@ -1,4 +1,4 @@
-"""Which way triangles in the plane run, exactly."""
+"""Exact orientation of triangles in the plane."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _TINY = 2.0**-960
 
 
 def turns(points: Floats, triangles: Indices) -> npt.NDArray[np.int8]:
-    """Exactly: +1 where a triangle's corners run counter-clockwise, -1 clockwise, 0 on a line.
+    """The exact orientation of each triangle: +1 counter-clockwise, -1 clockwise, 0 on a line.
 
     points: (n, 2); triangles: (m, 3).
     """

@@ -1,7 +1,7 @@
 """Robots: URDF and SRDF -> bodies in a pose.
 
-`load_scene` reads them; `posed` puts the robots of a scene into another pose without reading
-anything again, `joint_samples` draws random ones.
+`load_scene` reads them. `posed` puts the robots of a scene into another pose without reading files
+again. `joint_samples` draws random poses.
 """
 
 from satcheck.scene.robot.assembly import (

@@ -1,4 +1,4 @@
-"""A robot in a scene: which bodies its links are, which pairs may touch, where everything is."""
+"""A robot in a scene: the bodies of its links, the pairs that may touch, and the placements."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SAME_LINK = "one rigid link"
 class Part(Struct, frozen=True):
     """One <collision> that becomes a body. offset: its geometry in the frame of the link.
 
-    source: the path of a mesh file, a shape, or why there is neither.
+    source: the path of a mesh file, a shape, or the error if there is neither.
     """
 
     id: str
@@ -40,7 +40,7 @@ class Part(Struct, frozen=True):
 
 
 class RobotBody(Struct, frozen=True):
-    """A body of the scene, readable or not, that a link of a robot carries."""
+    """A body of a link of a robot, readable or not."""
 
     id: str
     link: str
@@ -48,7 +48,7 @@ class RobotBody(Struct, frozen=True):
 
 
 class SceneRobot(Struct, frozen=True):
-    """A robot, the bodies that it moves, and the SRDF about it."""
+    """A robot, its bodies, and its SRDF."""
 
     robot: Robot
     bodies: tuple[RobotBody, ...]
@@ -63,12 +63,12 @@ class SceneRobot(Struct, frozen=True):
 
     @property
     def pairs_within_links(self) -> int:
-        """How many pairs of bodies one link carries: they are never checked."""
+        """The number of pairs of bodies on the same link. They are never checked."""
         return sum(n * (n - 1) // 2 for n in Counter(body.link for body in self.bodies).values())
 
     def neighbours(self) -> list[tuple[str, str]]:
-        """Links with bodies that a joint connects, as (parent, child); links without any, which lie
-        between, count as part of the joint."""
+        """Pairs (parent, child) of links with bodies that are connected by a joint. Links without
+        bodies between them count as part of the joint."""
         solid = {body.link for body in self.bodies}
         carrier = {joint.child: joint.parent for joint in self.robot.joints}
         pairs = []
@@ -82,8 +82,9 @@ class SceneRobot(Struct, frozen=True):
 
 
 def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
-    """One part a <collision>: called as the link, and where that has several "link/name" or
-    "link/number". Parts that are lost for one cause have one message, which counts them."""
+    """One part for each <collision>. Its id is the name of the link; if the link has several,
+    "link/name" or "link/number". Parts that fail for the same cause share one message, which states
+    their number."""
     collisions = [
         (link, collision, number, _source(collision, places))
         for link in robot.links.values()
@@ -107,7 +108,7 @@ def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
 
 
 def _placed(cause: MeshFileError, lost: Sequence[Collision]) -> MeshFileError:
-    """The cause with what it costs, and where the file says so first."""
+    """The cause, with the number of bodies that it affects, and its first place in the file."""
     first, number = lost[0], len(lost)
     place = f"line {first.line}"
     if isinstance(first.geometry, MeshReference):
@@ -117,7 +118,7 @@ def _placed(cause: MeshFileError, lost: Sequence[Collision]) -> MeshFileError:
 
 
 def bare_links(robot: Robot) -> list[Issue]:
-    """A note on links that have something to see, but nothing to collide with."""
+    """A note on links with visual geometry but without collision geometry."""
     bare = [link.name for link in robot.links.values() if link.visual and not link.collisions]
     if not bare:
         return []
@@ -130,9 +131,10 @@ def bare_links(robot: Robot) -> list[Issue]:
 
 
 def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[SceneRobot]:
-    """Each robot with the SRDF about it: the one of its name, or the only one for the only robot.
+    """Each robot with its SRDF: the SRDF with its name, or the only SRDF if there is only one
+    robot.
 
-    Raises SceneFileError for an SRDF about no robot that is here, and for a second one about one.
+    Raises SceneFileError if an SRDF has no robot, or if a robot has two SRDFs.
     """
     matched = list(robots)
     for srdf in srdfs:
@@ -141,7 +143,7 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
             named = [0]
         if not named:
             names = ", ".join(robot.robot.name for robot in matched) or "no URDF is given"
-            message = f"about robot {srdf.robot!r}, which is not here ({names})"
+            message = f"about robot {srdf.robot!r}, which is not given ({names})"
             raise SceneFileError("bad-robot", message, file=srdf.file)
         for k in named:
             if matched[k].srdf is not None:
@@ -152,7 +154,7 @@ def with_srdfs(robots: Sequence[SceneRobot], srdfs: Iterable[Srdf]) -> list[Scen
 
 
 def permissions(robot: SceneRobot) -> tuple[list[Rule], list[Issue]]:
-    """(rules for the pairs of its bodies that may touch, what there is to say about that)."""
+    """(rules for the pairs of its bodies that may touch, issues about them)."""
     allowed: list[Rule] = []
     for link in robot.robot.links:
         for pair in combinations(robot.bodies_of(link), 2):
@@ -173,11 +175,11 @@ def _allowed(pair: tuple[str, str], reason: str, file: str) -> Rule:
 
 
 def posed(scene: Scene, pose: Pose) -> Scene:
-    """The scene with its robots in this pose: other transforms, the same meshes. What does not
-    move is the same object.
+    """The scene with its robots in this pose: new transforms, the same meshes. Bodies that do not
+    move are the same objects.
 
-    pose: joint -> values; see `poses.settle` for joints that it does not name and for what is
-    refused. The posture, complete, and what there is to say about it are those of the result.
+    pose: joint -> values; `poses.settle` says what happens to other joints, and which values are
+    refused. The result has the complete posture and the issues about it.
     """
     posture = settle([robot.robot for robot in scene.robots], pose)
     transforms: dict[str, Transform] = {}
@@ -200,8 +202,8 @@ def posed(scene: Scene, pose: Pose) -> Scene:
 
 
 def pose_of_states(scene: Scene, names: Iterable[str]) -> Pose:
-    """The named states put together. SatcheckError where two say different things of a joint, or
-    one names what the robots do not have."""
+    """The named states combined. Raises SatcheckError if two give a joint different values, or if a
+    state names a joint that the robots do not have."""
     from satcheck.scene.robot.poses import check_state, state_named
 
     states = [state for robot in scene.robots for state in robot.states]
@@ -243,7 +245,7 @@ def _other_name(robot: SceneRobot) -> list[Issue]:
     srdf, name = robot.srdf, robot.robot.name
     if srdf is None or srdf.robot == name:
         return []
-    message = f"it is about robot {srdf.robot!r}, and taken to be about {name!r}"
+    message = f"it names robot {srdf.robot!r} and is applied to {name!r}"
     return [issue("other-robot", message, file=srdf.file)]
 
 
@@ -253,7 +255,7 @@ def _unknown_links(robot: SceneRobot) -> list[Issue]:
     return [
         issue(
             "unknown-body",
-            f"{robot.srdf.file}: link {link!r} is not in the URDF: what is said of it is ignored",
+            f"{robot.srdf.file}: link {link!r} is not in the URDF: its entries are ignored",
             file=robot.srdf.file,
         )
         for link in sorted(robot.srdf.links() - robot.robot.links.keys())

@@ -1,4 +1,4 @@
-"""Whether the joints of a robot make one tree of its links, and in which order to walk it."""
+"""Checks that the joints of a robot connect its links into one tree, and orders them."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from satcheck.scene.words import listed, meant
 def in_order(
     robot: Element, links: Mapping[str, Link], joints: Sequence[tuple[Joint, Element]]
 ) -> tuple[str, tuple[Joint, ...]]:
-    """(the root link, the joints, each after the one that carries its parent).
+    """(the root link, the joints, each after the joint of its parent link).
 
-    Raises SceneFileError for links that are not there, two parents, a circle, several roots, and
-    for joints that mimic what they cannot.
+    Raises SceneFileError for missing links, two parents, a cycle, several roots, and for a joint
+    that mimics itself or a joint that it cannot mimic.
     """
     carriers: dict[str, Joint] = {}
     for joint, element in joints:
@@ -23,7 +23,7 @@ def in_order(
             if link not in links:
                 hint = meant(link, links)
                 element.need(role).refuse(
-                    f"joint {joint.name!r} names link {link!r}, which is not there{hint}",
+                    f"joint {joint.name!r} names link {link!r}, which does not exist{hint}",
                     "index-out-of-range",
                 )
         if joint.child in carriers:
@@ -35,18 +35,18 @@ def in_order(
     roots = [name for name in links if name not in carriers]
     if len(roots) > 1:
         names = listed([repr(root) for root in roots])
-        robot.refuse(f"{len(roots)} links are carried by no joint, only the root may be: {names}")
+        robot.refuse(f"{len(roots)} links are the child of no joint, only the root may be: {names}")
     ordered = _walk(roots, [joint for joint, _ in joints])
     if len(ordered) < len(joints):
         reached = {*roots, *(joint.child for joint in ordered)}
         circle = _circle(next(name for name in links if name not in reached), carriers)
-        robot.refuse(f"joints go round in a circle: {circle}", "reference-cycle")
+        robot.refuse(f"joints form a cycle: {circle}", "reference-cycle")
     _check_mimics(joints)
     return roots[0], ordered
 
 
 def _walk(roots: Sequence[str], joints: Sequence[Joint]) -> tuple[Joint, ...]:
-    """The joints that can be reached, from the root outward."""
+    """The joints that can be reached from the root, parents first."""
     carried: dict[str, list[Joint]] = {}
     for joint in joints:
         carried.setdefault(joint.parent, []).append(joint)
@@ -59,7 +59,7 @@ def _walk(roots: Sequence[str], joints: Sequence[Joint]) -> tuple[Joint, ...]:
 
 
 def _circle(link: str, carriers: Mapping[str, Joint]) -> str:
-    """`a -> b -> a`: from a link whose carriers never end, back to where they repeat."""
+    """A cycle of links as text, `a -> b -> a`. link: one whose chain of parents never ends."""
     seen: list[str] = []
     while link not in seen:
         seen.append(link)
@@ -77,5 +77,5 @@ def _check_mimics(joints: Sequence[tuple[Joint, Element]]) -> None:
             if leader.freedoms > 1:
                 element.refuse(f"{chain[-1].name!r} mimics {leader.name!r}, a {leader.kind} joint")
             if leader in chain:
-                element.refuse(f"joint {joint.name!r} mimics itself in the end", "reference-cycle")
+                element.refuse(f"joint {joint.name!r} indirectly mimics itself", "reference-cycle")
             chain.append(leader)

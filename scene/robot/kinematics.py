@@ -1,8 +1,8 @@
-"""Forward kinematics: values of joints -> where the links are, in float64.
+"""Forward kinematics in float64: from values of joints to poses of links.
 
 Poses are rigid row-major 4x4 for column vectors. Conventions of URDF: roll, pitch, yaw turn about
-the fixed x, y, z in that order, R = Rz(yaw) Ry(pitch) Rx(roll); a joint's motion comes after its
-origin, in the joint's own frame; angles are right-handed.
+the fixed x, y, z in that order, R = Rz(yaw) Ry(pitch) Rx(roll); the motion of a joint is applied
+after its origin, in the frame of the joint; angles are right-handed.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from satcheck.core.transform import (
 from satcheck.scene.bodies import IDENTITY
 from satcheck.scene.robot.model import Joint, Robot
 
-# Numbers of one joint: none for a fixed one, (x, y, angle) for a planar one, (x, y, z, roll, pitch,
-# yaw) for a floating one, an angle or a length for the others.
+# The value of a joint: no number for a fixed joint, (x, y, angle) for a planar one, (x, y, z, roll,
+# pitch, yaw) for a floating one, an angle or a length for others.
 Values = tuple[float, ...]
 
 _NO_TURN = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def link_poses(robot: Robot, values: Mapping[str, Values]) -> dict[str, Transform]:
-    """World pose of each link; the root's is the identity. values: of every joint that moves."""
+    """World pose of each link. The root has the identity. values: of every joint that moves."""
     poses = {robot.root: IDENTITY}
     for joint in robot.joints:
         placed = compose(poses[joint.parent], joint.origin)
@@ -41,7 +41,7 @@ def link_poses(robot: Robot, values: Mapping[str, Values]) -> dict[str, Transfor
 
 
 def motion(joint: Joint, values: Sequence[float]) -> Transform:
-    """What the joint adds to its origin."""
+    """The motion of the joint, which is applied after its origin."""
     match joint.kind:
         case "fixed":
             return IDENTITY
@@ -70,7 +70,7 @@ def from_rpy(xyz: Vector, rpy: Vector) -> Transform:
 
 
 def from_quaternion(xyz: Vector, quaternion: tuple[float, float, float, float]) -> Transform:
-    """(x, y, z, w) of any length but 0."""
+    """quaternion: (x, y, z, w) of any length except 0."""
     return placed(quaternion_matrix(*quaternion), xyz)
 
 
@@ -79,10 +79,10 @@ def _cos_sin(radians: float) -> tuple[float, float]:
 
 
 def _plane(normal: Vector) -> tuple[Vector, Vector]:
-    """x and y of the joint's frame, after the shortest turn that brings its z to the normal.
+    """x and y of the joint's frame after the shortest rotation from z to the normal.
 
-    For z down that is half a turn about x. Moller, Hughes, "Efficiently Building a Matrix to Rotate
-    One Vector to Another" (1999), for from = z.
+    If the normal is -z, this is half a turn about x. Moller, Hughes, "Efficiently Building a Matrix
+    to Rotate One Vector to Another" (1999), for from = z.
     """
     x, y, z = normal
     if z < -1 + 1e-12:

@@ -1,7 +1,7 @@
-"""A robot as its URDF describes it: links that carry geometry, joints that carry links.
+"""A robot as its URDF describes it: links with geometry, and joints that move links.
 
 Lengths in metres, angles in radians, as URDF prescribes. A pose is a rigid row-major 4x4 for column
-vectors. Nothing here knows files or values of joints.
+vectors. This module reads no files and stores no values of joints.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ JointKind = Literal["revolute", "continuous", "prismatic", "fixed", "floating", 
 
 
 class MeshReference(Struct, frozen=True):
-    """A mesh file by its URI as written. scale: of its x, y, z; negative ones mirror."""
+    """A mesh file by its URI as written. scale: factors of x, y, z; negative ones mirror."""
 
     uri: str
     scale: Vector
 
 
 class RefusedShape(Struct, frozen=True):
-    """Geometry that cannot be used, and why. code: of `issue.CODES`. reason: without the line, so
-    that bodies that are refused for one reason are told together."""
+    """Geometry that cannot be used. code: of `issue.CODES`. reason: without the line, so that one
+    message can cover all bodies with this reason."""
 
     code: str
     reason: str
@@ -36,8 +36,8 @@ Geometry = MeshReference | Primitive | RefusedShape
 
 
 class Collision(Struct, frozen=True):
-    """One <collision> of a link. origin: its pose in the link's frame. line: in the URDF; of what
-    cannot be used the element to blame."""
+    """One <collision> of a link. origin: its pose in the link's frame. line: in the URDF; for
+    refused geometry, the line of the wrong element."""
 
     name: str | None
     origin: Transform
@@ -54,7 +54,7 @@ class Link(Struct, frozen=True):
 
 
 class Limits(Struct, frozen=True):
-    """What a joint may do: radians, or metres of a prismatic one; lower <= upper."""
+    """The range of a joint: radians, or metres for a prismatic joint; lower <= upper."""
 
     lower: float
     upper: float
@@ -69,10 +69,10 @@ class Mimic(Struct, frozen=True):
 
 
 class Joint(Struct, frozen=True):
-    """Carries the link `child` in the frame of the link `parent`.
+    """Moves the link `child` relative to the link `parent`.
 
-    origin: the pose of the joint's frame in that of the parent. axis: unit vector in the joint's
-    frame. limits: None for kinds that have none.
+    origin: the pose of the joint's frame in the frame of the parent. axis: unit vector in the
+    joint's frame. limits: None if there are none.
     """
 
     name: str
@@ -91,14 +91,14 @@ class Joint(Struct, frozen=True):
 
     @property
     def free(self) -> bool:
-        """Whether a pose gives its value."""
+        """Whether a pose sets its value: it moves and mimics no other joint."""
         return self.freedoms > 0 and self.mimic is None
 
 
 class Robot(Struct, frozen=True):
     """A tree of links, checked.
 
-    file: the URDF's path as given. joints: each after the one that carries its parent.
+    file: the URDF's path as given. joints: each after the joint of its parent link.
     """
 
     name: str

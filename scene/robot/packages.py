@@ -1,10 +1,11 @@
-"""Where the mesh files lie that a URDF names: package://, model://, file://, and plain paths.
+"""Finds the mesh files that a URDF names: package://, model://, file://, and plain paths.
 
-A URDF may come from anywhere, so it does not choose what is opened: only what lies in its package,
-or in a folder that the user named. Anything else needs `allow_outside`.
+A URDF is untrusted. Only files in its package, or in a folder that the user named, are opened.
+Other files need `allow_outside`.
 
-The package of a URDF is the nearest folder upwards with a package.xml (or Gazebo's model.config),
-else the folder that holds the URDF's folder, as most repositories lie: robot/urdf, robot/meshes.
+The package of a URDF is the nearest parent folder with a package.xml (or Gazebo's model.config).
+Without one it is the parent of the URDF's folder, because most repositories have robot/urdf and
+robot/meshes.
 """
 
 from __future__ import annotations
@@ -29,10 +30,10 @@ _PACKAGE_SCHEMES = frozenset(("package", "model"))
 class MeshPlaces:
     """Resolves the mesh URIs of one URDF.
 
-    packages: the name of a package, or of a folder in it ("name/meshes"), -> where it lies; the
-    longest name that fits counts. Without one a package is looked for among the folders above the
-    URDF and beside these, then in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; by the name of its
-    folder, then by the <name> in its package.xml.
+    packages: the name of a package, or of a folder in it ("name/meshes") -> its location; the
+    longest matching name counts. Other packages are searched in the folders above the URDF and
+    their siblings, then in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH. They match by the name of the
+    folder, or else by the <name> in package.xml.
     """
 
     def __init__(
@@ -49,10 +50,10 @@ class MeshPlaces:
         self._own = self._root.resolve()
 
     def locate(self, uri: str) -> Path:
-        """The path of an existing file, relative where the URDF's was.
+        """The path of an existing file, relative if the path of the URDF is relative.
 
-        Raises MeshFileError. Its message names the cause and not the file, so that files that are
-        lost for the same cause have the same message.
+        Raises MeshFileError. Its message names the cause and not the file, so that files with the
+        same cause share one message.
         """
         if "\0" in uri:
             raise MeshFileError("bad-record", "the path holds a NUL character")
@@ -69,7 +70,7 @@ class MeshPlaces:
         if not self._may_open(place):
             raise MeshFileError(
                 "outside-path",
-                f"it lies {self._outside()}: --allow-outside lets it, and so does a package.xml "
+                f"it lies {self._outside()}: allow it with --allow-outside, or with a package.xml "
                 "in the folder that holds both",
             )
         return place
@@ -92,7 +93,7 @@ class MeshPlaces:
             places.append(place)
         if places:
             message = (
-                f"package {name!r} lies {self._outside()}: --package {name}={folders[0]} lets it"
+                f"package {name!r} lies {self._outside()}: allow it: --package {name}={folders[0]}"
             )
             raise MeshFileError("outside-path", message)
         if reasons:
@@ -103,7 +104,7 @@ class MeshPlaces:
         raise MeshFileError("missing-resource", message)
 
     def _named(self, rest: str) -> Path | None:
-        """By the user's own mapping, which is trusted as far as its folder reaches."""
+        """Resolves by the packages that the user named. Files in their folders are trusted."""
         parts = rest.split("/")
         for length in range(len(parts), 0, -1):
             folder = self._packages.get("/".join(parts[:length]))
@@ -115,7 +116,7 @@ class MeshPlaces:
         return None
 
     def _folders_of(self, name: str) -> Iterator[Path]:
-        """Where a package of that name may lie, the most likely place first."""
+        """Folders that may be a package of that name, the most likely first."""
         yield from self._by_folder_name(name)
         yield from self._by_manifest(name)
 
@@ -146,8 +147,8 @@ class MeshPlaces:
 
 
 def _steps_to_root(folder: Path) -> int:
-    """How far the package lies above the folder of the URDF. Without a manifest it is one step,
-    but never the root of the file system."""
+    """Number of folders from the URDF's folder up to the package. Without a manifest it is one, but
+    never the root of the file system."""
     absolute = folder.absolute()
     around = (absolute, *absolute.parents)
     for steps, above in enumerate(around):
@@ -157,8 +158,8 @@ def _steps_to_root(folder: Path) -> int:
 
 
 def _name_in_manifest(folder: Path) -> str | None:
-    """The name that a package gives itself in its package.xml; None where there is no readable
-    one: then the name of the folder counts."""
+    """The <name> in the package.xml of a folder; None if there is no readable one. Then the name of
+    the folder counts."""
     try:
         with (folder / _PACKAGE_XML).open("rb") as file:
             root = read_elements(file.read(_MAX_BYTES))
@@ -171,7 +172,7 @@ def _name_in_manifest(folder: Path) -> str | None:
 def _existing(folder: Path, path: str, *, quoted: bool) -> Path:
     r"""The file at `path` from `folder`. quoted: %20 may stand for a space.
 
-    A path is taken as it stands where it exists, then with \ for /, as Windows writes it.
+    Tries the path as written first, then with / for \, because some files are written on Windows.
     """
     spellings = [path, unquote(path)] if quoted else [path]
     spellings += [spelling.replace("\\", "/") for spelling in spellings if "\\" in spelling]
@@ -188,12 +189,12 @@ def _existing(folder: Path, path: str, *, quoted: bool) -> Path:
 def _folders_in(folder: Path) -> list[Path]:
     try:
         return sorted(entry for entry in folder.iterdir() if entry.is_dir())
-    except OSError:  # a variable may name folders that are not there
+    except OSError:  # a variable may name missing folders
         return []
 
 
 def _environment() -> list[Path]:
-    """Folders of packages, as ROS 1 and ROS 2 are told about them."""
+    """Folders of packages in the environment variables of ROS 1 and ROS 2."""
     ros = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
     ament = os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     return [Path(entry) for entry in ros if entry] + [Path(e) / "share" for e in ament if e]

@@ -1,10 +1,10 @@
-"""Poses of robots: JSON -> values of joints, complete and held against their limits.
+"""Reads poses of robots from JSON, completes them and checks them against the limits.
 
     {"joint": value, ...}          one pose; a list of such objects is several
 
-A value is a number (radians; metres of a prismatic joint), or a list of numbers: [x, y, angle] of a
-planar joint, [x, y, z, roll, pitch, yaw] of a floating one. Joints that are not named stand at 0,
-or where 0 is beyond their limits at the nearer limit.
+A value is a number (radians; metres for a prismatic joint), or a list of numbers: [x, y, angle] for
+a planar joint, [x, y, z, roll, pitch, yaw] for a floating one. Joints without a value stand at 0,
+or at the nearer limit if 0 is beyond their limits.
 """
 
 from __future__ import annotations
@@ -26,16 +26,17 @@ from satcheck.scene.robot.srdf import State
 from satcheck.scene.words import meant
 
 Pose = Mapping[str, Values]
-# Up to this, what a mimic joint is said to do and what it does are the same: states are written
-# with a few decimals.
+# A given value of a mimic joint may differ from the computed one by this: states are written with
+# few decimals.
 _SAME = 1e-6
 _MAX_BYTES = 256 << 20
 
 
 class Posture(Struct, frozen=True):
-    """A complete pose. joints: of every joint that moves. issues: about it.
+    """A complete pose.
 
-    mimics: the joints whose values follow from those of others.
+    joints: name of every joint that moves -> its value. issues: about the pose. mimics: the joints
+    whose values follow from other joints.
     """
 
     joints: dict[str, Values]
@@ -43,7 +44,7 @@ class Posture(Struct, frozen=True):
     issues: tuple[Issue, ...] = ()
 
     def pose(self) -> dict[str, float | list[float]]:
-        """What gives this posture again, as JSON values."""
+        """The pose as JSON values. Settling it gives this posture again."""
         return {
             name: values[0] if len(values) == 1 else list(values)
             for name, values in self.joints.items()
@@ -52,10 +53,10 @@ class Posture(Struct, frozen=True):
 
 
 def read_poses(given: str) -> list[Pose] | Pose:
-    """Poses from a JSON file, or from the JSON text itself where it starts with { or [.
+    """Poses from a JSON file, or from a JSON text that starts with { or [. Returns a list of poses
+    or one pose, as in the text.
 
-    A list of poses, or one pose, as it was written. Raises SatcheckError (`bad-pose`, and what can
-    be wrong with a file).
+    Raises SatcheckError (`bad-pose`, or a code about the file).
     """
     text, file = (given, None) if given.lstrip()[:1] in ("{", "[") else (_text(given), given)
     try:
@@ -86,7 +87,7 @@ def state_named(name: str, states: Iterable[State]) -> State:
 
 
 def check_state(state: State, robots: Sequence[Robot]) -> None:
-    """Raises what `settle` raises about the joints of a pose, with the place in the SRDF."""
+    """Checks the joints of a state as `settle` does. Errors name the place in the SRDF."""
     movable = _movable(robots)
     for name, values in state.joints.items():
         try:
@@ -99,8 +100,8 @@ def check_state(state: State, robots: Sequence[Robot]) -> None:
 def settle(robots: Sequence[Robot], pose: Pose) -> Posture:
     """The complete pose of these robots.
 
-    Raises SatcheckError (`bad-pose`) for joints that are not there, that cannot move, or that two
-    robots have; and for a wrong number of numbers. A value beyond limits is kept, with a warning.
+    Raises SatcheckError (`bad-pose`) if a joint is unknown, is fixed, exists in two robots, or has
+    a wrong count of numbers. A value beyond the limits is kept, with a warning.
     """
     movable = _movable(robots)
     for name, values in pose.items():
@@ -202,7 +203,7 @@ def _followed(
     pose: Pose,
     issues: list[Issue],
 ) -> Values:
-    """The value of a mimic joint: that of its leader, however long the chain."""
+    """The value of a mimic joint. It follows from its leader, through a chain of any length."""
     value = _mimicked(joint, movable, joints)
     given = pose.get(joint.name)
     if given is not None and abs(given[0] - value) > _SAME:

@@ -1,4 +1,4 @@
-"""Random poses: every joint that moves somewhere in its range, the same for the same seed."""
+"""Random poses: a value in its range for each joint that moves. A seed fixes the sequence."""
 
 from __future__ import annotations
 
@@ -9,18 +9,20 @@ from collections.abc import Sequence
 from satcheck.scene.robot.model import Joint, Robot
 from satcheck.scene.robot.poses import Pose
 
-# So that a pose can be read and typed again; it is checked exactly as rounded.
+# Significant digits of a value. A user can then read and retype a pose; the rounded pose is the one
+# that is checked.
 _DIGITS = 6
 
 
 def joint_samples(
     robots: Sequence[Robot], count: int, seed: int, fixed: Pose | None = None
 ) -> list[Pose]:
-    """`count` poses, uniform within the limits; joints that turn without any from -pi to pi.
+    """`count` poses, uniform within the limits. A rotating joint without limits is in [-pi, pi].
 
-    Each value is rounded to six significant digits. The first poses of a longer list are those of a
-    shorter one; no machine or version of Python changes them. Joints of `fixed` keep its values;
-    joints that slide without limits stay at 0, planar and floating ones too; mimics follow.
+    Each value is rounded to six significant digits. A longer list starts with the poses of a
+    shorter one. The poses are the same on every machine and version of Python. Joints in `fixed`
+    keep those values. Sliding joints without limits, planar and floating joints stay at 0. Mimics
+    follow their leaders.
     """
     # Random.random() is the one method whose sequence Python promises to keep.
     draw = random.Random(seed).random

@@ -1,7 +1,7 @@
-"""SRDF -> which links need no check against each other, and named values of joints.
+"""Reads SRDF: pairs of links that need no check, and named values of joints.
 
-The format: http://wiki.ros.org/srdf. Virtual joints, groups and end effectors say nothing about
-what may collide, and are passed over.
+The format: http://wiki.ros.org/srdf. Virtual joints, groups and end effectors do not affect
+collisions and are ignored.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from satcheck.scene.robot.xml_tree import Element, read_tree
 
 
 class State(Struct, frozen=True):
-    """A <group_state>: values of some joints under a name. lines: where the file, as given, says
-    them."""
+    """A <group_state>: a name for values of some joints. file: path as given. lines: joint -> line
+    in the file."""
 
     group: str
     name: str
@@ -28,8 +28,8 @@ class State(Struct, frozen=True):
 class Srdf(Struct, frozen=True):
     """file: path as given. robot: the name of the robot that it is about.
 
-    disabled: two links -> the reason given. silent: links that by default are not checked against
-    any other; enabled: pairs that are checked nevertheless.
+    disabled: two links -> the stated reason. silent: links that by default are checked against no
+    other link; enabled: pairs that are checked anyway.
     """
 
     file: str
@@ -40,11 +40,12 @@ class Srdf(Struct, frozen=True):
     states: tuple[State, ...]
 
     def links(self) -> set[str]:
-        """All links named."""
+        """All links that the file names."""
         return {*self.silent}.union(*self.disabled, *self.enabled)
 
     def permission(self, a: str, b: str) -> str | None:
-        """Why two links need no check; None: they do. As in MoveIt, what is disabled goes last."""
+        """The reason why two links need no check; None: they need one. As in MoveIt, `disabled`
+        overrides `enabled`."""
         pair = frozenset((a, b))
         if pair in self.disabled:
             return f"SRDF: {self.disabled[pair]}".rstrip(": ")

@@ -1,9 +1,9 @@
-"""URDF -> Robot. What could move, hide or reshape a body is an error, any other slip a warning.
+"""Reads URDF. A mistake that could move, hide or reshape a body is an error, any other a warning.
 
-The format: http://wiki.ros.org/urdf/XML. Only what places geometry is read. A fault of a joint or
-of a link refuses the robot, with its line; one inside a <collision> costs that body only. Elements
-that cannot change where a body lies (inertial, transmission, gazebo, ...) are passed over; one that
-is unknown inside a link or a joint is a warning, for it may be a misspelt one.
+The format: http://wiki.ros.org/urdf/XML. Only elements that place geometry are read. An error in a
+joint or a link refuses the robot, and states the line. An error inside a <collision> refuses only
+that body. Elements that cannot move a body (inertial, transmission, gazebo, ...) are ignored. An
+unknown element inside a link or a joint is a warning, because it may be misspelt.
 """
 
 from __future__ import annotations
@@ -35,21 +35,21 @@ from satcheck.scene.robot.xml_tree import Element, RefusedElement, read_tree
 from satcheck.scene.words import meant
 
 _KINDS: tuple[JointKind, ...] = get_args(JointKind)
-_X: Vector = (1.0, 0.0, 0.0)  # the axis where none is given
+_X: Vector = (1.0, 0.0, 0.0)  # the default axis
 _LIMITED = ("revolute", "prismatic")
-_UNLIMITED = "taken to have no limits"
+_UNLIMITED = "treated as unlimited"
 _LINK_PARTS = frozenset(("collision", "visual", "inertial"))
 _JOINT_PARTS = frozenset(
     ("origin", "parent", "child", "axis", "limit", "mimic", "dynamics", "calibration")
 ) | {"safety_controller"}
-_SIZES: dict[str, dict[str, int]] = {  # shape -> its sizes -> how many numbers each is
+_SIZES: dict[str, dict[str, int]] = {  # shape -> size -> count of numbers
     "box": {"size": 3},
     "sphere": {"radius": 1},
     "cylinder": {"radius": 1, "length": 1},
     "capsule": {"radius": 1, "length": 1},
 }
 _COLLISION_PARTS = frozenset(("origin", "geometry"))
-# What simulators add to links, joints and collisions, and what places nothing.
+# Elements that simulators add to links, joints and collisions, and that place nothing.
 _EXTENSIONS = frozenset(("contact", "material", "sensor", "verbose", "hardwareInterface", "limits"))
 
 
@@ -62,7 +62,7 @@ def read_urdf(path: str, location: Path) -> tuple[Robot, tuple[Issue, ...]]:
 
 
 class _Slips:
-    """Harmless mistakes, in the order of the file: one warning for each cause."""
+    """Collects harmless mistakes in file order, with one warning for each cause."""
 
     def __init__(self) -> None:
         self._lines: dict[tuple[str, str], list[int]] = {}
@@ -117,7 +117,7 @@ class _Reader:
         )
 
     def _collision(self, element: Element) -> Collision | None:
-        """None: there is nothing that could collide, and a warning says so."""
+        """None: it has no geometry or size 0, and a warning says so."""
         self._note_unknown(element, _COLLISION_PARTS)
         name = element.attributes.get("name") or None
         try:
@@ -151,7 +151,7 @@ class _Reader:
         )
 
     def _axis(self, joint: Element) -> Vector:
-        """Of length 1; one that has it already stays as it is, to the bit."""
+        """The axis, scaled to length 1. An axis of length 1 is not changed."""
         element = joint.only("axis")
         if element is None:
             return _X
@@ -193,10 +193,10 @@ class _Reader:
         )
         if mimic.joint in names:
             return mimic
-        missing = f"mimics joint {mimic.joint!r}, which is not there"
-        if mimic.offset:  # where it stands depends on what is missing
+        missing = f"mimics joint {mimic.joint!r}, which does not exist"
+        if mimic.offset:  # its value depends on the missing joint
             element.refuse(missing, "index-out-of-range")
-        self._slips.note("no-leader", element, "mimics a joint that is not there: moves by itself")
+        self._slips.note("no-leader", element, "mimics a missing joint: moves independently")
         return None
 
     def _note_unknown(self, element: Element, known: frozenset[str]) -> None:
@@ -208,7 +208,7 @@ class _Reader:
 
 
 def _only_shape(collision: Element) -> Element | None:
-    """None where the collision says nothing of a shape, in no spelling."""
+    """The geometry of a collision; None if it has no shape, not even a misspelt one."""
     geometry = collision.only("geometry")
     if geometry is None:
         if all(child.tag in _COLLISION_PARTS for child in collision.children):
@@ -220,7 +220,7 @@ def _only_shape(collision: Element) -> Element | None:
 
 
 def _is_point(shape: Element) -> bool:
-    """Whether all sizes are 0: nothing that could collide."""
+    """Whether all sizes are 0, so that the shape cannot collide."""
     sizes = _SIZES.get(shape.tag, {})
     return (
         bool(sizes)

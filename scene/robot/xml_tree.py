@@ -1,4 +1,4 @@
-"""Small XML documents as elements that know their lines, for formats read strictly."""
+"""Reads small XML documents strictly, into elements with line numbers."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from satcheck.scene.loading.xml_tree import guarded_parser, parse_elements, pars
 from satcheck.scene.words import meant
 
 _MAX_BYTES = 64 << 20
-# What C reads as a decimal number; float() would take more ("1_0", "nan", digits of any script).
+# Decimal numbers as in C. float() would accept more ("1_0", "nan", digits of any script).
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
 _XACRO = re.compile(r"\$[({]")
 EXPAND = "this is xacro, a macro language: expand it first (xacro FILE.xacro > FILE.urdf)"
-_XACRO_NAMESPACE = "xacro"  # at the end of its URI; the prefix is free
-# Xacro that makes no element: definitions, and anything within what places no geometry.
+_XACRO_NAMESPACE = "xacro"  # at the end of its URI; its prefix may differ
+# Harmless xacro: definitions, and macros inside elements that place no geometry.
 _DEFINES = frozenset(("property", "arg", "macro"))
 _PLACES_NOTHING = frozenset(("visual", "inertial", "gazebo", "transmission", "material"))
 _DECLARATION = re.compile(rb"\A(\s+)(<\?xml\s.*?\?>)", re.DOTALL)
@@ -41,12 +41,12 @@ class RefusedElement(SceneFileError):
 
 @dataclass(slots=True, eq=False)
 class Element(xml_tree.Element):
-    """file: the document's path as given. Names have the prefixes that the file writes."""
+    """file: the document's path as given. Names keep their prefixes."""
 
     file: str = ""
 
     def only(self, tag: str) -> Self | None:
-        """The one child of that name, or None; several are refused unless they say the same."""
+        """The child with that name, or None. Several are refused unless they are equal."""
         matches = self.all(tag)
         for other in matches[1:]:
             if not other.says_the_same_as(matches[0]):
@@ -68,13 +68,13 @@ class Element(xml_tree.Element):
         return self.only(tag) or self.refuse(f"<{tag}> is missing")
 
     def attribute(self, name: str) -> str:
-        """An attribute that has to be there, and not empty."""
+        """A required attribute that is not empty."""
         return self.attributes.get(name) or self.refuse(f'attribute "{name}" is missing')
 
     def numbers(
         self, attribute: str, count: int, default: tuple[float, ...] | None = None
     ) -> tuple[float, ...]:
-        """`count` finite numbers; without a default the attribute has to be there."""
+        """`count` finite numbers. Without a default the attribute is required."""
         if default is not None and attribute not in self.attributes:
             return default
         value = self.attribute(attribute)
@@ -88,9 +88,9 @@ class Element(xml_tree.Element):
         return self.numbers(attribute, 1, None if default is None else (default,))[0]
 
     def knows(self, attributes: Collection[str], *, others: bool = False) -> None:
-        """Refuses attributes beyond these, or with `others` only what resembles one of these.
+        """Refuses unknown attributes; with `others` only those that resemble a known one.
 
-        Those of other namespaces ("drake:...") may stay.
+        Attributes of other namespaces ("drake:...") are accepted.
         """
         for name in self.attributes:
             if name not in attributes and ":" not in name:
@@ -104,7 +104,7 @@ class Element(xml_tree.Element):
     def _number(self, attribute: str, word: str) -> float:
         value = float(word) if _NUMBER.fullmatch(word) else math.nan
         if not math.isfinite(value):
-            self._refuse_value(attribute, word, "is no finite number")
+            self._refuse_value(attribute, word, "is not a finite number")
         return value
 
     def _refuse_value(self, attribute: str, value: str, what: str) -> NoReturn:
@@ -114,9 +114,9 @@ class Element(xml_tree.Element):
 
 
 def read_tree(path: str, location: Path, root: str) -> Element:
-    """The document, whose outermost element has to be `root`.
+    """The outermost element, whose tag has to be `root`.
 
-    Texts between elements are left out. Raises SceneFileError, with the line.
+    Text between elements is ignored. Raises SceneFileError, with the line.
     """
     document = _parse(path, read_whole(path, location, _MAX_BYTES, SceneFileError))
     if document.tag != root:
@@ -126,7 +126,7 @@ def read_tree(path: str, location: Path, root: str) -> Element:
 
 
 def _refuse_macros(document: Element) -> None:
-    """Refuses macros that may stand for geometry: the file must be expanded first."""
+    """Refuses macros that may expand to geometry. The file must be expanded first."""
     prefixes = tuple(
         f"{name.removeprefix('xmlns:')}:"
         for name, uri in document.attributes.items()
@@ -149,18 +149,18 @@ def _macros(element: Element, prefixes: tuple[str, ...]) -> Iterator[Element]:
 
 
 def first_tags(head: bytes, count: int) -> list[str]:
-    """The names of the first elements of a document that may be cut off; fewer where it ends or is
-    not XML."""
+    """The names of the first elements of a document, which may be truncated; fewer if it ends early
+    or is not XML."""
     parser = guarded_parser(namespaces=False)
     tags: list[str] = []
     parser.StartElementHandler = lambda tag, _: tags.append(tag)
-    with suppress(MeshFileError):  # the reader says what is wrong
+    with suppress(MeshFileError):  # the reader reports the error
         parse_xml(lambda: parser.Parse(_with_declaration_first(head), False))
     return tags[:count]
 
 
 def _with_declaration_first(data: bytes) -> bytes:
-    """Moves lines or spaces before <?xml ...?>, a common mistake, behind it. All lines but the
+    """Moves white space in front of <?xml ...?>, a common mistake, behind it. All lines except the
     first keep their numbers."""
     return _DECLARATION.sub(rb"\2\1", data)
 

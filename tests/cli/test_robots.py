@@ -204,7 +204,7 @@ def test_a_missing_mesh_is_one_body_of_many(tmp_path: Path) -> None:
         ((*ARM, "--package", "arm"), "should be NAME=DIR"),
         ((*ARM, "--package", "arm=gone"), "'gone' is no folder"),
         ((*ARM, "--pose", "arm_poses.json", "-o", "arm_poses.json"), "overwrite an input"),
-        (("arm.srdf", "box.obj"), "about robot 'arm', which is not here"),
+        (("arm.srdf", "box.obj"), "about robot 'arm', which is not given"),
     ],
 )
 def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:

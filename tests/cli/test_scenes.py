@@ -58,7 +58,7 @@ def test_files_outside_of_the_folder_are_read_where_that_is_allowed(tmp_path: Pa
     write(tmp_path / "scenes", scene_of(*bodies))
     refused = satcheck(*JSON, "scenes/cell.json", cwd=tmp_path)
     assert refused.code == 2
-    assert "--allow-outside lets it" in refused.err
+    assert "allow it with --allow-outside" in refused.err
     read = satcheck(*JSON, "--allow-outside", "scenes/cell.json", cwd=tmp_path)
     assert read.code == 1
     assert read.document["bodies"][0]["file"] == "box.obj"

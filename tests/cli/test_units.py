@@ -62,7 +62,7 @@ def test_what_states_no_unit_beside_what_does_is_not_decided(tmp_path: Path) -> 
     table = satcheck("a.glb", "b.stl", cwd=tmp_path)
     assert table.code == 3
     last = " ".join(table.out.split())
-    assert "Warning: b.stl: no unit of length is stated, beside a.glb in m" in last
+    assert "Warning: b.stl: no unit of length is stated, unlike a.glb in m" in last
     assert last.endswith("State the unit: --units.")
     # What is of one kind among them is decided.
     ran = satcheck(*JSON, "a.glb", "b.stl", "c.obj", cwd=tmp_path)
@@ -132,4 +132,4 @@ def test_the_last_line_of_poses_repeats_it() -> None:
     ran = satcheck("arm.urdf", "arm.srdf", "box.obj", "--sample", "2")
     assert ran.code == 3
     last = " ".join(ran.out.split())
-    assert "Warning: box.obj: no unit of length is stated, beside arm.urdf in m: their" in last
+    assert "Warning: box.obj: no unit of length is stated, unlike arm.urdf in m: their" in last

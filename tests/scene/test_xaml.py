@@ -116,7 +116,7 @@ def test_what_is_inside_is_moved_first(tmp_path):
             "vertex 8 of 8",
         ),
         (xaml(model(MESH.replace("0,0,0", "0,0,inf"))), "non-finite", "not finite"),
-        (b"<Page/>", "unsupported-feature", "no element of WPF"),
+        (b"<Page/>", "unsupported-feature", "not an element of WPF"),
     ],
 )
 def test_what_is_refused(tmp_path, content, code, said):

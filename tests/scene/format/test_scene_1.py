@@ -144,8 +144,8 @@ WRONG = {
     "same id": (changed("bodies", 2, id="arm/1"), "bodies[2].id", "'arm/1'", "duplicate-id"),
     "key": (changed("bodies", 3, positon=[0]), "bodies[3].positon", "mean 'position'", "bad-scene"),
     "old key": (changed("bodies", 3, group="a"), "bodies[3].group", "mean 'groups'", "bad-scene"),
-    "two sources": (changed("bodies", 1, shape=BOX), "bodies[1]", "not both", "bad-scene"),
-    "no source": (changed("bodies", 1, mesh=None), "bodies[1]", "is needed", "bad-scene"),
+    "two sources": (changed("bodies", 1, shape=BOX), "bodies[1]", "exactly one of", "bad-scene"),
+    "no source": (changed("bodies", 1, mesh=None), "bodies[1]", "exactly one of", "bad-scene"),
     "part of a shape": (changed("bodies", 3, part="x"), "bodies[3].part", "no parts", "bad-scene"),
     "missing": (
         changed("bodies", 1, mesh="a.stl"),
@@ -189,7 +189,7 @@ WRONG = {
     "no selector": (changed("rules", 1, b=None), "rules[1]", '"b" is missing', "bad-scene"),
     "rule key": (changed("rules", 1, reson=""), "rules[1].reson", "mean 'reason'?", "bad-scene"),
     "no reason": (changed("rules", 0, reason=None), "rules[0]", "why may", "bad-scene"),
-    "allowed": (changed("rules", 0, clearance=1), "rules[0]", "not looked at", "bad-rule"),
+    "allowed": (changed("rules", 0, clearance=1), "rules[0]", "is not checked", "bad-rule"),
     "negative": (changed("rules", 1, max_depth=-1), "rules[1].max_depth", ">= 0", "bad-scene"),
     "volume": (
         changed("rules", 2, max_volume="1mm"),
@@ -223,8 +223,8 @@ WRONG = {
         "'floor' is static",
         "bad-motion",
     ),
-    "two paths": (changed("motion", 0, path=[]), "motion[0]", "is needed", "bad-scene"),
-    "no path": (changed("motion", 0, translation=None), "motion[0]", "is needed", "bad-scene"),
+    "two paths": (changed("motion", 0, path=[]), "motion[0]", "exactly one of", "bad-scene"),
+    "no path": (changed("motion", 0, translation=None), "motion[0]", "exactly one of", "bad-scene"),
     "rotation": (changed("motion", 1, rotation=3), "motion[1].rotation", "a table", "bad-scene"),
     "no axis": (
         changed("motion", 1, "rotation", axis=None),
@@ -255,7 +255,7 @@ WRONG = {
     "two turns": (
         changed("motion", 2, "path", 1, quaternion=[1, 0, 0, 0]),
         "motion[2].path[1].euler",
-        "leave this out",
+        "remove this key",
         "bad-scene",
     ),
 }

@@ -90,7 +90,7 @@ NOT_OF_FORM = (
         "is moved by",
         "is static",
     ),
-    *("must increase", "start at time 0", "no units are declared", "is no known unit"),
+    *("must increase", "start at time 0", "no units are declared", "is not a known unit"),
     *("flattens space", "scales by 0"),
 )
 

@@ -155,7 +155,7 @@ def test_an_srdf_belongs_to_the_robot_of_its_name_or_to_the_only_one(tmp_path: P
     scene = load(tmp_path, link("a"), srdf=other)
     assert codes(scene) == ["other-robot", "unknown-body"]
     srdf = tmp_path / "r.srdf"
-    with pytest.raises(SceneFileError, match="about robot 'other', which is not here"):
+    with pytest.raises(SceneFileError, match="about robot 'other', which is not given"):
         load_scene([ARM[0], tmp_path / "r.urdf", srdf])
     with pytest.raises(SceneFileError, match="no URDF is given"):
         load_scene([srdf])

@@ -25,7 +25,7 @@ def mimic(leader: str, offset: float = 0.0) -> str:
             "bad-robot",
             "link 'c' has two parents: joints 'j' and 'k'",
         ),
-        ([joint("j", "a", "b")], "bad-robot", "2 links are carried by no joint"),
+        ([joint("j", "a", "b")], "bad-robot", "2 links are the child of no joint"),
         (
             [joint("j", "a", "b"), joint("k", "b", "c"), joint("l", "c", "a")],
             "reference-cycle",

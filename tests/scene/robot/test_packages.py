@@ -71,7 +71,7 @@ def test_outside_its_package_a_urdf_opens_nothing_by_itself(tmp_path: Path) -> N
         assert code == "outside-path"
         assert str(tmp_path / "arm") in message
         assert "--allow-outside" in message
-        assert "so does a package.xml in the folder that holds both" in message
+        assert "or with a package.xml in the folder that holds both" in message
         assert places(urdf, allow_outside=True).locate(uri).samefile(mesh)
 
 
@@ -150,7 +150,7 @@ def test_a_package_beside_is_found_but_has_to_be_allowed(tmp_path: Path) -> None
     uri = "package://meshes_of_arm/a.stl"
     code, message = refusal(places(urdf), uri)
     assert code == "outside-path"
-    assert f"--package meshes_of_arm={mesh.parent} lets it" in message
+    assert f"allow it: --package meshes_of_arm={mesh.parent}" in message
     assert places(urdf, allow_outside=True).locate(uri) == mesh
     assert places(urdf, packages={"meshes_of_arm": mesh.parent}).locate(uri) == mesh
 

@@ -51,7 +51,7 @@ def test_pairs_without_a_reason_and_links_that_are_silent_by_default(tmp_path: P
         ('<group_state name="s"><joint name="j"/></group_state>', 'attribute "value" is missing'),
         (
             '<group_state name="s"><joint name="j" value="nan"/></group_state>',
-            'value="nan" is no finite number',
+            'value="nan" is not a finite number',
         ),
         (
             '<group_state name="s"><joint name="j" value="1"/><joint name="j" value="2"/>'

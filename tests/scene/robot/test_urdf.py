@@ -78,13 +78,13 @@ def test_a_shape_that_is_not_read_is_no_reason_to_refuse_the_robot(tmp_path: Pat
     [
         ('<sphere radius="1"/><sphere radius="1"/>', "should hold one shape, not 2"),
         ('<box size="1 2"/>', 'size="1 2" should be 3 numbers'),
-        ('<box size="1 2 nan"/>', 'size="nan" is no finite number'),
-        ('<box size="1 2 1e999"/>', 'size="1e999" is no finite number'),
-        ('<box size="1 2 1_0"/>', 'size="1_0" is no finite number'),
-        ('<box size="1,0 2 3"/>', 'size="1,0" is no finite number'),
+        ('<box size="1 2 nan"/>', 'size="nan" is not a finite number'),
+        ('<box size="1 2 1e999"/>', 'size="1e999" is not a finite number'),
+        ('<box size="1 2 1_0"/>', 'size="1_0" is not a finite number'),
+        ('<box size="1,0 2 3"/>', 'size="1,0" is not a finite number'),
         ('<box size="1 2 0"/>', "should be positive"),
         ('<cylinder radius="0" length="1"/>', "should be positive"),
-        ('<sphere radius="x"/>', "is no finite number"),
+        ('<sphere radius="x"/>', "is not a finite number"),
         ('<box sise="1 2 3"/>', "unknown attribute 'sise' (did you mean 'size'?)"),
         ("<box/>", 'attribute "size" is missing'),
         ('<sphere radius="-1"/>', "should be positive"),
@@ -135,7 +135,7 @@ def test_a_misspelt_geometry_is_not_passed_over(tmp_path: Path) -> None:
     [
         ('<origin xyz="1 2 3 4"/>', "should be 3 numbers"),
         ('<origin xyx="1 2 3"/>', "unknown attribute 'xyx' (did you mean 'xyz'?)"),
-        ('<origin rpy="0 0 inf"/>', 'rpy="inf" is no finite number'),
+        ('<origin rpy="0 0 inf"/>', 'rpy="inf" is not a finite number'),
         ('<origin rpy="0 0 0" quat_xyzw="0 0 0 1"/>', "both rpy and quat_xyzw"),
         ('<origin quat_xyzw="0 0 0 0"/>', "length 0"),
         ('<origin xyz="1 2 3"/><origin/>', "a second <origin> in one <collision>"),
@@ -175,11 +175,11 @@ def test_wrong_joints(tmp_path: Path, kind: str, inside: str, said: str) -> None
 @pytest.mark.parametrize(
     ("kind", "inside", "code", "said"),
     [
-        ("revolute", "", "no-limits", "a revolute joint without <limit>: taken to have no limits"),
+        ("revolute", "", "no-limits", "a revolute joint without <limit>: treated as unlimited"),
         ("prismatic", "", "no-limits", "a prismatic joint without <limit>"),
         ("revolute", '<limit lower="2" upper="1"/>', "no-limits", "lower is above upper"),
         ("revolute", LIMIT + '<axis xyz="0 0 1" rpy="0 0 0"/>', "unknown-attribute", "'rpy'"),
-        ("revolute", LIMIT + '<mimic joint="gone"/>', "no-leader", "mimics a joint that is not"),
+        ("revolute", LIMIT + '<mimic joint="gone"/>', "no-leader", "mimics a missing joint"),
     ],
 )
 def test_slips_of_joints_are_warnings(
@@ -202,7 +202,7 @@ def test_a_leader_that_is_not_there_matters_where_the_offset_does(tmp_path: Path
     text = robot_of(link("a"), link("b"), joint("j", "a", "b", "revolute", mimic))
     assert refusal(tmp_path, text) == (
         "index-out-of-range",
-        "line 4: <mimic>: mimics joint 'gone', which is not there",
+        "line 4: <mimic>: mimics joint 'gone', which does not exist",
     )
 
 
