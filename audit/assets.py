@@ -9,34 +9,46 @@ from msgspec.structs import replace
 from satcheck.audit.bodies.placed_bodies import UNUSED_RULE
 from satcheck.audit.check import check
 from satcheck.audit.request.settings import Settings
+from satcheck.audit.stated_places import with_stated_places
 from satcheck.audit.summary import summarise, tool
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, asset
 from satcheck.report.report import INTERNAL_ERROR, Issue, PairCounts, Report
-from satcheck.scene import Scene
+from satcheck.scene import Scene, SceneFileError
 
 NO_PAIRS = PairCounts(total=0, pruned=0, decided=0, allowed=0, indeterminate=0)
 
 
 def check_asset(
-    file: str, load: Callable[[], Scene], settings_for: Callable[[Scene], Settings]
+    file: str,
+    load: Callable[[], Scene],
+    settings_for: Callable[[Scene], Settings],
+    *,
+    places: bool = False,
 ) -> Asset:
     """An asset that cannot be loaded has a report without bodies, with the error as an issue.
 
     One body alone passes: it has nothing to collide with, and the report has the issues of its
-    mesh. settings_for: lengths may be in the units of the scene.
+    mesh. settings_for: lengths may be in the units of the scene. places: state where scene files
+    name the bodies of findings.
     """
     try:
         scene = load()
-        return asset(file, check(scene, settings_for(scene), least=1))
+        report = check(scene, settings_for(scene), least=1)
+        return asset(file, with_stated_places(report, scene) if places else report)
     except SatcheckError as error:
         issues = [
-            Issue(each.code, "error", None, file, str(each)) for each in (error, *error.others)
+            Issue(each.code, "error", None, file, str(each), _line_of(each))
+            for each in (error, *error.others)
         ]
     except Exception as error:  # noqa: BLE001  the other assets still get their answers
         text = f"a fault of satcheck: {type(error).__name__}: {error}"
         issues = [Issue(INTERNAL_ERROR, "error", None, file, text)]
     return asset(file, _without_bodies(issues))
+
+
+def _line_of(error: SatcheckError) -> int | None:
+    return error.line if isinstance(error, SceneFileError) else None
 
 
 def unused_rules(assets: Sequence[Asset], files: Collection[str]) -> tuple[Issue, ...]:

@@ -66,7 +66,7 @@ def check_worlds(
     for path in inputs.rules:
         read_rules(str(path))  # what is wrong there is no fault of an asset
     document = Document()
-    assets = _check(worlds, inputs, options, hashed=delivery.form == "json")
+    assets = _check(worlds, inputs, options, delivery.form)
     if known is not None and baseline is not None:
         assets = [_beside(each, known, baseline) for each in assets]
     shared = frozenset(map(str, inputs.rules))
@@ -80,13 +80,13 @@ def check_worlds(
 
 
 def _check(
-    worlds: Sequence[World], inputs: Inputs, options: Mapping[str, Any], *, hashed: bool
+    worlds: Sequence[World], inputs: Inputs, options: Mapping[str, Any], form: str
 ) -> list[Asset]:
     keep_freed_memory()
 
     def load(world: World) -> Scene:
         _refuse_folder(world[0])
-        scene = read(inputs, world, hashed=hashed)
+        scene = read(inputs, world, hashed=form == "json")
         if not scene.bodies and not scene.unreadable:
             reason = "there is no body: give a file of rules as --rules FILE"
             raise SatcheckError("too-few-bodies", reason, file=world[0])
@@ -101,7 +101,8 @@ def _check(
     assets = []
     with Bar("assets") as bar:
         for number, world in enumerate(worlds):
-            assets.append(check_asset(world[0], partial(load, world), settings_for))
+            told = form != "table"
+            assets.append(check_asset(world[0], partial(load, world), settings_for, places=told))
             if bar is not None:
                 bar(number + 1, len(worlds))
     return assets

@@ -79,6 +79,13 @@ class PartError(Value, frozen=True):
     missing: Length
 
 
+class Place(Value, frozen=True):
+    """A line of a file. file: as given."""
+
+    file: str
+    line: Annotated[int, Meta(ge=1)]
+
+
 class BodyReport(Value, frozen=True, kw_only=True):
     """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
 
@@ -89,7 +96,8 @@ class BodyReport(Value, frozen=True, kw_only=True):
     transform * (x, y, z, 1); None: as in the file. `groups`, `static`: as the scene says. `shape`:
     the primitive that the file states, in its own frame, as a scene file does; None: a mesh file.
     `units`: of its lengths here; None: no input states any. `unit_scale`: what `transform` converts
-    lengths of the file by; None: nothing.
+    lengths of the file by; None: nothing. `stated_at`: the line of the scene file or the robot that
+    states the body, where a finding about it is an error, a warning or a note; None otherwise.
     """
 
     id: str
@@ -110,3 +118,4 @@ class BodyReport(Value, frozen=True, kw_only=True):
     convex: bool | None
     parts: Annotated[int, Meta(ge=1)] | None
     part_error: PartError | None
+    stated_at: Place | None = None

@@ -21,6 +21,7 @@ from satcheck.report.bodies import BodyReport as BodyReport
 from satcheck.report.bodies import PartError as PartError
 from satcheck.report.certificate import Certificate
 from satcheck.report.components import Components
+from satcheck.report.config import StatedConfig
 from satcheck.report.contacts import Contacts
 from satcheck.report.motions import StatedMotion
 from satcheck.report.settings import StatedSettings
@@ -241,13 +242,14 @@ class EffectReport(Value, frozen=True):
 
 
 class Issue(Value, frozen=True):
-    """Something about the input or the run, with a stable code."""
+    """Something about the input or the run, with a stable code. line: of the file, from 1."""
 
     code: Code
     severity: Literal["error", "warning", "note"]
     body: str | None
     file: str | None
     message: str
+    line: Annotated[int, Meta(ge=1)] | None = None
 
 
 class Exempt(Value, frozen=True):
@@ -302,7 +304,8 @@ class Report(Value, frozen=True, kw_only=True):
     of several about a pair, the last one that sets a key decides it. findings: every pair that is
     asked about, but for those that `truncated` counts, in the order of the bodies. truncated: pairs
     that are asked about and apart by their boxes, where there are more than 60 pairs; None: none.
-    baseline: which the check was held against; None: none.
+    baseline: which the check was held against; None: none. config: the options that a config file
+    set; None: no config file took effect.
     """
 
     schema: Literal["satcheck.report/1"] = SCHEMA
@@ -320,6 +323,7 @@ class Report(Value, frozen=True, kw_only=True):
     issues: tuple[Issue, ...]
     truncated: Truncated | None = None
     baseline: StatedBaseline | None = None
+    config: StatedConfig | None = None
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:
         """JSON values in the order of the schema; no `microseconds` without timings."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import frexp
 from typing import TYPE_CHECKING
 
@@ -113,6 +114,15 @@ class Unreadable(Struct, frozen=True):
     static: bool = False
 
 
+class Entry(Struct, frozen=True):
+    """Where an input states a body. file: the scene file or the robot, as given. number: of the
+    body in the scene file, from 0; None: it is at the line."""
+
+    file: str
+    number: int | None = None
+    line: int | None = None
+
+
 class Scene(Struct, frozen=True):
     """All inputs of a check, in the order given.
 
@@ -124,6 +134,7 @@ class Scene(Struct, frozen=True):
     composed: at least one input is a file that places bodies.
     issues: all of them, those of `unreadable` and of each mesh file included.
     motions: at most one for each body (SatcheckError otherwise). Unknown ids are ignored.
+    entries: id -> where a scene file or a robot states the body.
     robots: can be posed with `robot.posed`. posture: their joint values; None without robots.
     """
 
@@ -138,6 +149,7 @@ class Scene(Struct, frozen=True):
     issues: tuple[Issue, ...] = ()
     order: tuple[str, ...] = ()
     motions: tuple[Motion, ...] = ()
+    entries: Mapping[str, Entry] = {}
     robots: tuple[SceneRobot, ...] = ()
     posture: Posture | None = None
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from satcheck.core.shapes import Primitive
 from satcheck.core.transform import Transform
-from satcheck.scene.bodies import Body, MeshFile, Scene, Unreadable
+from satcheck.scene.bodies import Body, Entry, MeshFile, Scene, Unreadable
 from satcheck.scene.common_units import Input, Kind, in_one_unit, scaled_mesh, scaled_world
 from satcheck.scene.errors import MeshFileError
 from satcheck.scene.format.entries import BodyEntry, MeshPath, SceneFile
@@ -52,6 +52,7 @@ class SceneBuilder:
         self._scenes: JoinedScenes | None = None
         self._rule_files: set[str] = set()
         self._taken_apart = False
+        self._entries: dict[str, Entry] = {}
         self._robots: list[SceneRobot] = []
         self._srdfs: list[Srdf] = []
         self._issues: list[Issue] = []
@@ -98,6 +99,8 @@ class SceneBuilder:
         groups = self._scenes.groups_of(scene)
         ids = {entry.id: self._add_entry(entry, groups, path) for entry in scene.bodies}
         self._scenes.add(scene, ids, groups)
+        places = enumerate(ids.values())
+        self._entries |= {id_: Entry(path, number=number) for number, id_ in places}
         self._issues.extend(scene.issues)
 
     def _add_entry(self, entry: BodyEntry, names: Mapping[str, str], path: str) -> str:
@@ -172,6 +175,7 @@ class SceneBuilder:
             else:
                 file, offset = self._files.shape(part.source, path), part.offset
                 id_ = self._add(part.id, part.id, path, file, offset, shape=part.source)
+            self._entries[id_] = Entry(path, line=part.line)
             bodies.append(RobotBody(id_, part.link, placing_mesh(file, offset) or offset))
         self._robots.append(SceneRobot(robot, tuple(bodies)))
 
@@ -259,6 +263,7 @@ class SceneBuilder:
             rules=self._rules(common.scales),
             check_static=scenes is None or scenes.check_static,
             motions=scenes.motions(common.scales) if scenes else (),
+            entries=self._entries,
             composed=self._taken_apart or not self._only_meshes,
             issues=(
                 *self._issues,

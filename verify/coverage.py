@@ -65,6 +65,7 @@ COVERAGE: dict[str, Cover] = {
     "bodies[].convex": PROVEN,
     "bodies[].parts": _not("convex parts"),
     "bodies[].part_error": _not("convex parts"),
+    "bodies[].stated_at": _not("lines of files"),
     "exempt": _stated("exempt pairs"),
     "rules[]": _stated("rules"),
     "effects[].effect": FOLLOWS,
@@ -108,11 +109,14 @@ COVERAGE: dict[str, Cover] = {
     "issues[].severity": _not("issues"),
     "issues[].body": FOLLOWS,
     "issues[].file": _not("issues"),
+    "issues[].line": _not("issues"),
     "issues[].message": _not("issues"),
     "truncated.pairs": FOLLOWS,
     "truncated.reason": _not("reasons"),
     "baseline.file": _not("which findings a baseline accepts"),
     "baseline.absent": _not("which findings a baseline accepts"),
+    "config.file": _not("where options come from"),
+    "config.options": _not("where options come from"),
 }
 
 

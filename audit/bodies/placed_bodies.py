@@ -166,4 +166,4 @@ def _unplaceable(body: Body, error: ArithmeticError | ValueError) -> Issue:
 
 def _unused(rule: Rule) -> Issue:
     message = f"{rule.name}: the rule selects no pair of bodies"
-    return Issue(UNUSED_RULE, "warning", None, rule.file, message)
+    return Issue(UNUSED_RULE, "warning", None, rule.file, message, rule.line)

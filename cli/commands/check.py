@@ -15,6 +15,7 @@ from satcheck.audit import Report, Settings, check
 from satcheck.audit.baseline import beside_baseline
 from satcheck.audit.request.settings import ACCURACIES, FAIL_ON, MOST_BUDGET
 from satcheck.audit.samples import Samples, check_poses
+from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
 from satcheck.cli.baseline_file import read_baseline
 from satcheck.cli.commands import COMMANDS
@@ -298,6 +299,8 @@ def command(
         result = _check(scene, settings_of(options, scene))
         if known is not None:
             result = beside_baseline(result, known, str(baseline))
+        if form != "table":
+            result = with_stated_places(result, scene)
     else:
         _refuse_of_poses(form, explain=explain, baseline=baseline, **options)
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)

@@ -74,11 +74,11 @@ class Positions:
     """Places of values. A lookup parses only the nodes on the way to the value."""
 
     def __init__(self, text: str, *, toml: bool) -> None:
-        self._text = text
         data = text.encode()
         grammar = tree_sitter_toml if toml else tree_sitter_json
         document = Parser(Language(grammar.language())).parse(data).root_node
         starts = (np.frombuffer(data, np.uint8) & 0xC0) != 0x80  # of characters in UTF-8
+        self._line_ends = np.flatnonzero(np.frombuffer(data, np.uint8) == ord("\n"))
         self._characters = np.cumsum([0, *starts]) if not text.isascii() else None
         self._document = document
         self._root = _toml_root(document) if toml else _value(0, _values(document)[0])
@@ -91,7 +91,7 @@ class Positions:
             if inner is None:
                 break
             value = inner
-        return self._text.count("\n", 0, self._offset(value.key)) + 1
+        return int(np.searchsorted(self._line_ends, value.key)) + 1
 
     def place(self, keys: Keys) -> Place:
         """Raises KeyError if there is no such value."""

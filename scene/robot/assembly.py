@@ -28,7 +28,8 @@ SAME_LINK = "one rigid link"
 
 
 class Part(Struct, frozen=True):
-    """One <collision> that becomes a body. offset: its geometry in the frame of the link.
+    """One <collision> that becomes a body. offset: its geometry in the frame of the link. line: of
+    the URDF.
 
     source: the path of a mesh file, a shape, or the error if there is neither.
     """
@@ -37,6 +38,7 @@ class Part(Struct, frozen=True):
     link: str
     offset: Transform
     source: Path | Primitive | MeshFileError
+    line: int
 
 
 class RobotBody(Struct, frozen=True):
@@ -102,6 +104,7 @@ def parts_of(robot: Robot, places: MeshPlaces) -> list[Part]:
             source=_placed(source, lost[source.code, source.message])
             if isinstance(source, MeshFileError)
             else source,
+            line=collision.line,
         )
         for link, collision, number, source in collisions
     ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import tomllib
 from pathlib import Path
 from urllib.parse import quote
 
@@ -213,3 +214,80 @@ def test_only_a_report_has_these_formats() -> None:
     )
     assert ran.code == 2
     assert "table, json" in ran.err
+
+
+SCENE = """\
+schema = "satcheck.scene/1"
+
+[[bodies]]
+id = "grün"
+shape = {type = "box", size = [2, 2, 2]}
+
+[[bodies]]
+id = "right"
+shape = {type = "box", size = [2, 2, 2]}
+position = [1, 0, 0]
+"""
+ROBOT = """\
+<robot name="arm">
+  <link name="base">
+    <collision>
+      <geometry><box size="1 1 1"/></geometry>
+    </collision>
+  </link>
+  <link name="hand">
+    <collision><geometry><box size="1 1 1"/></geometry></collision>
+  </link>
+  <joint name="j" type="fixed"><parent link="base"/><child link="hand"/></joint>
+</robot>
+"""
+
+
+def places(sarif: str) -> list[tuple[str, int]]:
+    """Of all locations of the only result."""
+    (result,) = json.loads(sarif)["runs"][0]["results"]
+    physical = [x["physicalLocation"] for x in result["locations"] + result["relatedLocations"]]
+    return [(p["artifactLocation"]["uri"], p["region"]["startLine"]) for p in physical]
+
+
+@pytest.mark.parametrize("command", [(), ("each",)])
+def test_a_result_is_where_a_scene_states_the_body(
+    tmp_path: Path, command: tuple[str, ...]
+) -> None:
+    (tmp_path / "cell.toml").write_text(SCENE, encoding="utf-8")
+    document = tomllib.loads(SCENE)
+    (tmp_path / "cell.json").write_text(json.dumps(document, indent=0), encoding="utf-8")
+    toml = satcheck(*command, "cell.toml", "--format", "sarif", cwd=tmp_path)
+    assert places(toml.out) == [("cell.toml", 3), ("cell.toml", 7)]
+    lines = (tmp_path / "cell.json").read_text("utf-8").splitlines()
+    starts = [number for number, line in enumerate(lines, 1) if line == "{"][1:]
+    as_json = satcheck(*command, "cell.json", "--format", "sarif", cwd=tmp_path)
+    shapes = [line for line, text in enumerate(lines, 1) if '"shape"' in text]
+    assert [file for file, _ in places(as_json.out)] == ["cell.json"] * 2
+    for (_, line), before, shape in zip(
+        places(as_json.out), (starts[0], shapes[0]), shapes, strict=True
+    ):
+        assert before <= line < shape
+    annotated = satcheck(*command, "cell.toml", "--format", "github", cwd=tmp_path)
+    assert annotated.out.startswith("::error file=cell.toml,line=3,")
+
+
+def test_a_result_is_where_a_robot_states_the_body(tmp_path: Path) -> None:
+    (tmp_path / "arm.urdf").write_text(ROBOT)
+    ran = satcheck("arm.urdf", "--format", "sarif", "--fail-on", "error", cwd=tmp_path)
+    results = json.loads(ran.out)["runs"][0]["results"]
+    worst = results[0]["locations"] + results[0]["relatedLocations"]
+    assert [x["physicalLocation"]["region"]["startLine"] for x in worst] == [3, 8]
+    assert worst[0]["physicalLocation"]["artifactLocation"]["uri"] == "arm.urdf"
+
+
+def test_a_wrong_scene_is_annotated_at_its_line(tmp_path: Path) -> None:
+    (tmp_path / "cell.toml").write_text(SCENE.replace("position", "positon"), encoding="utf-8")
+    ran = satcheck("each", "cell.toml", "--format", "sarif", cwd=tmp_path)
+    assert (ran.code, places(ran.out)) == (2, [("cell.toml", 10)])
+
+
+def test_results_of_two_assets_have_fingerprints_of_their_own() -> None:
+    run = json.loads(render({"a.glb": MIXED, "b.glb": MIXED}, "sarif"))["runs"][0]
+    prints = [result["partialFingerprints"]["satcheckId/v1"] for result in run["results"]]
+    assert len(set(prints)) == len(prints) == 12

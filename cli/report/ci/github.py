@@ -20,7 +20,8 @@ def render(reports: Mapping[str, Report]) -> str:
     lines = []
     for problem in problems(reports):
         title = f"satcheck: {problem.kind}"
-        values = {"file": near(problem.files[0]), "line": "1", "title": title}
+        place = problem.places[0]
+        values = {"file": near(place.file), "line": str(place.line), "title": title}
         properties = ",".join(f"{name}={_property(value)}" for name, value in values.items())
         lines.append(f"::{_COMMANDS[problem.level]} {properties}::{_data(problem.message)}\n")
     lines += [f"{_own(f'{name}: {summary_line(r)}')}\n" for name, r in reports.items()]

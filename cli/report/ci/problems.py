@@ -10,6 +10,7 @@ from urllib.parse import quote
 
 from satcheck.cli.report.numbers import number, vector
 from satcheck.cli.report.words import in_motion, interval, is_hit, with_unit
+from satcheck.report.bodies import Place
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
@@ -32,14 +33,15 @@ KINDS = {
 
 
 class Problem(NamedTuple):
-    """kind: a key of KINDS, or the code of an issue. files: as given, of the bodies in their order,
-    at least one. id: that of the finding; of an issue its code and its body. size: the thickness
-    and the depth of an overlap."""
+    """kind: a key of KINDS, or the code of an issue. places: where each body is stated, in their
+    order, or where the issue is; at least one. id: that of the finding; of an issue its code and
+    its body. size: the thickness and the depth of an overlap. state: beside a baseline.
+    """
 
     level: Level
     kind: str
     message: str
-    files: tuple[str, ...]
+    places: tuple[Place, ...]
     bodies: tuple[str, ...]
     id: str
     size: tuple[float, float] = (0.0, 0.0)
@@ -48,7 +50,7 @@ class Problem(NamedTuple):
 
 def problems(reports: Mapping[str, Report]) -> list[Problem]:
     """Of all reports, the worst first: by level, then the thicker overlap, then the deeper one.
-    With several reports each message names its asset."""
+    With several reports each message and each id names its asset."""
     listed = [
         _naming(asset, problem) if len(reports) > 1 else problem
         for asset, report in reports.items()
@@ -61,17 +63,17 @@ def problems(reports: Mapping[str, Report]) -> list[Problem]:
 def _naming(asset: str, problem: Problem) -> Problem:
     message = problem.message
     named = message if message.startswith(asset) else f"{asset}: {message}"
-    return problem._replace(message=named)
+    return problem._replace(message=named, id=f"{uri(asset)}/{problem.id}")
 
 
 def _of_report(report: Report) -> list[Problem]:
-    files = {body.id: body.file for body in report.bodies}
+    places = {body.id: body.stated_at or Place(body.file, 1) for body in report.bodies}
     findings = [
-        _of_finding(finding, level, files, unit_of(report.units))
+        _of_finding(finding, level, places, unit_of(report.units))
         for finding in report.findings
         if (level := _level(finding)) is not None
     ]
-    return findings + [_of_issue(issue, files) for issue in report.issues]
+    return findings + [_of_issue(issue, places) for issue in report.issues]
 
 
 def sentence(finding: Finding, unit: str | None) -> str:
@@ -126,13 +128,15 @@ def _level(finding: Finding) -> Level | None:
     return severity if severity in ("error", "warning", "note") else None
 
 
-def _of_finding(finding: Finding, level: Level, files: dict[str, str], unit: str | None) -> Problem:
+def _of_finding(
+    finding: Finding, level: Level, places: dict[str, Place], unit: str | None
+) -> Problem:
     bodies = (finding.a, finding.b)
     return Problem(
         level,
         kind_of(finding),
         sentence(finding, unit),
-        tuple(files[body] for body in bodies),
+        tuple(places[body] for body in bodies),
         bodies,
         finding.id,
         (finding.thickness or 0.0, finding.depth or 0.0),
@@ -140,17 +144,20 @@ def _of_finding(finding: Finding, level: Level, files: dict[str, str], unit: str
     )
 
 
-def _of_issue(issue: Issue, files: dict[str, str]) -> Problem:
+def _of_issue(issue: Issue, places: dict[str, Place]) -> Problem:
     """An issue of the whole check gets the first file."""
     body = (issue.body,) if issue.body else ()
     where = issue.body or issue.file
-    file = issue.file or files.get(issue.body or "") or next(iter(files.values()), ".")
+    first = next(iter(places.values()), Place(".", 1))
+    place = places.get(issue.body or "", first)
+    if issue.file:
+        place = Place(issue.file, issue.line or 1)
     named = f"{where}: " if where and not issue.message.startswith(where) else ""
     return Problem(
         issue.severity,
         issue.code,
         f"{named}{issue.message}",
-        (file,),
+        (place,),
         body,
         f"{issue.code}/{where or ''}",
     )

@@ -1,7 +1,7 @@
 """SARIF 2.1.0 (OASIS, Static Analysis Results Interchange Format), as code scanning services read
 it. A result is a finding or an issue of an input; reports without any have a run without results.
 
-Meshes have no lines, so each location is line 1 of the file.
+A body is where a scene file or a robot states it; otherwise at line 1 of its mesh file.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ _BASELINE_STATES = {
 
 
 def _result(problem: Problem, rule: int) -> dict[str, Any]:
-    locations = [_location(problem, number) for number in range(len(problem.files))]
+    locations = [_location(problem, number) for number in range(len(problem.places))]
     state = {} if problem.state is None else {"baselineState": _BASELINE_STATES[problem.state]}
     return {
         **state,
@@ -90,11 +90,11 @@ def _result(problem: Problem, rule: int) -> dict[str, Any]:
 
 
 def _location(problem: Problem, number: int) -> dict[str, Any]:
-    bodies = problem.bodies[number : number + 1]
+    bodies, place = problem.bodies[number : number + 1], problem.places[number]
     return {
         "physicalLocation": {
-            "artifactLocation": {"uri": uri(problem.files[number])},
-            "region": {"startLine": 1},
+            "artifactLocation": {"uri": uri(place.file)},
+            "region": {"startLine": place.line},
         },
         "logicalLocations": [{"fullyQualifiedName": body, "kind": "object"} for body in bodies],
     }
