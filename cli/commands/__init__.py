@@ -5,6 +5,7 @@ from __future__ import annotations
 # What each does, for the help of satcheck: that must not import them all. The first sentence of the
 # help of each command says the same.
 COMMANDS = {
+    "axes": "Show why two convex bodies are apart: the separating axis theorem, axis by axis.",
     "baseline": "Known findings that do not fail a check: write, update, prune.",
     "cache": "The cache of convex parts: info, clear.",
     "decompose": "Split meshes into convex parts, for physics engines.",

@@ -11,6 +11,7 @@ from satcheck.cli.report.schema import text
 DOCUMENTS = (
     "report",
     "assets",
+    "axes",
     "decomposition",
     "resolution",
     "samples",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +25,11 @@ from satcheck.cli.options import (
     split_option,
     units_option,
 )
-from satcheck.cli.output import Document, Page, write_file
+from satcheck.cli.output import Document, Page
+from satcheck.cli.plotting import dark_option, plot_option, refuse_plot, write_plot
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.json import document as json_document
 from satcheck.studies.tradeoff import Tradeoff, tradeoff
-
-PLOTS = (".svg", ".png", ".pdf")
 
 
 @click.command("tradeoff", cls=Command, context_settings=HELP_NAMES)
@@ -60,13 +58,8 @@ PLOTS = (".svg", ".png", ".pdf")
     show_default=True,
     help="At most this many pairs of a scene, of those whose boxes meet.",
 )
-@click.option(
-    "--plot",
-    type=click.Path(dir_okay=False, path_type=Path),
-    metavar="FILE",
-    help="Draw error against time: FILE.svg, FILE.png or FILE.pdf.",
-)
-@click.option("--dark", is_flag=True, help="Draw the plot on a dark background.")
+@plot_option("Draw error against time")
+@dark_option
 @method_option
 @form_option
 @output_option
@@ -99,7 +92,7 @@ def command(
     inputs = Inputs.taken_from(options)
     form = form_of(form, output)
     refuse_early(inputs, output)
-    _refuse_plot(inputs, plot, output)
+    refuse_plot(inputs, plot, output)
     document = Document()
     scene = load(inputs)
     if scene.unreadable:
@@ -109,29 +102,11 @@ def command(
             scene, repeat=repeat, budget=budget, pairs=pairs, method=method, progress=bar
         )
     if plot:
-        _write_plot(result, plot, dark=dark)
+        from satcheck.cli.report.tradeoff_plot import draw
+
+        write_plot(draw(result.pairs, dark=dark), plot)
     document.deliver(lambda page: _render(result, form, page), output, utf8=form == "json")
     return exit_codes.CLEAN if result.complete else exit_codes.INCOMPLETE
-
-
-def _refuse_plot(inputs: Inputs, plot: Path | None, output: Path | None) -> None:
-    """What cannot be drawn is said before any work is done."""
-    if plot is None:
-        return
-    if plot.suffix.lower() not in PLOTS:
-        raise click.UsageError(f"--plot {plot}: drawn as {', '.join(PLOTS[:-1])} or {PLOTS[-1]}")
-    if find_spec("matplotlib") is None:
-        raise click.UsageError("--plot needs matplotlib: pip install matplotlib")
-    refuse_early(inputs, plot, option="--plot")
-    if output is not None and plot.absolute() == output.absolute():
-        raise click.UsageError("--plot and -o name the same file")
-
-
-def _write_plot(result: Tradeoff, path: Path, *, dark: bool) -> None:
-    from satcheck.cli.report.plot_style import file_of
-    from satcheck.cli.report.tradeoff_plot import draw
-
-    write_file(path, file_of(draw(result.pairs, dark=dark), path.suffix.lower()))
 
 
 def _render(result: Tradeoff, form: str, page: Page) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from msgspec import Struct
 
 from satcheck.report.assets import AssetsReport
+from satcheck.report.axes import AxesReport
 from satcheck.report.decomposition import DecompositionReport
 from satcheck.report.report import Report
 from satcheck.report.resolution import ResolutionReport
@@ -21,6 +22,7 @@ from satcheck.report.verification import VerificationReport
 HERE = Path(__file__).parent
 STRUCTS: dict[str, type[Struct]] = {
     "assets": AssetsReport,
+    "axes": AxesReport,
     "decomposition": DecompositionReport,
     "report": Report,
     "resolution": ResolutionReport,
@@ -34,7 +36,7 @@ SCENE = HERE.parents[1] / "scene" / "format"
 
 
 def text(name: str = "report") -> str:
-    """The schema of one kind of document: `report` of a check, `assets`, `decomposition`,
+    """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
     `resolution`, `samples`, `stability`, `suggestions`, `surface-tolerances`, `tradeoff`,
     `verification`; `scene`."""
     if name == "scene":

@@ -27,6 +27,7 @@ def test_help_advertises_what_exists() -> None:
         "--clearance",
         "--accuracy",
         "Exit codes",
+        "satcheck axes",
         "satcheck stability",
         "satcheck suggest",
         "satcheck tradeoff",

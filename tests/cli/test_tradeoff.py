@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 from matplotlib.colors import to_hex
 from matplotlib.image import imread
 
+from satcheck.cli import plotting
 from satcheck.cli.commands import tradeoff
 from satcheck.cli.report.plot_style import DARK
 from satcheck.cli.report.schema import text
@@ -74,7 +75,7 @@ def test_a_plot_is_an_image_on_dark_paper_if_asked(tmp_path: Path) -> None:
 def test_without_matplotlib_nothing_runs_and_the_way_to_get_it_is_told(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(tradeoff, "find_spec", lambda _: None)
+    monkeypatch.setattr(plotting, "find_spec", lambda _: None)
     plot = tmp_path / "plot.svg"
     ran = CliRunner().invoke(tradeoff.command, [*PUSHED, "--plot", str(plot)])
     assert ran.exit_code == 2
