@@ -179,6 +179,12 @@ output_option = click.option(
     callback=_file_or_nothing,
     help="Write the result to FILE; - is standard output.",
 )
+top_option = click.option(
+    "--top",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="List only the N worst in the table. The summary and the exit code count all.",
+)
 outside_option = click.option(
     "--allow-outside",
     is_flag=True,

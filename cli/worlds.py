@@ -43,12 +43,14 @@ _CODES: dict[AssetVerdict, int] = {
 
 
 class Delivery(NamedTuple):
-    """Where the report goes, and in which form; how the exit code is made."""
+    """Where the report goes, and in which form; how the exit code is made; how many assets a table
+    lists at most."""
 
     form: str
     output: Path | None
     quiet: bool
     exit_zero: bool
+    top: int | None
 
 
 def check_worlds(
@@ -132,7 +134,7 @@ def _deliver(
     if delivery.output is None and delivery.form == "table" and not report.assets:
         return  # no asset changed, and stderr says so
     document.deliver(
-        lambda page: _render(report, delivery.form, page, timings=timings),
+        lambda page: _render(report, delivery, page, timings=timings),
         delivery.output,
         utf8=delivery.form != "table",
     )
@@ -156,7 +158,8 @@ def _tell(report: AssetsReport, output: Path | None) -> None:
         talk(f"{summary_line(report)} Report: {output}")
 
 
-def _render(report: AssetsReport, form: str, page: Page, *, timings: bool) -> str:
+def _render(report: AssetsReport, delivery: Delivery, page: Page, *, timings: bool) -> str:
+    form = delivery.form
     if form == "json":
         return json_document(report if timings else without_timings(to_builtins(report)))
     if form in CI_FORMATS:
@@ -165,4 +168,4 @@ def _render(report: AssetsReport, form: str, page: Page, *, timings: bool) -> st
         return "PASS: 0 assets.\n"
     from satcheck.cli.report.assets import render
 
-    return render(report, page)
+    return render(report, page, top=delivery.top)

@@ -46,6 +46,7 @@ from satcheck.cli.options import (
     settings_of,
     split_option,
     tolerance_option,
+    top_option,
     units_option,
 )
 from satcheck.cli.output import Document, Page, talk
@@ -54,7 +55,9 @@ from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import render as render_for_ci
 from satcheck.cli.report.json import document as json_document
 from satcheck.cli.report.json import render as render_json
-from satcheck.cli.report.summary import samples_line, summary_line
+from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
+from satcheck.cli.report.summary import counts_line
+from satcheck.cli.report.verdict import next_step, verdict_line
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.scene import Scene
 
@@ -122,6 +125,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     help="Show the steps of each pair: what each tested, what it proved, its time. JSON "
     "always has them.",
 )
+@top_option
 @click.option(
     "--depth/--no-depth",
     default=DEFAULTS.depth,
@@ -251,6 +255,7 @@ def command(
     output: Path | None,
     baseline: Path | None,
     explain: bool,
+    top: int | None,
     quiet: bool,
     exit_zero: bool,
     **options: Any,
@@ -284,7 +289,7 @@ def command(
         from satcheck.cli.worlds import Delivery, check_worlds
 
         _refuse_of_worlds(form, inputs, explain=explain, **options)
-        delivery = Delivery(form, output, quiet, exit_zero)
+        delivery = Delivery(form, output, quiet, exit_zero, top)
         return check_worlds(worlds, inputs, options, baseline, delivery)
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
@@ -309,7 +314,9 @@ def command(
             lambda page: (
                 _picture(result, scene, form, cache=options["cache"])
                 if form in PICTURES and isinstance(result, Report)
-                else _render(result, form, page, explain=explain, timings=options["timings"])
+                else _render(
+                    result, form, page, explain=explain, timings=options["timings"], top=top
+                )
             ),
             output,
             utf8=form != "table",
@@ -382,21 +389,27 @@ def _picture(report: Report, scene: Scene, form: str, *, cache: bool) -> str | b
 
 
 def _render(
-    result: Report | Samples, form: str, page: Page, *, explain: bool, timings: bool
+    result: Report | Samples,
+    form: str,
+    page: Page,
+    *,
+    explain: bool,
+    timings: bool,
+    top: int | None,
 ) -> str | list[str]:
     if isinstance(result, Samples):
         if form == "json":
             return json_document(result.to_dict(timings))
         from satcheck.cli.report.samples import render as render_samples
 
-        return render_samples(result, page)
+        return render_samples(result, page, top=top)
     if form == "json":
         return render_json(result, timings=timings)
     if form in CI_FORMATS:
         return render_for_ci({"satcheck": result}, form)
     from satcheck.cli.report.table import render as render_table
 
-    return render_table(result, page, explain=explain, timings=timings)
+    return render_table(result, page, explain=explain, timings=timings, top=top)
 
 
 def _tell(result: Report | Samples, scene: Scene, output: Path | None) -> None:
@@ -408,12 +421,14 @@ def _tell(result: Report | Samples, scene: Scene, output: Path | None) -> None:
     if output is None:
         return
     if isinstance(result, Samples):
-        summary = samples_line(result)
+        talk(samples_counts(result))
+        summary = samples_verdict(result)
     else:
-        summary = summary_line(result)
+        summary = " ".join([verdict_line(result), *next_step(result, written=True)])
         warnings = [issue for issue in result.issues if issue.severity == "warning"]
         for issue in warnings[:WARNINGS]:
             talk(f"satcheck: {issue_line(issue)}")
         if len(warnings) > WARNINGS:
             talk(f"satcheck: {counted(len(warnings) - WARNINGS, 'more warning')}: see the report")
+        talk(counts_line(result))
     talk(f"{summary} Report: {output}")

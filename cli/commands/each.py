@@ -46,6 +46,7 @@ def command(
     output: Path | None,
     quiet: bool,
     exit_zero: bool,
+    top: int | None,
     changed_since: str | None,
     baseline: Path | None,
     **options: Any,
@@ -73,7 +74,7 @@ def command(
         inputs,
         options,
         baseline,
-        Delivery(form, output, quiet, exit_zero),
+        Delivery(form, output, quiet, exit_zero, top),
         complete=changed_since is None,
     )
 

@@ -29,16 +29,19 @@ _COLOURS = {
 }
 
 
-def render(report: AssetsReport, page: Page) -> str:
-    """The whole text, final newline included."""
+def render(report: AssetsReport, page: Page, *, top: int | None = None) -> str:
+    """The whole text, final newline included. top: how many assets at most; all count in the
+    summary."""
     console = Canvas(page)
     shown = sorted(report.assets, key=lambda asset: ASSET_VERDICTS.index(asset.verdict))
     if len(shown) > LISTED:
         shown = [asset for asset in shown if asset.verdict != "pass"]
     if shown:
-        console.print(_table(shown, unicode=page.unicode))
-    if hidden := report.counts.total - len(shown):
-        console.print(f"{counted(hidden, 'more asset')} {'passes' if hidden == 1 else 'pass'}")
+        console.print(_table(shown[:top], unicode=page.unicode))
+    if hidden := len(shown) - len(shown[:top]):
+        console.print(f"{counted(hidden, 'more asset')} not shown (--top {top})")
+    if passing := report.counts.total - len(shown):
+        console.print(f"{counted(passing, 'more asset')} {'passes' if passing == 1 else 'pass'}")
     for issue in report.issues:
         console.print(issue_line(issue))
     console.print(summary_line(report))
@@ -66,7 +69,12 @@ def _table(assets: list[Asset], *, unicode: bool) -> Table:
     table = Table(box=box.ROUNDED if unicode else box.ASCII)
     for name in ("asset", "verdict", "bodies", "pairs", "worst"):
         right = name in ("bodies", "pairs")
-        table.add_column(name, justify="right" if right else "left", overflow="fold")
+        table.add_column(
+            name,
+            justify="right" if right else "left",
+            overflow="fold",
+            no_wrap=name not in ("asset", "worst"),
+        )
     for asset in assets:
         report = asset.report
         listed = [p for p in problems({asset.file: report}) if p.level != "note"]

@@ -1,7 +1,8 @@
 """The columns of the table of pairs, and which of them fit.
 
-A terminal that is too narrow costs, in this order: the frame, the column `time`, figures in one
-line, the column `quality`, names in one line. Figures are broken between numbers only.
+A terminal that is too narrow costs, in this order: the frame, figures in one line, names in one
+line. Figures are broken between numbers only, and where that does not help there is no table
+(cli/report/stack.py).
 """
 
 from __future__ import annotations
@@ -11,30 +12,33 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
+from msgspec.structs import replace
 from rich.cells import cell_len, chop_cells
 
 from satcheck.cli.report.numbers import bounds, duration, number, vector
-from satcheck.cli.report.words import contacts, in_motion, interval
+from satcheck.cli.report.words import contacts, in_motion, interval, is_hit
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.report.report import Finding
+    from satcheck.report.report import Finding, Severity
 
-# Narrower than this a name is not broken: the terminal may fold the row.
-NARROWEST_NAME = 6
+# A table breaks no name into pieces shorter than this.
+NARROWEST_NAME = 12
 FRAME = 3  # characters between columns, and 1 more in all, with a frame ...
 GAP = 2  # ... and without one
 _PIECES = re.compile(r"[^\s_./-]*[\s_./-]*")
 
 
 class Column(Struct, frozen=True):
-    """Cells in the order of the findings. folds: figures, which may be broken between numbers."""
+    """Cells in the order of the findings. folds: figures, which may be broken between numbers.
+    graded: in the colour of the severity."""
 
     name: str
     cells: tuple[str, ...]
     right: bool = False
     folds: bool = False
+    graded: bool = False
 
     @property
     def widest(self) -> int:
@@ -60,20 +64,26 @@ class Layout(Struct, frozen=True):
 
 
 def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool) -> list[Column]:
-    """Columns that would be empty in every row are left out."""
+    """Columns that say nothing are left out: those that are empty in every row, the severity where
+    it is that of the relation, the quality where all is exact."""
     known = unit_of(units)
     unit = f" ({known})" if known else ""
     placed = " as placed" if any(finding.motion is not None for finding in findings) else ""
 
     def column(
-        name: str, cell: Callable[[Finding], str], *, right: bool = False, folds: bool = False
+        name: str,
+        cell: Callable[[Finding], str],
+        *,
+        right: bool = False,
+        folds: bool = False,
+        graded: bool = False,
     ) -> Column:
-        return Column(name, tuple(cell(finding) for finding in findings), right, folds)
+        return Column(name, tuple(cell(finding) for finding in findings), right, folds, graded)
 
     made = [
         column("A", lambda finding: finding.a),
         column("B", lambda finding: finding.b),
-        column("relation", lambda finding: finding.relation),
+        column("relation", lambda finding: finding.relation, graded=True),
         column(f"gap{unit}", _gap, right=True, folds=True),
         column(f"thickness{unit}", _overlap("thickness", findings), right=True, folds=True),
         column(f"depth{unit}", _overlap("depth", findings), right=True, folds=True),
@@ -81,28 +91,27 @@ def columns_of(findings: Sequence[Finding], units: str | None, *, timings: bool)
         column(f"volume{placed}{f' ({known}^3)' if known else ''}", _volume, right=True),
         column(f"contact{placed}", contacts, folds=True),
         column("in motion", lambda finding: in_motion(finding, known), folds=True),
-        column("quality", lambda finding: finding.quality or ""),
     ]
+    if any(finding.severity != _implied(finding) or finding.baseline_state for finding in findings):
+        made.insert(3, column("severity", _severity, graded=True))
+    if any(finding.quality not in (None, "exact") for finding in findings):
+        made.append(column("quality", lambda finding: finding.quality or ""))
     if timings:
         made.append(column("time", _time, right=True))
     return [each for each in made if any(each.cells)]
 
 
-def fit(columns: Sequence[Column], width: int) -> Layout:
-    """The layout that costs least; wider than `width` only where not even broken names help."""
+def fit(columns: Sequence[Column], width: int) -> Layout | None:
+    """The layout that costs least; None where not even broken names help."""
     natural = [column.widest for column in columns]
     if _total(natural, framed=True) <= width:
         return Layout(tuple(columns), tuple(natural), framed=True)
-    untimed = [column for column in columns if column.name != "time"]
-    bare = [column for column in untimed if column.name != "quality"]
-    for chosen, folded in ((columns, False), (untimed, False), (untimed, True), (bare, True)):
-        least = [
-            column.longest_word if folded and column.folds else column.widest for column in chosen
-        ]
+    folded = [column.longest_word if column.folds else column.widest for column in columns]
+    for least in (natural, folded):
         spare = width - _total(least, framed=False)
         if spare >= 0:
-            return Layout(tuple(chosen), _spread(chosen, least, spare), framed=False)
-    return _broken_names(bare, width)
+            return Layout(tuple(columns), _spread(columns, least, spare), framed=False)
+    return _broken_names(columns, width)
 
 
 def broken(name: str, width: int) -> str:
@@ -131,15 +140,17 @@ def _spread(columns: Sequence[Column], least: Sequence[int], spare: int) -> tupl
     return tuple(widths)
 
 
-def _broken_names(columns: Sequence[Column], width: int) -> Layout:
+def _broken_names(columns: Sequence[Column], width: int) -> Layout | None:
     """A and B share what the others leave; the shorter of them takes no more than it needs."""
     first, second, *others = columns
     rest = [column.longest_word if column.folds else column.widest for column in others]
-    left = max(width - _total([0, 0, *rest], framed=False), 2 * NARROWEST_NAME)
+    left = width - _total([0, 0, *rest], framed=False)
     a = min(first.widest, max(left // 2, left - second.widest))
     b = min(second.widest, left - a)
+    if a < min(NARROWEST_NAME, first.widest) or b < min(NARROWEST_NAME, second.widest):
+        return None
     named = [
-        Column(column.name, tuple(broken(cell, room) for cell in column.cells))
+        replace(column, cells=tuple(broken(cell, room) for cell in column.cells))
         for column, room in ((first, a), (second, b))
     ]
     return Layout((*named, *others), (a, b, *rest), framed=False)
@@ -164,6 +175,22 @@ def _overlap(figure: str, findings: Sequence[Finding]) -> Callable[[Finding], st
         return "not known" if tried else "not asked"
 
     return cell
+
+
+def _implied(finding: Finding) -> Severity:
+    """The severity of such a finding where no rule says otherwise."""
+    if finding.relation in OVERLAPS or finding.relation == "near" or is_hit(finding):
+        return "error"
+    if finding.undecided is not None:
+        return "warning"
+    return "note" if finding.relation == "touching" else "none"
+
+
+def _severity(finding: Finding) -> str:
+    """`error`, `error, new`; a finding that the baseline holds, unchanged, is `known`."""
+    said = "" if finding.severity == "none" else finding.severity
+    state = finding.baseline_state
+    return f"{said}, {'known' if state == 'unchanged' else state}" if state else said
 
 
 def _volume(finding: Finding) -> str:

@@ -6,34 +6,28 @@ more, which takes half a millisecond a row, and its console takes a fifth of the
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from rich import box
 
-from satcheck.cli.report.lines import BOLD, BOLD_MAGENTA, BOLD_RED, GREEN, YELLOW, fold, paint
+from satcheck.cli.report.lines import BOLD, fold, paint
 
 if TYPE_CHECKING:
     from satcheck.cli.output import Page
     from satcheck.cli.report.columns import Layout
 
-# Colour only repeats what the word beside it says.
-_COLOURS = {
-    "separated": GREEN,
-    "near": YELLOW,
-    "touching": YELLOW,
-    "penetrating": BOLD_RED,
-    "contains": BOLD_RED,
-    "inside": BOLD_RED,
-    "coincident": BOLD_RED,
-    "indeterminate": BOLD_MAGENTA,
-}
-
 
 class Grid:
-    """The lines of a table, in the colours and characters of the page."""
+    """The lines of a table, in the colours and characters of the page.
 
-    def __init__(self, layout: Layout, page: Page) -> None:
+    styles: of each row, in the columns that are graded. breaks: the rows that begin behind a rule.
+    """
+
+    def __init__(
+        self, layout: Layout, page: Page, styles: Sequence[str], breaks: Collection[int] = ()
+    ) -> None:
+        self._styles, self._breaks = styles, breaks
         self._columns = layout.columns
         self._widths = layout.widths
         self._colour = page.colour
@@ -55,12 +49,18 @@ class Grid:
         names = [column.name for column in self._columns]
         yield from self._row(names, [BOLD] * len(names), sunk=True)
         yield self._box.get_row(self._spaces, "head", edge=self._edge)
-        coloured = [column.name == "relation" for column in self._columns]
-        for cells in zip(*(column.cells for column in self._columns), strict=True):
-            pairs = zip(cells, coloured, strict=True)
-            yield from self._row(cells, [_COLOURS[cell] if told else "" for cell, told in pairs])
+        graded = [column.graded for column in self._columns]
+        rows = zip(*(column.cells for column in self._columns), strict=True)
+        for number, (cells, style) in enumerate(zip(rows, self._styles, strict=True)):
+            if number in self._breaks:
+                yield self._rule()
+            yield from self._row(cells, [style if told else "" for told in graded])
         if self._edge:
             yield self._box.get_bottom(self._spaces)
+
+    def _rule(self) -> str:
+        """Between groups of rows."""
+        return self._box.get_row(self._spaces, "row" if self._edge else "head", edge=self._edge)
 
     def _row(
         self, cells: Sequence[str], styles: Sequence[str], *, sunk: bool = False

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from satcheck.cli.output import Page
 
 # Codes of ANSI escape sequences (ECMA-48, SGR).
-BOLD, GREEN, YELLOW, BOLD_RED, BOLD_MAGENTA = "1", "32", "33", "1;31", "1;35"
+BOLD, GREEN, YELLOW, CYAN, BOLD_RED, BOLD_MAGENTA = "1", "32", "33", "36", "1;31", "1;35"
 
 
 def paint(text: str, style: str) -> str:

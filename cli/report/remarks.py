@@ -6,10 +6,12 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from satcheck.cli.report.limits import limits, rule_of
 from satcheck.cli.report.lines import YELLOW
 from satcheck.cli.report.numbers import bounds, number
 from satcheck.cli.report.words import (
     counted,
+    is_lost,
     issue_line,
     past_holes,
     place,
@@ -20,12 +22,11 @@ from satcheck.report.report import (
     NO_ANSWER,
     NOT_AVAILABLE,
     ON_TRIANGLES,
-    OVERLAPS,
 )
 from satcheck.scene.units import unit_of
 
 if TYPE_CHECKING:
-    from satcheck.report.report import BodyReport, Finding, Report, RuleReport
+    from satcheck.report.report import BodyReport, Finding, Report
 
 _ISSUE_STYLES = {"warning": YELLOW, "note": ""}
 
@@ -59,11 +60,6 @@ def remarks(report: Report, shown: Sequence[Finding]) -> list[Remark]:
     return lines
 
 
-def is_lost(body: BodyReport) -> bool:
-    """Could not be read or placed; why is an error issue."""
-    return body.triangles is None
-
-
 def _band(finding: Finding, tolerances: Mapping[str, float]) -> list[str]:
     """What touching is without its tolerance. tolerances: of the surfaces of bodies."""
     if finding.at_rest != "touching" or finding.exact_relation in (None, "touching"):
@@ -91,30 +87,12 @@ def _ruled(finding: Finding, report: Report) -> list[str]:
     pair = f"{finding.a} and {finding.b}"
     if finding.undecided == "limit":
         return [f"{pair}: {finding.reason}"]
-    rule = next((rule for rule in report.rules if rule.name == finding.rule), None)
+    rule = rule_of(finding, report)
     if rule is None:
         return []
-    limits = _limits(rule, unit_of(report.units), overlap=finding.relation in OVERLAPS)
     why = f" ({rule.reason})" if rule.reason else ""
-    return [f"{', '.join([f'{pair}: {finding.severity} by {rule.name}', *limits])}{why}"]
-
-
-def _limits(rule: RuleReport, unit: str | None, *, overlap: bool) -> list[str]:
-    """What the rule asks of such a pair: `clearance 5 mm`, or what an overlap is held against."""
-    asked = (
-        {
-            "max_depth": (rule.max_depth, ""),
-            "max_thickness": (rule.max_thickness, ""),
-            "max_volume": (rule.max_volume, "^3"),
-        }
-        if overlap
-        else {"clearance": (rule.clearance, "")}
-    )
-    return [
-        f"{name} {with_unit(number(limit), unit and unit + power)}"
-        for name, (limit, power) in asked.items()
-        if limit is not None
-    ]
+    said = [f"{pair}: {finding.severity} by {rule.name}", *limits(finding, report)]
+    return [f"{', '.join(said)}{why}"]
 
 
 def _moving(finding: Finding, unit: str | None) -> list[str]:

@@ -10,7 +10,8 @@ from rich.table import Table
 
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.numbers import number, vector
-from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.summary import counts_line
+from satcheck.cli.report.verdict import verdict_line
 from satcheck.cli.report.words import counted
 from satcheck.scene.units import unit_of
 
@@ -41,7 +42,8 @@ def render(resolution: Resolution, page: Page, output: str | None) -> str:
             f"{counted(resolution.flush, 'pair')} within the tolerance: they count as touching."
         )
     subject = "The moved scene" if output is None else output
-    console.print(f"{subject}, checked: {summary_line(resolution.report, offers_depth=False)}")
+    console.print(f"{subject}, checked again: {counts_line(resolution.report)}")
+    console.print(verdict_line(resolution.report))
     return console.text()
 
 

@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from satcheck.cli.report.canvas import Canvas
-from satcheck.cli.report.summary import samples_line
+from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.report.words import counted, in_motion, interval, issue_line, with_unit
 from satcheck.report.report import OVERLAPS
 from satcheck.scene.units import unit_of
@@ -30,38 +30,51 @@ ROWS = 60
 FOUND = 8
 # At most so many lines about single poses.
 REMARKS = 10
-# Colour only repeats what the word says.
-_COLOURS = {"pass": "green", "fail": "bold red", "incomplete": "bold magenta"}
+# The worst first. Colour only repeats what the word says.
+_COLOURS = {"fail": "bold red", "incomplete": "bold magenta", "pass": "green"}
 
 
-def render(result: Samples, page: Page) -> str:
-    """The whole text, final newline included. Errors are not in it: they go to stderr."""
+def render(result: Samples, page: Page, *, top: int | None = None) -> str:
+    """The whole text, final newline included. Errors are not in it: they go to stderr.
+
+    top: how many poses or pairs at most, the worst first; all count in the summary.
+    """
     console = Canvas(page)
     if len(result.samples) <= FEW_POSES:
-        console.print(_poses(result.samples, unit_of(result.units), unicode=page.unicode))
+        poses = result.samples if top is None else _worst(result.samples)[:top]
+        console.print(_poses(poses, unit_of(result.units), unicode=page.unicode))
+        if more := len(result.samples) - len(poses):
+            console.print(f"{counted(more, 'more pose')} not shown (--top {top})")
     else:
         met = sorted(
             (pair for pair in result.pairs if not pair.settled),
             key=lambda pair: (-pair.overlaps, -pair.undecided, -pair.near, -pair.touches),
         )
-        if met:
-            console.print(_pairs(met[:ROWS], result.samples, unicode=page.unicode))
-        if len(met) > ROWS:
-            console.print(f"{counted(len(met) - ROWS, 'more pair')}: JSON has all")
+        rows = met[: top or ROWS]
+        if rows:
+            console.print(_pairs(rows, result.samples, unicode=page.unicode))
+        if more := len(met) - len(rows):
+            why = f"not shown (--top {top})" if top else "not shown: JSON has all"
+            console.print(f"{counted(more, 'more pair')} {why}")
     for issue in result.issues:
         if issue.severity != "error":
             console.print(issue_line(issue))
     for line in _remarks(result.samples):
         console.print(line)
-    console.print(samples_line(result))
+    console.print(samples_counts(result))
+    console.print(samples_verdict(result))
     return console.text()
+
+
+def _worst(samples: Sequence[Sample]) -> list[Sample]:
+    return sorted(samples, key=lambda sample: list(_COLOURS).index(sample.verdict))
 
 
 def _poses(samples: Sequence[Sample], unit: str | None, *, unicode: bool) -> Table:
     table = Table(header_style="bold", box=box.ROUNDED if unicode else box.ASCII)
-    table.add_column("#", justify="right")
+    table.add_column("#", justify="right", no_wrap=True)
     table.add_column("pose", overflow="fold")
-    table.add_column("verdict")
+    table.add_column("verdict", no_wrap=True)
     table.add_column("found", overflow="fold")
     for sample in samples:
         table.add_row(
@@ -103,7 +116,7 @@ def _pairs(pairs: Sequence[PairTally], samples: Sequence[Sample], *, unicode: bo
     counts = ("overlaps", "touches", "near", "undecided")
     shown = [name for name in counts if any(getattr(pair, name) for pair in pairs)]
     for name in shown:
-        table.add_column(name, justify="right")
+        table.add_column(name, justify="right", no_wrap=True)
     if "overlaps" in shown:
         table.add_column("the first overlap", overflow="fold")
     for pair in pairs:

@@ -1,36 +1,65 @@
-"""The report as a table: one row for each pair, then remarks, then the summary."""
+"""The report as a table: one row for each pair, the worst first, then remarks and the summary."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from itertools import accumulate, chain, pairwise
 from typing import TYPE_CHECKING
 
 from satcheck.audit.request.settings import LISTED_PAIRS
 from satcheck.cli.report.columns import columns_of, fit
 from satcheck.cli.report.grid import Grid
-from satcheck.cli.report.lines import fitted, joined
-from satcheck.cli.report.remarks import is_lost, remarks
-from satcheck.cli.report.summary import summary_line
-from satcheck.cli.report.words import counted, past_holes
-from satcheck.report.report import OVERLAPS
+from satcheck.cli.report.lines import (
+    BOLD_MAGENTA,
+    BOLD_RED,
+    CYAN,
+    GREEN,
+    YELLOW,
+    fitted,
+    joined,
+)
+from satcheck.cli.report.order import severity, worst_first
+from satcheck.cli.report.remarks import remarks
+from satcheck.cli.report.stack import stacked
+from satcheck.cli.report.summary import counts_line
+from satcheck.cli.report.verdict import next_step, verdict_line
+from satcheck.cli.report.words import counted, is_lost, past_holes
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from satcheck.cli.output import Page
-    from satcheck.report.report import Finding, Report
+    from satcheck.report.report import Finding, Report, Severity
+
+# Colour only repeats what the words beside it say. A touch is a note, too.
+_STYLES: dict[Severity, str] = {
+    "error": BOLD_RED,
+    "warning": YELLOW,
+    "note": CYAN,
+    "silenced": "",
+    "none": GREEN,
+}
 
 
-def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
-    """The whole text, final newline included. Errors are not in it: they go to stderr."""
+def render(
+    report: Report, page: Page, *, explain: bool, timings: bool, top: int | None = None
+) -> str:
+    """The whole text, final newline included. Errors are not in it: they go to stderr.
+
+    top: how many pairs at most; all count in the summary.
+    """
+    groups = worst_first(_listed(report))
+    rows = list(chain.from_iterable(groups))
+    shown = rows[:top]
     lines: list[str] = []
-    shown = _shown(report)
     if shown:
-        layout = fit(columns_of(shown, report.units, timings=timings), page.width)
-        lines += Grid(layout, page).lines()
-    listed = sum(finding.relation == "separated" for finding in shown)
-    rest = report.summary.by_relation.get("separated", 0) - listed
-    if shown and rest:
-        lines += fitted(f"{counted(rest, 'more pair')}, all separated", page)
+        columns = columns_of(shown, report.units, timings=explain and timings)
+        styles = [_style(finding) for finding in shown]
+        layout = fit(columns, page.width)
+        if layout is None:
+            lines += stacked(columns, page, styles)
+        else:
+            lines += Grid(layout, page, styles, set(_breaks(groups))).lines()
+    for rest in _left_out(report, rows, top):
+        lines += fitted(rest, page)
     if any(finding.components for finding in shown):
         from satcheck.cli.report.components import component_lines
 
@@ -41,26 +70,44 @@ def render(report: Report, page: Page, *, explain: bool, timings: bool) -> str:
         lines += explanation(page, report, shown, timings=timings)
     for remark in remarks(report, shown):
         lines += fitted(remark.text, page, remark.style)
-    lines += fitted(summary_line(report), page)
+    lines += fitted(counts_line(report), page)
+    lines += fitted(" ".join([verdict_line(report), *next_step(report)]), page)
     return joined(lines, page)
 
 
-def _shown(report: Report) -> Sequence[Finding]:
-    """What could be examined, the thickest overlaps first; of more than LISTED_PAIRS only what is
-    not plainly separated, at rest and on the way."""
+def _listed(report: Report) -> Sequence[Finding]:
+    """What could be examined; of more than LISTED_PAIRS only what is not plainly separated, at rest
+    and on the way."""
     lost = {body.id for body in report.bodies if is_lost(body)}
     findings = [f for f in report.findings if f.a not in lost and f.b not in lost]
     if len(findings) > LISTED_PAIRS:
         findings = [f for f in findings if _is_told(f)]
-    return sorted(findings, key=_by_thickness)
-
-
-def _by_thickness(finding: Finding) -> float:
-    """The thickest overlaps come first; all else stays as it is."""
-    return -(finding.thickness or 0.0) if finding.at_rest in OVERLAPS else 0.0
+    return findings
 
 
 def _is_told(finding: Finding) -> bool:
     if finding.relation != "separated":
         return True
     return finding.reason is not None and not past_holes(finding)
+
+
+def _style(finding: Finding) -> str:
+    return BOLD_MAGENTA if finding.relation == "indeterminate" else _STYLES[severity(finding)]
+
+
+def _breaks(groups: Sequence[Sequence[Finding]]) -> Iterator[int]:
+    """The rows that begin behind a rule: where a group of several findings begins or ends."""
+    ends = accumulate(map(len, groups))
+    for end, (before, after) in zip(ends, pairwise(groups), strict=False):
+        if severity(before[0]) != "none" and (len(before) > 1 or len(after) > 1):
+            yield end
+
+
+def _left_out(report: Report, rows: Sequence[Finding], top: int | None) -> Iterator[str]:
+    hidden = len(rows[top:]) if top else 0
+    if hidden:
+        yield f"{counted(hidden, 'more pair')} not shown (--top {top})"
+    listed = sum(finding.relation == "separated" for finding in rows)
+    rest = report.summary.by_relation.get("separated", 0) - listed
+    if rows and rest:
+        yield f"{counted(rest, 'more pair')}, all separated"

@@ -8,7 +8,7 @@ from satcheck.audit.tolerances import EXACT_WIDTH
 from satcheck.cli.report.numbers import at_most, bounds, number
 
 if TYPE_CHECKING:
-    from satcheck.report.report import Finding, Issue
+    from satcheck.report.report import BodyReport, Finding, Issue
     from satcheck.report.sweep import Place
     from satcheck.report.values import Interval
     from satcheck.scene import Issue as InputIssue
@@ -60,6 +60,11 @@ def contacts(finding: Finding) -> str:
     if totals.points:
         counts.append(counted(totals.points, "point"))
     return ", ".join(counts) or "none"
+
+
+def is_lost(body: BodyReport) -> bool:
+    """Could not be read or placed; why is an error issue."""
+    return body.triangles is None
 
 
 def past_holes(finding: Finding) -> bool:

@@ -13,7 +13,7 @@ from satcheck.audit.cross_check import DISAGREEMENT, say
 from satcheck.audit.ladder.ladder import settle
 from satcheck.audit.request.planner import asked_by
 from satcheck.audit.request.trace import Trace
-from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.verdict import summary_line
 from satcheck.core import Mesh
 from satcheck.core.overlap_volume import OverlapVolume
 from satcheck.core.peers import Peers

@@ -88,6 +88,7 @@ TOUCHING = replace(
     SEPARATED,
     id="block|flush",
     b="flush",
+    severity="note",
     relation="touching",
     exact_relation="penetrating",
 )

@@ -22,8 +22,8 @@ def test_overlap_is_exit_1_and_a_table() -> None:
     assert "penetrating" in ran.out
     assert "(-1, 0, 0)" in ran.out
     assert (
-        ran.out.splitlines()[-1]
-        == "2 bodies, 1 pair: 1 penetrating. Thickest overlap 1 (box, box_pushed), depth 1."
+        ran.out.splitlines()[-1] == "FAIL: box and box_pushed overlap (thickness 1, depth 1). "
+        "Next: -o report.html shows it in 3-D."
     )
     assert ran.err == ""
 
@@ -31,7 +31,7 @@ def test_overlap_is_exit_1_and_a_table() -> None:
 def test_no_overlap_is_exit_0() -> None:
     ran = satcheck(*APART)
     assert (ran.code, ran.err) == (0, "")
-    assert "No collision." in ran.out
+    assert ran.out.endswith("\nPASS: no collision.\n")
 
 
 def test_exit_zero_forgives_findings_but_not_failures() -> None:
@@ -105,7 +105,7 @@ def test_a_body_within_an_open_mesh_is_no_pass() -> None:
     assert "contains" in ran.out
     allowed = satcheck("--allow-open", "open_box.off", "cube.off")
     assert allowed.code == 0
-    assert allowed.out.splitlines()[-1].endswith("No collision.")
+    assert allowed.out.splitlines()[-1] == "PASS: no collision."
 
 
 def test_a_body_in_a_hole_is_no_pass(tmp_path: Path) -> None:
@@ -128,7 +128,7 @@ def test_nothing_checked_is_no_pass(tmp_path: Path) -> None:
     ran = satcheck(str(tmp_path / "scene.json"))
     assert ran.code == 3
     assert "No pair was checked: 1 allowed by rules." in ran.out
-    assert "No collision" not in ran.out
+    assert "o collision" not in ran.out
 
 
 def test_explain_tells_the_plan() -> None:

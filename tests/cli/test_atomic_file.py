@@ -179,8 +179,8 @@ def test_what_is_open_already_is_not_cut_off(tmp_path: Path, name: str) -> None:
     text = (tmp_path / "log").read_text(encoding="utf-8")
     document, _, last = text.removeprefix("before\n").rpartition("}\n")
     assert json.loads(document + "}")["schema"] == "satcheck.report/1"
-    said = "2 bodies, 1 pair: 1 penetrating. Thickest overlap 1 (box, box_pushed), depth 1."
-    assert last == f"{said} Report: {name}\n"
+    said = "FAIL: box and box_pushed overlap (thickness 1, depth 1)."
+    assert last == f"2 bodies, 1 pair: 1 penetrating.\n{said} Report: {name}\n"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")

@@ -303,6 +303,6 @@ def test_an_accepted_finding_is_named_and_not_verified(tmp_path: Path) -> None:
     assert satcheck("verify", first).code == 0
     satcheck("baseline", "write", known, first)
     ran = satcheck(*pair, "--baseline", known, "-o", second)
-    assert (ran.code, "No new or worse finding." in ran.err) == (0, True)
+    assert (ran.code, "PASS: no new or worse finding." in ran.err) == (0, True)
     verified = satcheck("verify", second)
     assert (verified.code, "a baseline accepts findings" in verified.out) == (1, True)

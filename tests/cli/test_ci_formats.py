@@ -117,7 +117,7 @@ def test_github_annotations() -> None:
     assert [line.split(" ")[0] for line in lines[3:6]] == ["::warning", "::warning", "::notice"]
     assert lines[-1].startswith("satcheck: all: ")
     only = render({"satcheck": MIXED}, "github").splitlines()[-1]
-    assert only.startswith("satcheck: 6 bodies")
+    assert only.startswith("satcheck: FAIL: block and deeper overlap (depth 2); ")
 
 
 def test_a_name_cannot_forge_an_annotation() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from msgspec.structs import replace
 from rich import box
 from rich.table import Table
 from rich.text import Text
@@ -13,14 +14,14 @@ from satcheck.cli.output import Page
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.columns import Column, Layout, fit
 from satcheck.cli.report.grid import Grid
-from satcheck.cli.report.lines import joined
+from satcheck.cli.report.lines import BOLD_RED, joined
 
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 NAMES = ("box", "歯車_a_longer", "a\x1b[2A", "tab\there", "two\nlines", "\u202eb", "é" * 20, "")
 COLUMNS = (
     Column("A", NAMES),
     Column("B", tuple(f"the_other_{number}" for number in range(len(NAMES)))),
-    Column("relation", ("penetrating", "near", *["coincident"] * (len(NAMES) - 2))),
+    Column("relation", ("penetrating", "near", *["coincident"] * (len(NAMES) - 2)), graded=True),
     Column("depth (mm)", ("1.24123 .. 1.25001", *["1"] * (len(NAMES) - 1)), right=True, folds=True),
     Column("quality", ("exact",) * len(NAMES)),
     Column("time", ("12 us",) * len(NAMES), right=True),
@@ -46,12 +47,29 @@ def of_rich(layout: Layout, page: Page) -> str:
 
 @pytest.mark.parametrize("colour", [False, True])
 @pytest.mark.parametrize("unicode", [False, True])
-@pytest.mark.parametrize("width", [10, 40, 50, 60, 70, 80, 90, 100, 120])
+@pytest.mark.parametrize("width", [70, 80, 90, 100, 120])
 def test_as_rich_draws_it(width: int, unicode: bool, colour: bool) -> None:
     page = Page(width=width, colour=colour, unicode=unicode)
     layout = fit(COLUMNS, width)
-    drawn = joined(Grid(layout, page).lines(), page)
+    assert layout is not None
+    styles = [BOLD_RED, *[""] * (len(NAMES) - 1)]
+    drawn = joined(Grid(layout, page, styles).lines(), page)
     assert ("\x1b[1;31mpenetrating\x1b[0m" in drawn) == colour
     lines = [ESCAPES.sub("", line).rstrip() for line in drawn.splitlines()]
     plain = Page(width=width, colour=False, unicode=unicode)
     assert lines == of_rich(layout, plain).splitlines()
+
+
+@pytest.mark.parametrize("width", [60, 120])
+def test_a_rule_stands_before_a_break(width: int) -> None:
+    page = Page(width=width, colour=False, unicode=True)
+    layout = fit([replace(column, cells=column.cells[3:5]) for column in COLUMNS], width)
+    assert layout is not None
+    lines = list(Grid(layout, page, ["", ""], {1}).lines())
+    first, second = (k for k, line in enumerate(lines) if "the_other" in line)
+    between = lines[first + 1 : second]
+    assert sum("─" in line for line in between) == 1
+
+
+def test_a_page_too_narrow_for_names_has_no_layout() -> None:
+    assert fit(COLUMNS, 40) is None

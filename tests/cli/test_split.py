@@ -68,7 +68,7 @@ def test_a_cube_beside_a_node_of_lines_is_no_pass_in_a_table_either(tmp_path: Pa
     assert ran.code == satcheck("--format", "json", str(path)).code == 3
     assert "b: could not be used, its 1 pair not checked" in ran.out
     assert "[no-surface]" in ran.out
-    assert ran.out.endswith("No collision found, but 1 pair is indeterminate.\n")
+    assert ran.out.endswith("INCOMPLETE: no collision was found, but 1 pair is indeterminate.\n")
 
 
 def test_components_of_a_plain_mesh(tmp_path: Path) -> None:

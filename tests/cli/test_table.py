@@ -16,15 +16,18 @@ from satcheck.report.report import (
     INTERNAL_ERROR,
     NOTHING_TO_CHECK,
     Exempt,
+    Finding,
     Issue,
     Stage,
 )
+from satcheck.report.sweep import Place, Sweep
 from tests.cli import reports
 from tests.cli.reports import (
     BOUNDED,
     CONTACTS,
     CROSSING,
     ESTIMATE,
+    HIT,
     PENETRATING,
     SEPARATED,
     SWEEP,
@@ -36,6 +39,16 @@ from tests.cli.reports import (
 )
 
 ALL = (PENETRATING, BOUNDED, TOUCHING, SEPARATED, UNDECIDED)
+BOLD_RED = "\x1b[1;31m"
+UNMEASURED = replace(PENETRATING, b="other", depth=None, depth_bounds=None)
+WAY = Sweep(
+    relation="penetrating",
+    tolerance=0.0,
+    reached=0.5,
+    time_of_impact=(0.25, 0.5),
+    at=(Place("passer", "degrees", 60.0),),
+)
+HIT_AT_60 = replace(HIT, motion=WAY)
 ESCAPES = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -51,16 +64,16 @@ def shown(*findings: object, page: Page = PLAIN_PAGE, **options: bool) -> str:
 def test_a_row_says_it_all() -> None:
     row = next(line for line in shown(PENETRATING).splitlines() if "block_pushed" in line)
     cells = [cell.strip() for cell in row.strip("│").split("│")]
-    assert cells == ["block", "block_pushed", "penetrating", "1", "(-1, 0, 0)", "exact", "11.8 us"]
+    assert cells == ["block", "block_pushed", "penetrating", "1", "(-1, 0, 0)"]
 
 
 def test_the_thickest_overlaps_come_first() -> None:
     thin = replace(THICK, b="thin", thickness=0.25, thickness_bounds=(0.25, 0.25))
     lines = shown(SEPARATED, thin, TOUCHING, BOUNDED, THICK).splitlines()
     names = [line.strip("│").split("│")[1].strip() for line in lines if line.startswith("│")]
-    assert names[1:] == ["block_pushed", "thin", "far", "flush", BOUNDED.b]
+    assert names[1:] == [BOUNDED.b, "block_pushed", "thin", "flush", "far"]
     cells = [line.strip("│").split("│")[3].strip() for line in lines if line.startswith("│")]
-    assert cells == ["thickness", "0.5", "0.25", "", "", "not asked"]
+    assert cells == ["thickness", "not asked", "0.5", "0.25", "", ""]
 
 
 def test_figures_of_swept_pairs_are_those_as_placed() -> None:
@@ -74,7 +87,15 @@ def test_figures_of_swept_pairs_are_those_as_placed() -> None:
 def test_columns_without_content_are_left_out() -> None:
     assert "depth" not in shown(SEPARATED)
     assert "move A by" not in shown(SEPARATED)
-    assert "time" not in shown(SEPARATED, timings=False)
+    assert "quality" not in shown(PENETRATING, UNDECIDED)
+    assert "quality" in shown(PENETRATING, BOUNDED)
+    assert "severity" not in shown(*ALL)
+    assert "time" not in shown(SEPARATED)
+
+
+def test_the_time_of_a_pair_is_part_of_the_explanation() -> None:
+    assert "11.8 us" in shown(PENETRATING, explain=True)
+    assert " us" not in shown(PENETRATING, explain=True, timings=False)
 
 
 def test_contacts_in_a_few_words() -> None:
@@ -153,15 +174,45 @@ def test_a_narrow_terminal_cuts_nothing(width: int) -> None:
         assert all(len(line) <= width for line in text.splitlines())
 
 
-def test_a_narrow_terminal_drops_time_then_quality_then_breaks_names() -> None:
+def test_a_terminal_too_narrow_for_a_table_gets_paragraphs() -> None:
     heads = {}
-    for width in (130, 105, 80, 60):
+    for width in (130, 80, 60):
         table = shown(BOUNDED, page=Page(width=width, colour=False, unicode=True))
-        heads[width] = ("time" in table, "quality" in table, "a_rather_long_name " in table)
+        heads[width] = ("│" in table, "relation" in table, "quality" in table)
     assert heads[130] == (True, True, True)
-    assert heads[105] == (False, True, True)
-    assert heads[80] == (False, False, True)
-    assert heads[60] == (False, False, False)
+    assert heads[80] == (False, True, True)
+    assert heads[60] == (False, False, True)
+    assert "a_rather_long_name and another_rather_long_name: contains\n" in table
+    assert "  depth: 1.24123 .. 1.25001\n" in table
+
+
+def test_a_severity_that_a_rule_sets_is_a_column_and_the_colour() -> None:
+    allowed = replace(PENETRATING, severity="note", rule="cell.toml:3")
+    known = replace(BOUNDED, baseline_state="unchanged")
+    page = Page(width=200, colour=True, unicode=True)
+    text = shown(allowed, known, page=page)
+    assert "error, known" in text
+    assert BOLD_RED not in text
+    assert BOLD_RED in shown(PENETRATING, page=page)
+
+
+def test_pairs_of_the_same_parts_stand_together_behind_a_rule() -> None:
+    def pair(a: str, b: str, depth: float) -> Finding:
+        return replace(PENETRATING, a=a, b=b, depth=depth, depth_bounds=(depth, depth))
+
+    text = shown(pair("hand/x", "box", 1), pair("arm", "box", 2), pair("hand/y", "box", 3))
+    rows = text.splitlines()[3:-3]
+    assert [row.split()[1] for row in rows if "box" in row] == ["hand/y", "hand/x", "arm"]
+    assert "─" in rows[2]
+
+
+def test_top_limits_rows_and_nothing_else() -> None:
+    made = report(PENETRATING, BOUNDED, UNDECIDED)
+    text = render(made, PLAIN_PAGE, explain=False, timings=True, top=1)
+    assert "block_pushed │" not in text
+    assert "2 more pairs not shown (--top 1)" in text
+    assert "1 penetrating, 1 containing, 1 indeterminate" in text
+    assert f"{PENETRATING.a} and {PENETRATING.b} overlap (depth 1)" in text
 
 
 @pytest.mark.parametrize(
@@ -239,105 +290,130 @@ def test_warnings_are_in_the_text_and_errors_are_not() -> None:
     )
     assert "warning: soup: 1 hole, 2 across: there, nothing is inside [not-closed]" in text
     assert "gone.obj" not in text
-    assert "1 input could not be used." in text
+    assert text.endswith("\nINCOMPLETE: 1 input could not be used.\n")
 
 
 @pytest.mark.parametrize(
-    ("findings", "sentence"),
+    ("findings", "lines"),
     [
-        ((SEPARATED,), "2 bodies, 1 pair: 1 separated. No collision."),
-        (
-            (PENETRATING,),
-            "2 bodies, 1 pair: 1 penetrating. Deepest overlap 1 (block, block_pushed).",
-        ),
+        ((SEPARATED,), ("2 bodies, 1 pair: 1 separated.", "PASS: no collision.")),
         (
             (THICK,),
-            "2 bodies, 1 pair: 1 penetrating. Thickest overlap 0.5 (block, block_pushed), depth 1.",
+            (
+                "2 bodies, 1 pair: 1 penetrating.",
+                "FAIL: block and block_pushed overlap (thickness 0.5, depth 1). "
+                "Next: -o report.html shows it in 3-D.",
+            ),
         ),
         (
-            (THICK, replace(THICK, thickness=0.7, thickness_bounds=(0.25, 0.7)), BOUNDED),
-            "2 bodies, 3 pairs: 2 penetrating, 1 containing. Thickness known of 2 of 3 overlaps, "
-            "none of these known to be thicker than 0.5 (block, block_pushed), depth 1.",
+            (THICK, BOUNDED, UNMEASURED, UNDECIDED, HIT),
+            (
+                "2 bodies, 5 pairs: 3 penetrating, 1 containing, 1 indeterminate. "
+                "1 pair hits while moving.",
+                "FAIL: block and other overlap; "
+                "a_rather_long_name contains another_rather_long_name (depth 1.24123 .. 1.25001); "
+                "block and block_pushed overlap (thickness 0.5, depth 1); and 1 more pair. "
+                "1 pair is indeterminate. Next: --depth measures the overlaps.",
+            ),
         ),
         (
-            (PENETRATING, BOUNDED, UNDECIDED),
-            "2 bodies, 3 pairs: 1 penetrating, 1 containing, 1 indeterminate. "
-            "Deepest overlap 1.24123 .. 1.25001 (a_rather_long_name, another_rather_long_name).",
+            (replace(SEPARATED, severity="error", relation="near", distance=0.5),),
+            (
+                "2 bodies, 1 pair: 1 near.",
+                "FAIL: block and far are 0.5 apart. Next: -o report.html shows it in 3-D.",
+            ),
         ),
         (
-            (PENETRATING, replace(BOUNDED, depth_bounds=(0.9, 1.2500004))),
-            "2 bodies, 2 pairs: 1 penetrating, 1 containing. "
-            "No overlap is known to be deeper than 1 (block, block_pushed).",
-        ),
-        (
-            (PENETRATING, replace(BOUNDED, depth=None, depth_bounds=None, quality="exact")),
-            "2 bodies, 2 pairs: 1 penetrating, 1 containing. "
-            "Depth known of 1 of 2 overlaps, the deepest: 1 (block, block_pushed).",
-        ),
-        (
-            (PENETRATING, BOUNDED, replace(PENETRATING, depth=None, depth_bounds=None)),
-            "2 bodies, 3 pairs: 2 penetrating, 1 containing. Depth known of 2 of 3 overlaps, "
-            "the deepest: 1.24123 .. 1.25001 (a_rather_long_name, another_rather_long_name).",
-        ),
-        (
-            (replace(BOUNDED, depth_bounds=(1e-9, 1.25)),),
-            "2 bodies, 1 pair: 1 containing. "
-            "Deepest overlap at most 1.25 (a_rather_long_name, another_rather_long_name).",
+            (HIT_AT_60,),
+            (
+                "2 bodies, 1 pair: 1 penetrating. 1 pair hits while moving.",
+                "FAIL: block and passer, while they move: hits at 60 deg. "
+                "Next: -o report.html shows it in 3-D.",
+            ),
         ),
         (
             (UNDECIDED,),
-            "2 bodies, 1 pair: 1 indeterminate. No collision found, but 1 pair is indeterminate.",
+            (
+                "2 bodies, 1 pair: 1 indeterminate.",
+                "INCOMPLETE: no collision was found, but 1 pair is indeterminate. Next: "
+                "close the holes, or give --allow-open if they are meant to be open.",
+            ),
         ),
         (
             (
                 SWEPT,
-                replace(SWEPT, motion=replace(SWEEP, reason="what fills the holes ...")),
+                replace(
+                    SWEPT,
+                    severity="warning",
+                    undecided="inside",
+                    motion=replace(SWEEP, reason="what fills the holes ..."),
+                ),
             ),
-            "2 bodies, 2 pairs: 2 separated. "
-            "No collision found, but 1 pair moves past holes that may be filled.",
-        ),
-        (
-            (replace(SWEPT, severity="warning", undecided="limit"),),
-            "2 bodies, 1 pair: 1 separated. "
-            "No collision found, but 1 pair may be closer than its clearance.",
-        ),
-        (
-            (replace(ESTIMATE, severity="warning", undecided="relation"),),
-            "2 bodies, 1 pair: 1 possibly penetrating. "
-            "Deepest overlap at most 2 (block, perhaps). "
-            "No collision found, but 1 pair is indeterminate.",
-        ),
-        (
-            (replace(ESTIMATE, severity="note", rule="cell.toml:3"),),
-            "2 bodies, 1 pair: 1 overlapping in a way that is not proven. "
-            "Deepest overlap at most 2 (block, perhaps). "
-            "No collision beyond what rules allow.",
-        ),
-        (
-            (replace(PENETRATING, severity="warning", undecided="limit", rule="cell.toml:3"),),
-            "2 bodies, 1 pair: 1 penetrating. "
-            "Deepest overlap 1 (block, block_pushed). "
-            "No collision beyond what rules allow was found, but 1 pair may exceed its limits.",
+            (
+                "2 bodies, 2 pairs: 2 separated.",
+                "INCOMPLETE: no collision was found, "
+                "but 1 pair moves past holes that may be filled. Next: --explain shows the steps.",
+            ),
         ),
         (
             (replace(SWEPT, severity="warning", undecided="limit", rule="clearance"),),
-            "2 bodies, 1 pair: 1 separated. "
-            "No collision found, but 1 pair may be closer than its clearance.",
+            (
+                "2 bodies, 1 pair: 1 separated.",
+                "INCOMPLETE: no collision was found, but 1 pair may be closer than its clearance. "
+                "Next: --explain shows the steps.",
+            ),
+        ),
+        (
+            (replace(ESTIMATE, severity="warning", undecided="relation"),),
+            (
+                "2 bodies, 1 pair: 1 possibly penetrating.",
+                "INCOMPLETE: no collision was found, but 1 pair is indeterminate. "
+                "Next: --explain shows the steps.",
+            ),
+        ),
+        (
+            (replace(ESTIMATE, severity="note", rule="cell.toml:3"),),
+            (
+                "2 bodies, 1 pair: 1 overlapping in a way that is not proven.",
+                "PASS: no collision beyond what rules allow.",
+            ),
+        ),
+        (
+            (replace(PENETRATING, severity="warning", undecided="limit", rule="cell.toml:3"),),
+            (
+                "2 bodies, 1 pair: 1 penetrating.",
+                "INCOMPLETE: no collision beyond what rules allow was found, "
+                "but 1 pair may exceed its limits. Next: a larger --depth-budget may decide it.",
+            ),
         ),
     ],
 )
-def test_the_last_line_is_a_sentence(findings: tuple[object, ...], sentence: str) -> None:
-    assert shown(*findings).splitlines()[-1] == sentence
+def test_the_last_lines_are_counts_and_a_verdict(
+    findings: tuple[object, ...], lines: tuple[str, str]
+) -> None:
+    assert tuple(shown(*findings).splitlines()[-2:]) == lines
+
+
+def test_many_overlaps_ask_for_rules() -> None:
+    many = [replace(THICK, b=f"block{k}") for k in range(11)]
+    assert "Next: satcheck suggest proposes rules" in shown(*many)
+
+
+def test_what_hulls_cannot_prove_asks_for_accuracy() -> None:
+    made = report(ESTIMATE)
+    made = replace(made, settings=replace(made.settings, accuracy="hull"))
+    text = render(made, PLAIN_PAGE, explain=False, timings=True)
+    assert "FAIL: block and perhaps possibly overlap (depth at most 2). Next: --accuracy" in text
 
 
 def test_an_internal_error_is_no_unusable_input() -> None:
     fault = Issue(INTERNAL_ERROR, "error", None, None, "block and soup: internal error: ...")
     made = report(UNDECIDED, issues=(fault,))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert text.endswith("1 pair is indeterminate. 1 pair failed by an internal error.\n")
+    assert "1 pair is indeterminate; 1 pair failed by an internal error. Next" in text
     made = replace(made, issues=(fault, reports.MISSING))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert text.endswith("1 input could not be used. 1 pair failed by an internal error.\n")
+    assert "; 1 input could not be used; 1 pair failed by an internal error. Next" in text
 
 
 def test_opinions_that_could_not_be_had_are_told_once() -> None:
@@ -355,15 +431,16 @@ def test_no_pair_checked_is_no_verdict() -> None:
     summary = replace(made.summary, verdict="incomplete", pairs=pairs)
     made = replace(made, summary=summary, issues=(why,))
     text = render(made, PLAIN_PAGE, explain=False, timings=True)
-    assert text.endswith("\n2 bodies, 3 pairs. No pair was checked: 3 allowed by rules.\n")
+    last = "INCOMPLETE: No pair was checked: 3 allowed by rules.\n"
+    assert text.endswith(f"\n2 bodies, 3 pairs.\n{last}")
 
 
 @pytest.mark.parametrize(
     ("static", "exempt", "said"),
     [
-        (2, 1, "1 separated; 1 pair exempt (static). No"),
-        (0, 3, "1 separated; 3 pairs exempt (within ignored groups). No"),
-        (2, 3, "1 separated; 3 pairs exempt (1 static, 2 within ignored groups). No"),
+        (2, 1, "1 separated; 1 pair exempt (static)."),
+        (0, 3, "1 separated; 3 pairs exempt (within ignored groups)."),
+        (2, 3, "1 separated; 3 pairs exempt (1 static, 2 within ignored groups)."),
     ],
 )
 def test_exempt_pairs_are_counted_apart(static: int, exempt: int, said: str) -> None:
@@ -377,7 +454,8 @@ def test_exempt_pairs_are_counted_apart(static: int, exempt: int, said: str) -> 
 
 def test_one_line_a_body_with_holes() -> None:
     hollow = replace(SWEEP, reason="what fills the holes ...")
-    text = shown(*(replace(SWEPT, a=f"far{i}", b="soup", motion=hollow) for i in range(3)))
+    past = replace(SWEPT, severity="warning", undecided="inside", motion=hollow)
+    text = shown(*(replace(past, a=f"far{i}", b="soup") for i in range(3)))
     assert "soup has holes: 3 pairs move past them, and they may be filled\n" in text
     assert "but 3 pairs move past holes that may be filled." in text
 

@@ -63,7 +63,8 @@ def test_what_states_no_unit_beside_what_does_is_not_decided(tmp_path: Path) -> 
     assert table.code == 3
     last = " ".join(table.out.split())
     assert "Warning: b.stl: no unit of length is stated, unlike a.glb in m" in last
-    assert last.endswith("State the unit: --units.")
+    assert "State the unit: --units. INCOMPLETE: " in last
+    assert last.endswith("Next: --units states the unit of files that have none.")
     # What is of one kind among them is decided.
     ran = satcheck(*JSON, "a.glb", "b.stl", "c.obj", cwd=tmp_path)
     relations = {(f["a"], f["b"]): f["relation"] for f in ran.document["findings"]}

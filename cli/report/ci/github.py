@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.cli.report.ci.problems import near, problems
-from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.verdict import summary_line
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

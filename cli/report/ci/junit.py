@@ -13,7 +13,7 @@ from xml.etree import ElementTree
 
 from satcheck.audit.severity import fails
 from satcheck.cli.report.ci.problems import kind_of, sentence
-from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.scene.units import unit_of
 

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from satcheck.cli.report.ci.problems import problems
-from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted
 from satcheck.report.assets import asset
 

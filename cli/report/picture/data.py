@@ -11,7 +11,7 @@ from satcheck.cli.report.ci.problems import sentence
 from satcheck.cli.report.components import facts
 from satcheck.cli.report.picture.geometry import geometry
 from satcheck.cli.report.picture.packing import packed
-from satcheck.cli.report.summary import summary_line
+from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, interval, issue_line, with_unit
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.units import unit_of

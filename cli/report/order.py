@@ -1,0 +1,51 @@
+"""The order of findings for people: the worst first, pairs of the same parts together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import inf
+from typing import TYPE_CHECKING
+
+from satcheck.cli.report.words import is_hit
+from satcheck.report.report import OVERLAPS, SEVERITIES
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Finding, Relation, Severity
+
+_MILDER: tuple[Relation, ...] = ("indeterminate", "touching", "near", "separated")
+
+
+def severity(finding: Finding) -> Severity:
+    """A finding that a baseline holds, unchanged, is a note."""
+    return "note" if finding.baseline_state == "unchanged" else finding.severity
+
+
+def worst_first(findings: Iterable[Finding]) -> list[list[Finding]]:
+    """In groups: by severity, then the thicker overlap, then the deeper one. Of one severity, all
+    pairs between two parts stand together, where the worst of them stands."""
+    groups: dict[tuple[str, str, str], list[Finding]] = {}
+    for finding in sorted(findings, key=_rank):
+        parts = (severity(finding), _part(finding.a), _part(finding.b))
+        groups.setdefault(parts, []).append(finding)
+    return list(groups.values())
+
+
+def _rank(finding: Finding) -> tuple[int, int, float, float]:
+    return (SEVERITIES.index(severity(finding)), *_size(finding))
+
+
+def _size(finding: Finding) -> tuple[int, float, float]:
+    """An overlap is no thicker than deep, so its depth stands for a thickness that is unknown."""
+    if finding.at_rest in OVERLAPS:
+        deep = inf if finding.depth is None else finding.depth
+        thick = deep if finding.thickness is None else finding.thickness
+        return (0, -thick, -deep)
+    if is_hit(finding):
+        return (1, 0.0, 0.0)
+    gap = inf if finding.distance is None else finding.distance
+    return (2 + _MILDER.index(finding.at_rest), gap, 0.0)
+
+
+def _part(id_: str) -> str:
+    """`gripper` of `gripper/left`: the node or the link that the body belongs to."""
+    return id_.rpartition("/")[0] or id_

@@ -1,0 +1,62 @@
+"""The last lines of a report over many poses: its counts, then PASS, FAIL or INCOMPLETE."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from satcheck.audit.severity import fails
+from satcheck.cli.report.summary import doubts, nothing_checked
+from satcheck.cli.report.words import counted
+
+if TYPE_CHECKING:
+    from satcheck.audit.samples import Samples
+
+# Failing pairs that are named, the most frequent first.
+NAMED = 3
+
+
+def samples_counts(result: Samples) -> str:
+    """`300 random poses (seed 0), 7 bodies, 12 pairs: 190 pass, 110 fail.`"""
+    kind = "pose" if result.seed is None else "random pose"
+    seed = "" if result.seed is None else f" (seed {result.seed})"
+    verdicts = Counter(sample.verdict for sample in result.samples)
+    singular = {"pass": "passes", "fail": "fails", "incomplete": "is incomplete"}
+    plural = {"pass": "pass", "fail": "fail", "incomplete": "are incomplete"}
+    parts = [
+        f"{count:,} {singular[verdict] if count == 1 else plural[verdict]}"
+        for verdict in ("pass", "fail", "incomplete")
+        if (count := verdicts[verdict])
+    ]
+    line = (
+        f"{counted(len(result.samples), kind)}{seed}, "
+        f"{counted(len(result.bodies), 'body', 'bodies')}, "
+        f"{counted(result.counts.total, 'pair')}"
+        f"{f', {result.counts.allowed:,} allowed' if result.counts.allowed else ''}"
+        f"{f', {result.counts.exempt:,} more exempt' if result.counts.exempt else ''}"
+        f": {', '.join(parts)}."
+    )
+    return " ".join([line, *doubts(result.issues)])
+
+
+def samples_verdict(result: Samples) -> str:
+    """`FAIL: 9 pairs fail: base and upper in 24 poses, base and left in 14 poses, and 7 more.`"""
+    if result.verdict == "pass":
+        return "PASS: no collision in any pose."
+    if result.verdict == "fail":
+        return f"FAIL: {_failed(result)}. Next: --pose POSE -o report.html shows one pose in 3-D."
+    unchecked = nothing_checked(result.issues)
+    return " ".join(["INCOMPLETE:", *(unchecked or ["no collision was found, but not proven."])])
+
+
+def _failed(result: Samples) -> str:
+    poses = Counter(
+        (finding.a, finding.b)
+        for sample in result.samples
+        for finding in sample.findings
+        if fails(finding, result.settings.fail_on)
+    )
+    named = [f"{a} and {b} in {counted(n, 'pose')}" for (a, b), n in poses.most_common(NAMED)]
+    more = f", and {len(poses) - len(named):,} more" if len(poses) > len(named) else ""
+    verb = "fails" if len(poses) == 1 else "fail"
+    return f"{counted(len(poses), 'pair')} {verb}: {', '.join(named)}{more}"
