@@ -56,7 +56,7 @@ def _balls(pair: Pair, overlap: core.OverlapComponents) -> Iterator[Ball]:
         if component.resolved and ball.upper - ball.lower > width * ball.upper:
             others = [other.bounds for other in components[:place] + components[place + 1 :]]
             share = work // (len(components) - place)
-            search = core.search_thickness(a, b, width=width, work=share, within=component.bounds)
+            search = core.search_thickness(a, b, width=width, work=share, within=component)
             work -= min(work, search.work)
             ball = _narrowed(ball, search, others if overlap.resolved else None)
         yield ball

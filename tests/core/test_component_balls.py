@@ -102,7 +102,7 @@ def test_a_search_in_the_bounds_of_a_component(place: int) -> None:
     ]
     a, b = of(trimesh.util.concatenate(blocks)), of(trimesh.util.concatenate(plates))
     component = overlap_components(a, b, PLENTY).components[place]
-    ball = search_thickness(a, b, width=0.01, work=10**9, within=component.bounds)
+    ball = search_thickness(a, b, width=0.01, work=10**9, within=component)
     truth = 0.2 * (place + 1)
     assert ball.lower <= truth + 1e-9
     assert truth - 1e-9 <= ball.upper <= 1.01 * truth + 1e-9
@@ -110,7 +110,7 @@ def test_a_search_in_the_bounds_of_a_component(place: int) -> None:
 
 @pytest.mark.parametrize("swap", [False, True])
 def test_a_search_looks_at_the_components(swap: bool) -> None:
-    """A turned bolt in its hole: cells alone would take many times the work to be so narrow."""
+    """A turned bolt in its hole: hulls of slivers are as thick as the slivers."""
     alpha = math.pi / 24
     truth = 2 * (1 - math.cos(alpha)) * math.cos(alpha) / (1 + math.cos(alpha))
     bolt, hole = (of(mesh) for mesh in bolt_and_hole(24, turn=0.7))
@@ -118,6 +118,6 @@ def test_a_search_looks_at_the_components(swap: bool) -> None:
     interval = search_thickness(*pair, width=1e-6, work=100_000_000)
     assert interval.stop == "narrow"
     assert 0.999999 * truth <= interval.lower <= truth + 1e-11
-    assert truth - 1e-11 <= interval.upper <= truth + 1e-11
+    assert truth - 1e-11 <= interval.upper <= 1.000002 * truth
     decided = search_thickness(*pair, width=0.0, work=100_000_000, limit=truth / 2)
     assert decided.stop == "decided"

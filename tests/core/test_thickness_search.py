@@ -68,12 +68,19 @@ def test_an_open_surface_is_refused() -> None:
         search_thickness(Surface(mesh, False), cube(0, 1), width=0.01, work=WORK)
 
 
-def prism_ring(outer: float, inner: float, turn: float, low: float, high: float, n: int) -> Surface:
-    """A ring of n facets along z; a prism if inner is 0. turn: in facets."""
-    angles = 2 * math.pi * (np.arange(n) + turn) / n
-    circle = np.column_stack((np.cos(angles), np.sin(angles)))
+def prism_ring(
+    outer: float, inner: float, turn: float, low: float, high: float, n: int, twist: float = 0.0
+) -> Surface:
+    """A ring of n facets along z; a prism if inner is 0. turn: in facets, and how far they turn on
+    the way from low to high."""
+    steps = 2 * math.pi / n * np.add.outer((turn, turn + twist), np.arange(n))
     radii = (outer, inner or outer / 2)
-    points = [(*(r * xy), z) for z in (low, high) for r in radii for xy in circle]
+    points = [
+        (r * math.cos(angle), r * math.sin(angle), z)
+        for z, angles in zip((low, high), steps, strict=True)
+        for r in radii
+        for angle in angles
+    ]
     quads = []
     for k in range(n):
         j = (k + 1) % n
@@ -101,3 +108,18 @@ def test_surfaces_off_by_exactly_the_sagitta_explain_facets_that_interlock() -> 
     )
     assert found.stop == "decided"
     assert found.upper <= 1e-10 * sagitta
+
+
+def test_slivers_between_long_triangles() -> None:
+    """Triangles that turn a little from one end to the other: no two lie in one plane, and
+    planes around a sliver differ by half a degree. Slivers are half as thick as the sagitta."""
+    n = 280
+    bolt, hole = prism_ring(5, 0, 0.3, -10, 10, n, 0.2), prism_ring(9, 5, 0, -10, 10, n - 14, 0.1)
+    sagitta = 5 * (1 - math.cos(math.pi / (n - 14)))
+    for share, is_real in ((0.55, False), (0.45, True)):
+        off = share * sagitta
+        found = search_thickness(
+            bolt, hole, width=0.0, work=WORK // 2, less_a=off, less_b=off, limit=0.0
+        )
+        assert found.stop == "decided"
+        assert (found.lower > 0) == is_real

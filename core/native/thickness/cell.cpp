@@ -1,5 +1,6 @@
 #include "thickness/cell.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -11,8 +12,8 @@ namespace {
 // What a height minus a dot product is off by, as a share of the scale: 3 products and 3 sums, each at most 2
 // times the scale, and once more for the rounding of the point itself; rounded up.
 constexpr double kResidualError = 16 * kUnitRoundoff;
-// A corner may be this far off, as a share of the scale, before a split is refused.
-constexpr double kLargestError = 2e-13;
+// Where three planes with a smaller determinant meet is not known.
+constexpr double kLeastDeterminant = 2e-13;
 // Heights are tried in steps of this many times the distance that is too close, on both sides.
 constexpr double kStep = 3;
 constexpr int kTries = 7;
@@ -27,7 +28,7 @@ struct Place {
 Place meeting_point(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c, Vec3 guess, double scale) {
   const Vec3 bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal), ab = cross(a.normal, b.normal);
   const double det = dot(a.normal, bc);
-  if (!(std::fabs(det) > kLargestError)) return {guess};
+  if (!(std::fabs(det) > kLeastDeterminant)) return {guess};
   for (int i = 0; i < 2; ++i) {
     const auto residual = [&](const HalfSpace& plane) { return plane.height - dot(plane.normal, guess); };
     guess = guess + (bc * residual(a) + ca * residual(b) + ab * residual(c)) * (1 / det);
@@ -72,27 +73,43 @@ std::vector<double> heights(const Cell& cell, const HalfSpace& plane) {
   return result;
 }
 
-// The part where sign * (normal . p - height) <= 0.
-std::optional<Cell> part(const Cell& cell, const HalfSpace& plane, const std::vector<double>& beyond, double sign,
-                         double scale) {
-  Cell result{cell.sides, {}, 0};
+// An edge of a cell through a plane.
+struct Crossing {
+  std::size_t below, above;  // corners
+  Cell::Corner corner;
+  double error;
+};
+
+std::vector<Crossing> crossings(const Cell& cell, const HalfSpace& plane, const std::vector<double>& beyond, double scale) {
+  std::vector<HalfSpace> sides = cell.sides;
+  sides.push_back(plane);
   const std::uint64_t bit = std::uint64_t{1} << cell.sides.size();
-  result.sides.push_back({plane.normal * sign, plane.height * sign});
-  result.error = cell.error;
+  std::vector<Crossing> result;
   for (std::size_t i = 0; i < cell.corners.size(); ++i) {
-    const Cell::Corner& in = cell.corners[i];
-    if (beyond[i] * sign > 0) continue;
-    result.corners.push_back(in);
-    for (std::size_t k = 0; k < cell.corners.size(); ++k) {
-      const Cell::Corner& out = cell.corners[k];
-      const std::uint64_t common = in.planes & out.planes;
-      if (beyond[k] * sign <= 0 || std::popcount(common) < 2) continue;
-      const Vec3 guess = in.at + (out.at - in.at) * (beyond[i] / (beyond[i] - beyond[k]));
-      const Place place = meeting_point(result.sides, common | bit, guess, scale);
-      if (!(place.error <= kLargestError * scale)) return std::nullopt;
-      result.error = larger(result.error, place.error);
-      result.corners.push_back({place.at, common | bit});
+    const Cell::Corner& below = cell.corners[i];
+    for (std::size_t k = 0; k < cell.corners.size() && beyond[i] <= 0; ++k) {
+      const Cell::Corner& above = cell.corners[k];
+      const std::uint64_t common = below.planes & above.planes;
+      if (beyond[k] <= 0 || std::popcount(common) < 2) continue;
+      const Vec3 guess = below.at + (above.at - below.at) * (beyond[i] / (beyond[i] - beyond[k]));
+      const Place place = meeting_point(sides, common | bit, guess, scale);
+      result.push_back({i, k, {place.at, common | bit}, place.error});
     }
+  }
+  return result;
+}
+
+// The part where sign * (normal . p - height) <= 0.
+Cell part(const Cell& cell, const HalfSpace& plane, const std::vector<double>& beyond,
+          const std::vector<Crossing>& crossings, double sign) {
+  Cell result{cell.sides, {}, cell.error};
+  result.sides.push_back({plane.normal * sign, plane.height * sign});
+  for (std::size_t i = 0; i < cell.corners.size(); ++i) {
+    if (beyond[i] * sign <= 0) result.corners.push_back(cell.corners[i]);
+  }
+  for (const Crossing& crossing : crossings) {
+    result.error = larger(result.error, crossing.error);
+    result.corners.push_back(crossing.corner);
   }
   drop_unused_sides(result);
   return result;
@@ -129,11 +146,11 @@ Cell make_cell(const Mat3& axes, Vec3 low, Vec3 high, int flat, double scale) {
   return cell;
 }
 
-std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double scale) {
+std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double scale, double error) {
   if (cell.sides.size() >= kMostSides) return std::nullopt;
   const double close = cell.error + kResidualError * scale;
-  for (int i = 0; i < kTries; ++i) {
-    const double shift = kStep * close * ((i + 1) / 2) * (i % 2 == 0 ? 1 : -1);
+  double shift = 0;
+  for (int i = 1; i <= kTries; ++i) {
     const HalfSpace tried{plane.normal, plane.height + shift};
     const std::vector<double> beyond = heights(cell, tried);
     bool clear = true, below = false, above = false;
@@ -142,12 +159,17 @@ std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double sca
       below = below || height < 0;
       above = above || height > 0;
     }
-    if (!clear) continue;
+    if (!clear) {
+      shift = kStep * close * ((i + 1) / 2) * (i % 2 == 0 ? 1 : -1);
+      continue;
+    }
     if (!below || !above) return std::nullopt;
-    auto low = part(cell, tried, beyond, 1, scale);
-    auto high = part(cell, tried, beyond, -1, scale);
-    if (!low || !high) return std::nullopt;
-    return Halves{std::move(*low), std::move(*high), tried};
+    const std::vector<Crossing> cut = crossings(cell, tried, beyond, scale);
+    const auto worst = std::max_element(cut.begin(), cut.end(), [](const Crossing& p, const Crossing& q) { return p.error < q.error; });
+    if (worst->error <= error) return Halves{part(cell, tried, beyond, cut, 1), part(cell, tried, beyond, cut, -1), tried};
+    // An edge that is almost in the plane: past its nearer end.
+    const double down = beyond[worst->below], up = beyond[worst->above];
+    shift += up < -down ? up + kStep * close : down - kStep * close;
   }
   return std::nullopt;
 }

@@ -37,8 +37,8 @@ struct Halves {
   HalfSpace plane;
 };
 
-// The two parts of a cell, with a height that differs from the given one by rounding so that no corner is too close to
-// the plane. Nothing where one part is empty, or where corners would not be known well.
-std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double scale);
+// The two parts of a cell. No new corner is off by more than `error`: the height differs from the given one where a
+// corner is too close to the plane, or an edge almost in it. Nothing where one part is empty, or no such height is near.
+std::optional<Halves> split(const Cell& cell, const HalfSpace& plane, double scale, double error);
 
 }  // namespace satcheck

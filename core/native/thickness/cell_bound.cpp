@@ -10,6 +10,7 @@
 #include "base/work.hpp"
 #include "exact/triangle_distance.hpp"
 #include "mesh/nearest_point.hpp"
+#include "thickness/cell_cut.hpp"
 #include "thickness/matrix_game.hpp"
 
 namespace satcheck {
@@ -27,19 +28,12 @@ constexpr double kSumRounding = 4.0 / 256;
 constexpr double kPlaneTolerance = 1e-3;
 // A cell is not refined further once this share of the way from its bound to what is enough is a gap that only splits close.
 constexpr double kHopeless = 0.5;
-// A void next to few patches is split off, leaving a layer of this share of what is enough.
-constexpr std::size_t kFewPatches = 12;
+// A void is split off, leaving a layer of this share of what is enough.
 constexpr double kLayer = 0.25;
 // Where a column is the depth of the game's point, it counts this much although the bound may not rest on it.
 constexpr double kNearestWeight = 0.5;
-// Where axes and planes explain less than this share of a gap, the cell is halved across its longest axis.
-constexpr double kAlongAxes = 0.1;
-// A side of a cell that is steeper than this along an axis bounds the way along it.
-constexpr double kSteep = 1e-9;
 // From so many patches on, the tree of the surface has the nearest one sooner than a list.
 constexpr std::size_t kManyPatches = 256;
-// Cells with more corners are split along the axes only.
-constexpr std::size_t kManyCorners = 28;
 
 struct Nearest {
   double depth = INFINITY;
@@ -235,120 +229,27 @@ class CellBound {
     return added;
   }
 
-  // Where the cell is split: along the void that the game's point lies in; at the plane of a patch; or across an axis.
+  // Where the cell is split: along the void that the game's point lies in, or where the gap is.
   void choose_cut() {
-    if (cell_.corners.size() <= kManyCorners) {
-      if (outside_ >= 0 && cut_off_void(outside_)) return;
+    if (outside_ >= 0) {
+      const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
+      open_.cut = cut_off_void(cell_, bodies_.patches(outside_), met_[static_cast<std::size_t>(outside_)], point_, layer);
     }
-    double most = 0;
-    std::optional<HalfSpace> cut;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 along = axes_.row[axis];
-      const double gap = gap_along(along);
-      if (gap <= most) continue;
-      most = gap;
-      cut = halving(along);
-    }
-    if (cell_.corners.size() <= kManyCorners) {
-      for (std::size_t c = 0; c < columns_.size(); ++c) {
-        const double gap = gap_at_plane(c);
-        if (gap <= most) continue;
-        const Patch& patch = bodies_.patch(columns_[c].body, columns_[c].patch);
-        most = gap;
-        cut = HalfSpace{patch.normal, dot(patch.normal, patch.origin)};
-      }
-    }
-    if (most >= kAlongAxes * gap_at_corners()) open_.cut = cut;
-  }
-
-  HalfSpace halving(Vec3 along) const {
-    double low = INFINITY, high = -INFINITY;
-    for (const Cell::Corner& corner : cell_.corners) {
-      low = smaller(low, dot(along, corner.at));
-      high = larger(high, dot(along, corner.at));
-    }
-    return {along, (low + high) / 2};
-  }
-
-  // Towards the game's point, from the nearest patch of the body in the cell.
-  bool cut_off_void(int body) {
-    const PatchList& met = met_[static_cast<std::size_t>(body)];
-    if (met.size() > kFewPatches) return false;
-    const ConvexPatches& patches = bodies_.patches(body);
-    double distance = INFINITY;
-    Vec3 on_wall;
-    for (const std::uint32_t i : met) {
-      const Vec3 nearest = patches.nearest(patches.patches[i], point_);
-      if (norm(point_ - nearest) >= distance) continue;
-      distance = norm(point_ - nearest);
-      on_wall = nearest;
-    }
-    const double layer = std::fmax(kLayer * enough_, 4 * (cell_.error + bodies_.rounding()));
-    if (!(distance > 4 * layer && distance < INFINITY)) return false;
-    const Vec3 towards = (point_ - on_wall) * (1 / distance);
-    open_.cut = HalfSpace{towards, dot(towards, on_wall) + layer};
-    return true;
+    if (!open_.cut) open_.cut = cut_at_gap(gap());
   }
 
   // What makes the bound larger than the depth of the game's point: columns that are not linear, those that the bound rests
   // on and the one that is the depth of that point.
-  double weight_of_gap(std::size_t c) const {
-    const Column& column = columns_[c];
-    if (column.plane) return 0;
-    const Nearest& nearest = nearest_[static_cast<std::size_t>(column.body)];
-    const bool is_depth = nearest.depth <= depth_ && nearest.patch == column.patch;
-    return game_->column_weights()[c] + (is_depth ? kNearestWeight : 0);
-  }
-
-  // The weighted sum at a point of the cell, without the columns that are linear.
-  double curved_sum(Vec3 p) const {
-    double sum = 0;
+  CellGap gap() const {
+    CellGap gap{bodies_, axes_, cell_, {}, game_->row_weights(), point_};
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const double weight = weight_of_gap(c);
-      if (weight <= 0) continue;
-      work_done += kDistanceWork;
-      sum += weight * bodies_.value(columns_[c], p);
-    }
-    return sum;
-  }
-
-  // By how much the weighted sum is above its value at the game's point because it is not linear along the axis.
-  double gap_along(Vec3 along) const {
-    double forward = INFINITY, backward = INFINITY;
-    for (const HalfSpace& side : cell_.sides) {
-      const double slope = dot(side.normal, along), room = std::fmax(side.height - dot(side.normal, point_), 0.0);
-      if (slope > kSteep) forward = smaller(forward, room / slope);
-      if (slope < -kSteep) backward = smaller(backward, room / -slope);
-    }
-    if (!(forward < INFINITY && backward < INFINITY && forward + backward > bodies_.rounding())) return 0;
-    const double share = backward / (forward + backward);
-    return share * curved_sum(point_ + along * forward) + (1 - share) * curved_sum(point_ - along * backward) - curved_sum(point_);
-  }
-
-  // By how much it is above that value at the corners that the game's point is between.
-  double gap_at_corners() const {
-    double gap = -curved_sum(point_);
-    for (std::size_t k = 0; k < cell_.corners.size(); ++k) {
-      const double share = game_->row_weights()[k];
-      for (std::size_t c = 0; c < columns_.size() && share > 0; ++c) {
-        gap += share * weight_of_gap(c) * values_[c * cell_.corners.size() + k];
-      }
+      const Column& column = columns_[c];
+      const Nearest& nearest = nearest_[static_cast<std::size_t>(column.body)];
+      const bool is_depth = nearest.depth <= depth_ && nearest.patch == column.patch;
+      const double weight = game_->column_weights()[c] + (is_depth ? kNearestWeight : 0);
+      if (!column.plane && weight > 0) gap.terms.push_back({column, weight});
     }
     return gap;
-  }
-
-  // The same because the patch's plane runs through the cell.
-  double gap_at_plane(std::size_t c) const {
-    const double weight = weight_of_gap(c);
-    if (weight <= 0) return 0;
-    const Patch& patch = bodies_.patch(columns_[c].body, columns_[c].patch);
-    double sum = 0, sum_of_sizes = 0;
-    for (std::size_t k = 0; k < cell_.corners.size(); ++k) {
-      const double s = game_->row_weights()[k] * dot(patch.normal, cell_.corners[k].at - patch.origin);
-      sum += s;
-      sum_of_sizes += std::fabs(s);
-    }
-    return weight * (sum_of_sizes - std::fabs(sum));
   }
 
   void keep_columns() {

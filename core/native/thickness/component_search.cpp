@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "thickness/component_balls.hpp"
+#include "thickness/component_box.hpp"
 
 namespace satcheck {
 namespace {
@@ -71,7 +72,7 @@ class ComponentSearch {
   // Proven, of a component that is searched.
   double upper_end(std::size_t k) {
     ThicknessGoal goal = goal_;
-    goal.within = overlap_.components[k].bounds;
+    goal.within = box_around(overlap_.components[k]);
     goal.limit = enough();
     ThicknessInterval interval = searched(goal);
     if (!goal_.limit && interval.lower > *goal.limit && left_ > 0) {

@@ -27,6 +27,9 @@ constexpr std::uint64_t kPatience = 10'000'000;
 // Bounds below this many roundings are not divided further: rounding keeps them above 0.
 constexpr double kNoise = 1024;
 
+// A corner of a cell may be off by this share of the scale, and by this share of what its bound is too large by.
+constexpr double kLeastError = 2e-13, kShareOfError = 1e-5;
+
 // Patches may deviate from a plane by this share of the largest radius that the boxes of the bodies allow.
 constexpr double kFlatness = 1e-7;
 
@@ -95,20 +98,21 @@ class Search {
 
   // No ball in both is larger than the box that is common to their boxes.
   void push_root() {
-    Aabb box = common_box(bodies_.surface(0).bvh.nodes[0].box, bodies_.surface(1).bvh.nodes[0].box);
+    const Aabb box = common_box(bodies_.surface(0).bvh.nodes[0].box, bodies_.surface(1).bvh.nodes[0].box);
+    Vec3 low = box.min, high = box.max;
     if (goal_.within) {
-      const double wider = bodies_.rounding();
-      box = common_box(box, {goal_.within->min - centre_ - Vec3{wider, wider, wider},
-                             goal_.within->max - centre_ + Vec3{wider, wider, wider}});
+      const Vec3 wider = Vec3{1, 1, 1} * bodies_.rounding();
+      axes_ = goal_.within->axes;
+      low = goal_.within->low - axes_ * centre_ - wider;
+      high = goal_.within->high - axes_ * centre_ + wider;
     }
     double half = INFINITY;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(box.max[axis] > box.min[axis])) return;
-      if (axis != goal_.across) half = std::fmin(half, (box.max[axis] - box.min[axis]) / 2);
+      if (!(high[axis] > low[axis])) return;
+      if (axis != goal_.across) half = std::fmin(half, (high[axis] - low[axis]) / 2);
     }
     OpenCell root;
     root.bound = half + std::fabs(bodies_.less(0) - bodies_.less(1)) + bodies_.rounding();
-    Vec3 low = box.min, high = box.max;
     if (goal_.across >= 0) {
       const Vec3 middle = low * 0.5 + high * 0.5;
       double& from = goal_.across == 0 ? low.x : goal_.across == 1 ? low.y : low.z;
@@ -157,11 +161,8 @@ class Search {
   }
 
   void divide(OpenCell& parent) {
-    std::optional<Halves> halves;
-    if (parent.cut) halves = split(parent.cell, *parent.cut, bodies_.scale());
-    for (int axis = 0; axis < 3 && !halves; ++axis) {
-      halves = split(parent.cell, longest_cut(parent.cell, axis), bodies_.scale());
-    }
+    auto halves = divided(parent, kShareOfError * (parent.bound - enough()));
+    if (!halves) halves = divided(parent, kShareOfError * (parent.bound - best_));
     if (!halves) {  // nothing is left to divide
       dropped_ = std::fmax(dropped_, parent.bound);
       return;
@@ -173,6 +174,17 @@ class Search {
       auto child = std::make_unique<OpenCell>(OpenCell{parent.bound, std::move(*part), parent.near, parent.columns, parent.inside, {}, 0, node});
       add(std::move(child));
     }
+  }
+
+  // error: of new corners.
+  std::optional<Halves> divided(const OpenCell& parent, double error) const {
+    error = std::fmax(error, kLeastError * bodies_.scale());
+    std::optional<Halves> halves;
+    if (parent.cut) halves = split(parent.cell, *parent.cut, bodies_.scale(), error);
+    for (int axis = 0; axis < 3 && !halves; ++axis) {
+      halves = split(parent.cell, longest_cut(parent.cell, axis), bodies_.scale(), error);
+    }
+    return halves;
   }
 
   // Through the middle, across the longest axis of the cell, or the second or third longest.

@@ -16,6 +16,12 @@ namespace satcheck {
 
 struct ThicknessProof;
 
+// Unit axes, perpendicular up to rounding, and the least and the greatest coordinate along each.
+struct BoxAlong {
+  Mat3 axes;
+  Vec3 low, high;
+};
+
 struct ThicknessGoal {
   double width = 0.01;     // the interval may stay this wide, relative to its upper end
   std::uint64_t work = 0;  // steps that may be spent (base/work.hpp)
@@ -24,9 +30,9 @@ struct ThicknessGoal {
   // An axis of the world along which both solids are prisms: triangles across it do not count; -1: none.
   int across = -1;
   bool prove = false;  // write down why no point lies deeper; not along an axis
-  // The box of a component of the overlap, world frame: its balls lie in it. One of another component may be found that
+  // A box around a component of the overlap, world frame: its balls lie in it. One of another component may be found that
   // has its centre in the box.
-  std::optional<Aabb> within = {};
+  std::optional<BoxAlong> within = {};
   std::function<void()> poll = {};  // called every twentieth of a second or so; what it throws ends the search
 };
 
