@@ -44,6 +44,8 @@ def _run() -> int:
         return _failed("error: out of memory [out-of-memory]", debug)
     except click.UsageError as error:
         error.show()
+        if isinstance(error, click.NoSuchOption):
+            _advise(error)
         return exit_codes.ERROR
     except click.ClickException as error:
         return _failed(f"error: {error.format_message()}", debug)
@@ -53,6 +55,13 @@ def _run() -> int:
     except Exception as error:  # noqa: BLE001  the last resort: no traceback, never exit 1
         return _failed(_internal(error), debug)
     return result if isinstance(result, int) else exit_codes.CLEAN
+
+
+def _advise(error: click.NoSuchOption) -> None:
+    from satcheck.cli.slips import about_option
+
+    if advice := about_option(error):
+        talk(str(advice))
 
 
 def _call() -> object:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Self
@@ -57,6 +58,7 @@ def refuse_early(
     """What can be seen to fail before any work is done. option: that names the output."""
     if not inputs.paths:
         raise click.UsageError("give two or more mesh files, or a scene file")
+    _refuse_first_word(inputs.paths[0])
     if output is None:
         return
     if not output.absolute().parent.is_dir():
@@ -93,12 +95,16 @@ def load(inputs: Inputs, hashed: bool = True, least: int = 2) -> Scene:
     scene = read(inputs, paths, hashed=hashed)
     for issue in dict.fromkeys(issue for issue in scene.issues if issue.severity == "error"):
         talk(f"satcheck: {issue_line(issue)}")
-    _hint(paths[0])
+    advice = _advice(paths)
     if len(scene.bodies) + len(scene.unreadable) < least:
         if scene.unreadable:
-            raise click.ClickException("an input could not be used: there is no pair to check")
-        what = "one body alone cannot collide" if scene.bodies else "there is no body"
-        raise click.UsageError(f"{what}: {_advice(inputs)}")
+            said = "an input could not be used: there is no pair to check"
+            raise click.ClickException("\n".join([said, *advice]))
+        if not scene.bodies:
+            raise click.UsageError(f"there is no body: {_more(inputs)}")
+        raise _one_body(inputs, scene)
+    for line in advice:
+        talk(line)
     return scene
 
 
@@ -136,24 +142,49 @@ def _has_bodies(scene: str) -> bool:
         return True
 
 
-def _advice(inputs: Inputs) -> str:
+def _more(inputs: Inputs) -> str:
     mesh = next(filter(is_mesh, inputs.paths), None)
     if mesh is None:
         return f"give mesh files beside {inputs.paths[0]}, or a scene of two bodies"
+    return "give two or more mesh files, or a scene file"
+
+
+def _one_body(inputs: Inputs, scene: Scene) -> click.ClickException:
+    """To be raised."""
+    alone = next(iter(scene.bodies))
     if inputs.split == "components":
-        return f"{mesh} is one connected component"
-    others = "--split components makes a body of each connected component"
-    return f"give two or more mesh files, or a scene file; {others}"
+        return click.ClickException(
+            f"one body alone cannot collide: {alone.file.path} is one piece"
+        )
+    if len(inputs.paths) > 1 or not is_mesh(inputs.paths[0]):
+        return click.UsageError(f"one body alone cannot collide: {_more(inputs)}")
+    from satcheck.cli.slips import about_one_body
+
+    advice = about_one_body(inputs.paths[0], alone.file.health.components)
+    return click.ClickException("\n".join(["one body alone cannot collide", *map(str, advice)]))
 
 
-def _hint(first: str) -> None:
-    """The first word is a path unless it names a command; a misspelt command is a missing path."""
+def _refuse_first_word(word: str) -> None:
+    if word not in ("check", "help"):
+        return
+    from satcheck.cli.slips import about_first_word
+
+    if advice := about_first_word(word):
+        raise click.ClickException(f"there is no command {word}\n{advice}")
+
+
+def _advice(paths: Sequence[str]) -> list[str]:
+    """Lines about paths that look like slips. The first word is a path unless it names a command; a
+    misspelt command is a missing path."""
+    if all(map(os.path.isfile, paths)) and len(set(paths)) == len(paths):
+        return []
+    from satcheck.cli.slips import about_paths
+
+    lines = [str(advice) for advice in about_paths(paths)]
+    first = paths[0]
     if "." in first or Path(first).exists():
-        return
-    if first == "check":
-        talk("satcheck: leave out the word `check`: satcheck A B checks two files")
-        return
+        return lines
     from difflib import get_close_matches
 
-    for name in get_close_matches(first, COMMANDS, n=1):
-        talk(f"satcheck: did you mean the command `satcheck {name}`?")
+    near = get_close_matches(first, COMMANDS, n=1)
+    return lines + [f"satcheck: did you mean the command `satcheck {name}`?" for name in near]

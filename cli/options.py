@@ -17,6 +17,7 @@ from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.picture import FORMATS as PICTURE_FORMATS
 from satcheck.core.conventions import PLANES
 from satcheck.scene import Scene
+from satcheck.scene.loading.source import FORMATS as MESHES
 from satcheck.scene.units import MICROMETRES, Length, parse_length
 
 FORMATS = ("table", "json")
@@ -30,7 +31,7 @@ _ENDINGS = {
     ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
 }
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = frozenset({".svg", ".png", ".pdf", ".toml", ".yaml"})
+_NO_REPORTS = frozenset({".svg", ".png", ".pdf", ".toml", ".yaml", *MESHES}) - frozenset(_ENDINGS)
 _STANDARD_OUTPUT = Path("-")
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 

@@ -275,12 +275,12 @@ def command(
     carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
     """
     inputs = Inputs.taken_from(options)
+    refuse_early(inputs, output, baseline)
     form = form_of(form, output, (*REPORT_FORMATS, *PICTURES))
     if options["certificate"] and form != "json":
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
-    refuse_early(inputs, output, baseline)
     if form in PICTURES:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"

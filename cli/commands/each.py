@@ -64,6 +64,8 @@ def command(
     """
     inputs = Inputs.taken_from(options)
     form = form_of(form, output, REPORT_FORMATS)
+    if not inputs.paths:
+        raise click.UsageError("give a folder or files: `satcheck each .` checks this folder")
     refuse_early(inputs, output, baseline)
     files = _files(inputs, planar=options["planar"] is not None)
     refuse_early(Inputs(paths=tuple(files)), output)

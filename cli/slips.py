@@ -1,0 +1,218 @@
+"""Typical slips on the command line, and what to type instead.
+
+The commands are made from the words of this call, so that they work when they are copied.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from satcheck.cli.commands import COMMANDS
+from satcheck.core.errors import SatcheckError
+from satcheck.scene.asset_files import asset_files
+from satcheck.scene.loading.source import FORMATS
+
+if TYPE_CHECKING:
+    import click
+
+# More files than this make no line that anybody copies.
+MOST_FILES = 8
+# So many bad paths get advice; the others are errors alone.
+MOST_PATHS = 3
+_PATTERN = frozenset("*?[")
+# What other programs call our options: a name without dashes, and what it is here.
+_ALIASES: Mapping[str, tuple[str, ...]] = {
+    "html": ("-o", "report.html"),
+    "verbose": ("--explain",),
+    "v": ("--explain",),
+    "threads": ("--jobs",),
+    "distance": ("--clearance",),
+    "out": ("-o",),
+}
+
+
+class Advice(NamedTuple):
+    """What a command is for, and the command."""
+
+    purpose: str
+    command: str
+
+    def __str__(self) -> str:
+        return f"satcheck: {self.purpose}:\n  {self.command}"
+
+
+class _Pattern(str):
+    """A word that the shell has to expand: it is not quoted."""
+
+
+def about_first_word(word: str) -> Advice | None:
+    """Of a word that is no file: `check` and `help` are words of other programs."""
+    words = sys.argv[1:]
+    if Path(word).exists() or word not in words:
+        return None
+    rest = [each for each in words if each != word]
+    if word == "check":
+        return Advice("a check has no name: leave out the word check", _line(rest))
+    if word == "help":
+        named = [each for each in rest if each in COMMANDS][:1]
+        return Advice("this shows the help", _line([*named, "--help"]))
+    return None
+
+
+def about_option(error: click.NoSuchOption) -> Advice | None:
+    """Of an option that the command does not have."""
+    words, wrong = sys.argv[1:], error.option_name
+    known = [] if error.ctx is None else _options(error.ctx.command)
+    right = _meant(wrong.lstrip("-"), known)
+    place = next((k for k, word in enumerate(words) if word.partition("=")[0] == wrong), None)
+    if right is None or place is None:
+        return None
+    _, equals, value = words[place].partition("=")
+    words[place : place + 1] = [*right, *([value] if equals else [])]
+    return Advice("did you mean", _line(words))
+
+
+def about_paths(paths: Sequence[str]) -> list[Advice]:
+    """Of folders, patterns, and files that do not exist or are given twice."""
+    bad = [path for path in paths if not Path(path).is_file()]
+    near = {path: [other] for path in bad if (other := _nearest(path)) is not None}
+    advice = [Advice("did you mean", _replacing(near))] if near else []
+    advice += [each for path in bad[:MOST_PATHS] for each in _about_path(path)]
+    files = Counter(os.path.realpath(path) for path in paths if path not in bad)
+    twice = next((path for path in paths if files[os.path.realpath(path)] > 1), None)
+    if twice is not None and Path(twice).suffix.lower() in FORMATS:
+        pieces = _line(["--split", "components", twice])
+        purpose = f"{twice} is given twice, so its bodies coincide. To check its pieces"
+        advice.append(Advice(purpose, pieces))
+    return advice
+
+
+def about_one_body(path: str, components: int) -> list[Advice]:
+    """Of a mesh file that is alone. components: connected, of its mesh."""
+    advice = [Advice(f"to check the mesh of {path} alone", _line(["each", path]))]
+    if other := _sibling(path):
+        advice.append(Advice("to check it against another mesh", _line([*sys.argv[1:], other])))
+    if components > 1:
+        words = ["--split", "components", *sys.argv[1:]]
+        advice.append(Advice("to check its connected pieces", _line(words)))
+    return advice
+
+
+def _about_path(path: str) -> Iterator[Advice]:
+    if Path(path).is_dir():
+        yield from _about_folder(path)
+    elif _PATTERN.intersection(path):
+        yield from _about_pattern(path)
+
+
+def _about_folder(path: str) -> Iterator[Advice]:
+    if _is_check():
+        purpose = f"to check each file in {path} by itself"
+        yield Advice(purpose, _line(["each", *sys.argv[1:]]))
+    endings = Counter(file.suffix for file in _meshes(Path(path)))
+    for ending, count in endings.most_common(1):
+        purpose = f"to check its {count} {ending} files against each other"
+        if count > 1:
+            yield Advice(purpose, _replacing({path: [_all(Path(path), ending)]}))
+
+
+def _about_pattern(path: str) -> Iterator[Advice]:
+    """A shell passes a pattern on if it is quoted or matches nothing; on Windows always."""
+    matches = _matches(path)
+    if matches and len(matches) <= MOST_FILES:
+        purpose = f"to check the files of {path} against each other"
+        yield Advice(purpose, _replacing({path: matches}))
+    if matches and _is_check():
+        yield Advice("to check each of them by itself", _line(["each", *sys.argv[1:]]))
+    if not matches:
+        folder = Path(path).parent
+        endings = Counter(file.suffix for file in _meshes(folder))
+        for ending, count in endings.most_common(1):
+            purpose = f"no file matches {path}. To check the {count} {ending} files there"
+            yield Advice(purpose, _replacing({path: [_all(folder, ending)]}))
+
+
+def _matches(pattern: str) -> list[str]:
+    try:
+        return asset_files([pattern])
+    except SatcheckError:  # there is none
+        return []
+
+
+def _all(folder: Path, ending: str) -> _Pattern:
+    """`parts/*.obj`, for the shell to expand."""
+    inside = "" if folder == Path() else f"{_quoted(str(folder))}/"
+    return _Pattern(f"{inside}*{ending}")
+
+
+def _nearest(path: str) -> str | None:
+    """A file of the same folder with nearly the same name."""
+    wanted = Path(path)
+    if wanted.is_dir() or _PATTERN.intersection(path):
+        return None
+    names = {file.name.lower(): file.name for file in _listed(wanted.parent) if file.is_file()}
+    same = [name for name in names if Path(name).stem == wanted.stem.lower()]
+    close = same or get_close_matches(wanted.name.lower(), names, n=1, cutoff=0.75)
+    return str(wanted.parent / names[close[0]]) if close else None
+
+
+def _sibling(path: str) -> str | None:
+    """Another mesh of the same folder."""
+    others = sorted(str(file) for file in _meshes(Path(path).parent))
+    return next(
+        (other for other in others if os.path.realpath(other) != os.path.realpath(path)), None
+    )
+
+
+def _meshes(folder: Path) -> list[Path]:
+    return [file for file in _listed(folder) if file.suffix.lower() in FORMATS]
+
+
+def _listed(folder: Path) -> list[Path]:
+    try:
+        return sorted(folder.iterdir())
+    except OSError:
+        return []
+
+
+def _meant(wrong: str, known: Sequence[str]) -> tuple[str, ...] | None:
+    from satcheck.cli.options import REPORT_FORMATS
+
+    if wrong in REPORT_FORMATS and "--format" in known:
+        return ("--format", wrong)
+    alias = _ALIASES.get(wrong)
+    if alias is not None and alias[0] in known:
+        return alias
+    near = get_close_matches(f"--{wrong}", known, n=1)
+    return tuple(near) if near else None
+
+
+def _options(command: click.Command) -> list[str]:
+    return [name for option in command.params for name in (*option.opts, *option.secondary_opts)]
+
+
+def _is_check() -> bool:
+    return sys.argv[1:2] != [] and sys.argv[1] not in COMMANDS
+
+
+def _replacing(others: Mapping[str, Sequence[str]]) -> str:
+    """This call with other words in the place of some."""
+    return _line([new for word in sys.argv[1:] for new in others.get(word, [word])])
+
+
+def _line(words: Sequence[str]) -> str:
+    return " ".join(
+        ["satcheck", *(word if isinstance(word, _Pattern) else _quoted(word) for word in words)]
+    )
+
+
+def _quoted(word: str) -> str:
+    return subprocess.list2cmdline([word]) if os.name == "nt" else shlex.quote(word)

@@ -1,0 +1,90 @@
+"""Typical slips: each is answered with a command that works when it is copied."""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tests.cli.process import SAMPLES, satcheck
+
+MESHES = ("box.obj", "box_flush.stl", "box_pushed.stl", "cube.off", "ring.glb")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name in MESHES:
+        shutil.copy(SAMPLES / name, tmp_path / name)
+    parts = tmp_path / "my parts"
+    parts.mkdir()
+    for name in ("box.obj", "kettle.obj"):
+        shutil.copy(SAMPLES / name, parts / name)
+    return tmp_path
+
+
+def expanded(command: str, folder: Path) -> list[str]:
+    """As a POSIX shell does it: a pattern that is not quoted stands for files."""
+    words = []
+    for word in shlex.split(command):
+        is_quoted = shlex.quote(word) in command
+        matches = [] if is_quoted else sorted(folder.glob(word))
+        words += [str(path.relative_to(folder)) for path in matches] or [word]
+    return words
+
+
+@pytest.mark.parametrize(
+    ("typed", "instead"),
+    [
+        (["my parts"], ["each 'my parts'", "'my parts'/*.obj"]),
+        (["--clearance", "2", "."], ["each --clearance 2 .", "--clearance 2 *.stl"]),
+        (["box.obj"], ["each box.obj", "box.obj box_flush.stl"]),
+        (["check", "box.obj", "cube.off"], ["box.obj cube.off"]),
+        (["help"], ["--help"]),
+        (["help", "resolve"], ["resolve --help"]),
+        (["--json", "box.obj", "cube.off"], ["--format json box.obj cube.off"]),
+        (["box.obj", "cube.off", "--html"], ["box.obj cube.off -o report.html"]),
+        (["box.obj", "cube.off", "--formt=json"], ["box.obj cube.off --format json"]),
+        (["*.glb"], ["ring.glb", "each '*.glb'"]),
+        (["*.stl"], ["box_flush.stl box_pushed.stl", "each '*.stl'"]),
+        (["*.dae"], ["*.stl"]),
+        (["box", "Cube.off"], ["box.obj cube.off"]),
+        (["box.obj", "boxflush.stl", "gone.ply"], ["box.obj box_flush.stl gone.ply"]),
+        (["box.obj", "box.obj"], ["--split components box.obj"]),
+        (["resolve", "--pin", "box", "my parts"], ["resolve --pin box 'my parts'/*.obj"]),
+    ],
+)
+def test_a_slip_is_answered_with_a_command(
+    typed: list[str], instead: list[str], folder: Path
+) -> None:
+    ran = satcheck(*typed, cwd=folder)
+    assert "Traceback" not in ran.err
+    advised = [line.strip() for line in ran.err.splitlines() if line.startswith("  satcheck ")]
+    assert advised == [f"satcheck {words}" for words in instead]
+    if typed != ["box.obj", "box.obj"]:
+        assert (ran.code, ran.out) == (2, "")
+
+
+@pytest.mark.parametrize(
+    "typed", [["my parts"], ["box.obj"], ["--json", "box.obj", "cube.off"], ["*.stl"], ["*.dae"]]
+)
+def test_what_is_advised_works(typed: list[str], folder: Path) -> None:
+    said = satcheck(*typed, cwd=folder).err
+    for line in said.splitlines():
+        if line.startswith("  satcheck "):
+            _, *words = expanded(line.strip(), folder)
+            ran = satcheck(*words, cwd=folder)
+            assert ran.code in (0, 1, 3), (line, ran.err)
+
+
+def test_a_file_named_like_a_word_of_other_programs_can_be_checked(folder: Path) -> None:
+    shutil.copy(SAMPLES / "box.obj", folder / "check.obj")
+    assert satcheck("check.obj", "cube.off", cwd=folder).code == 0
+
+
+def test_a_report_is_no_mesh(folder: Path) -> None:
+    ran = satcheck("box.obj", "cube.off", "-o", "x.stl", cwd=folder)
+    assert ran.code == 2
+    assert not (folder / "x.stl").exists()
+    assert "x.stl: this command writes" in ran.err
