@@ -31,7 +31,7 @@ _ENDINGS = {
     ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
 }
 # Documents of other kinds, by the end of their names.
-_NO_REPORTS = frozenset({".svg", ".png", ".pdf", ".toml", ".yaml", *MESHES}) - frozenset(_ENDINGS)
+_NO_REPORTS = frozenset({".svg", ".pdf", ".toml", ".yaml", *MESHES}) - frozenset(_ENDINGS)
 _STANDARD_OUTPUT = Path("-")
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -169,8 +169,23 @@ report_form_option = click.option(
     "--format",
     "form",
     type=click.Choice((*REPORT_FORMATS, *PICTURES)),
-    help="The format of the report. html is a page with a 3-D view. [default: as the file of -o "
-    "ends: .json, .sarif, .xml (JUnit), .md, .csv, .jsonl, .html; otherwise table]",
+    help="The format of the report. html is a page with a 3-D view, png an image of the worst "
+    "finding, glb a 3-D model. [default: as the file of -o "
+    "ends: .json, .sarif, .xml (JUnit), .md, .csv, .jsonl, .html, .png, .glb; otherwise table]",
+)
+_PICTURE_OPTIONS = (
+    click.option(
+        "--png",
+        type=click.Path(dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Also write an image of the worst finding.",
+    ),
+    click.option(
+        "--glb",
+        type=click.Path(dir_okay=False, path_type=Path),
+        metavar="FILE",
+        help="Also write a 3-D model of bodies, overlaps and ways out, for any viewer.",
+    ),
 )
 output_option = click.option(
     "-o",
@@ -322,6 +337,13 @@ _POSE_OPTIONS = (
         help="The seed of the random poses: the same seed draws the same poses.  [default: 0]",
     ),
 )
+
+
+def picture_options(command: _Command) -> _Command:
+    """Adds the options of pictures beside a report."""
+    for option in reversed(_PICTURE_OPTIONS):
+        command = option(command)
+    return command
 
 
 def pose_options(command: _Command) -> _Command:

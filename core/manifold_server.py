@@ -7,8 +7,7 @@ lost.
 
 from __future__ import annotations
 
-import json
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 import msgspec
 
@@ -19,17 +18,20 @@ if TYPE_CHECKING:
 
 # How far a volume may be from what it is before the Boolean, in the same tolerance.
 _SAME: Final = 4.0
+Request = tuple[Literal["volume", "mesh"], list[bytes]]
 
 
 def serve(request: bytes) -> bytes:
-    """Two meshes as four blocks; JSON with `volume` and `error`, or with `refused` and `which`.
+    """What is wanted, and two meshes as four blocks. The reply has `volume` and `error`, or the
+    `mesh` of what both have in common as two blocks, or `refused` and `which`.
 
     The pair is moved to the origin and scaled by a power of two to unit size, which makes the
-    tolerance as small as it can be: true lengths are those of the answer times 2^exponent.
+    tolerance as small as it can be: true lengths are those of the answer times 2^exponent. A mesh
+    is moved back.
     """
     import numpy as np
 
-    blocks = msgspec.msgpack.decode(request, type=list[bytes])
+    wanted, blocks = msgspec.msgpack.decode(request, type=Request)
     vertices = [np.frombuffer(block, dtype="<f8").reshape(-1, 3) for block in blocks[0::2]]
     triangles = [np.frombuffer(block, dtype="<u4").reshape(-1, 3) for block in blocks[1::2]]
     centre, exponent = _frame(vertices)
@@ -38,14 +40,19 @@ def serve(request: bytes) -> bytes:
         placed = np.ldexp(points - centre, -exponent)
         solid = _solid(placed, corners)
         if isinstance(solid, str):
-            return _json(refused=solid, which=which)
+            return _reply(refused=solid, which=which)
         solids.append(solid)
         areas.append(solid.surface_area())
     common = solids[0] ^ solids[1]
     if common.status().name != "NoError":
-        return _json(refused=common.status().name, which=None)
+        return _reply(refused=common.status().name, which=None)
+    if wanted == "mesh":
+        mesh = common.to_mesh64()
+        points = np.ldexp(np.asarray(mesh.vert_properties[:, :3]), exponent) + centre
+        corners = np.asarray(mesh.tri_verts).astype("<u4")
+        return _reply(mesh=[points.astype("<f8").tobytes(), corners.tobytes()])
     tolerance = max(common.get_tolerance(), *(solid.get_tolerance() for solid in solids))
-    return _json(volume=common.volume(), error=tolerance * sum(areas), exponent=exponent)
+    return _reply(volume=common.volume(), error=tolerance * sum(areas), exponent=exponent)
 
 
 def _frame(vertices: list[NDArray[np.float64]]) -> tuple[NDArray[Any], int]:
@@ -75,5 +82,5 @@ def _solid(points: NDArray[Any], corners: NDArray[Any]) -> manifold3d.Manifold |
     return solid
 
 
-def _json(**answer: object) -> bytes:
-    return json.dumps(answer).encode()
+def _reply(**answer: object) -> bytes:
+    return msgspec.msgpack.encode(answer)

@@ -1,11 +1,10 @@
-"""The volume that two solids have in common, by manifold3d in a child process."""
+"""What two solids have in common, its volume or its surface, by manifold3d in a child process."""
 
 from __future__ import annotations
 
-import json
 import math
 from types import TracebackType
-from typing import Final
+from typing import Any, Final
 
 import msgspec
 from msgspec import Struct
@@ -52,19 +51,28 @@ class VolumeMeter:
         Raises SatcheckError: `volume-refused` when manifold3d cannot use one of the meshes,
         `volume-out-of-range` when it is no float64, `volume-failed` when the child gave no answer.
         """
-        try:
-            reply = self._worker.ask(
-                msgspec.msgpack.encode([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
-            )
-        except WorkerError as error:
-            raise SatcheckError("volume-failed", f"no volume: {error.message}") from error
-        answer = json.loads(reply)
-        if "refused" in answer:
-            which = {0: "A: ", 1: "B: "}.get(answer["which"], "")
-            raise SatcheckError("volume-refused", f"manifold3d says {which}{answer['refused']}")
+        answer = self._answer("volume", a, b)
         scale = 3 * answer["exponent"]
         try:
             volume = math.ldexp(answer["volume"], scale)
             return OverlapVolume(volume, math.ldexp(answer["error"], scale))
         except OverflowError as error:
             raise SatcheckError("volume-out-of-range", "the volume is no float64") from error
+
+    def common(self, a: Mesh, b: Mesh) -> Mesh | None:
+        """The surface of what they have in common; None: nothing. Of solids as in `measure`, and
+        it raises the same errors."""
+        vertices, triangles = self._answer("mesh", a, b)["mesh"]
+        return Mesh.from_bytes(vertices, triangles) if triangles else None
+
+    def _answer(self, wanted: str, a: Mesh, b: Mesh) -> dict[str, Any]:
+        request = msgspec.msgpack.encode((wanted, [*a.to_bytes(), *b.to_bytes()]))
+        try:
+            reply = self._worker.ask(request, seconds=self._seconds)
+        except WorkerError as error:
+            raise SatcheckError("volume-failed", f"no volume: {error.message}") from error
+        answer: dict[str, Any] = msgspec.msgpack.decode(reply)
+        if "refused" in answer:
+            which = {0: "A: ", 1: "B: "}.get(answer["which"], "")
+            raise SatcheckError("volume-refused", f"manifold3d says {which}{answer['refused']}")
+        return answer

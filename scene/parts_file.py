@@ -5,18 +5,14 @@ GLB and STL hold 32-bit floats (glTF 2.0, section 3.6.2.2; the STL of 3D Systems
 
 from __future__ import annotations
 
-import json
 import struct
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from satcheck.core import Mesh
-from satcheck.scene.units import MICROMETRES, unit_of
+from satcheck.scene.glb_file import Node, glb
 
-_FLOAT, _UNSIGNED_INT = 5126, 5125
-_VERTICES, _INDICES = 34962, 34963
 _STL_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("unused", "<u2")])
 
 Part = tuple[str, Mesh]
@@ -67,68 +63,7 @@ def _stl(parts: Sequence[Part], units: str | None) -> bytes:
 
 
 def _glb(parts: Sequence[Part], units: str | None) -> bytes:
-    views: list[dict[str, Any]] = []
-    accessors: list[dict[str, Any]] = []
-    chunks: list[bytes] = []
-
-    def add(data: bytes, target: int, **accessor: Any) -> int:
-        start = sum(map(len, chunks))
-        chunks.append(data)
-        view = {"buffer": 0, "byteOffset": start, "byteLength": len(data), "target": target}
-        views.append(view)
-        accessors.append({"bufferView": len(views) - 1, **accessor})
-        return len(accessors) - 1
-
-    meshes = []
-    for name, mesh in parts:
-        points, corners = mesh.vertices.astype("<f4"), mesh.triangles.astype("<u4")
-        position = add(
-            points.tobytes(),
-            _VERTICES,
-            componentType=_FLOAT,
-            count=len(points),
-            type="VEC3",
-            min=points.min(axis=0).tolist(),
-            max=points.max(axis=0).tolist(),
-        )
-        indices = add(
-            corners.tobytes(),
-            _INDICES,
-            componentType=_UNSIGNED_INT,
-            count=corners.size,
-            type="SCALAR",
-        )
-        primitive = {"attributes": {"POSITION": position}, "indices": indices}
-        meshes.append({"name": name, "primitives": [primitive]})
-    nodes: list[dict[str, Any]] = [
-        {"name": name, "mesh": number, **_in_metres(units)}
-        for number, (name, _) in enumerate(parts)
-    ]
-    document = {
-        "asset": {"version": "2.0", "generator": "satcheck"},
-        "scene": 0,
-        "scenes": [{"nodes": list(range(len(nodes)))}],
-        "nodes": nodes,
-        "meshes": meshes,
-        "accessors": accessors,
-        "bufferViews": views,
-        "buffers": [{"byteLength": sum(map(len, chunks))}],
-    }
-    text = json.dumps(document, separators=(",", ":")).encode()
-    return _container({b"JSON": text + b" " * (-len(text) % 4), b"BIN\0": b"".join(chunks)})
-
-
-def _in_metres(units: str | None) -> dict[str, list[float]]:
-    unit = unit_of(units)
-    if unit in (None, "m"):
-        return {}
-    assert unit is not None
-    return {"scale": [MICROMETRES[unit] / MICROMETRES["m"]] * 3}
-
-
-def _container(chunks: Mapping[bytes, bytes]) -> bytes:
-    body = b"".join(struct.pack("<I", len(c)) + kind + c for kind, c in chunks.items())
-    return b"glTF" + struct.pack("<II", 2, 12 + len(body)) + body
+    return glb([Node(name, mesh) for name, mesh in parts], units)
 
 
 FORMATS: dict[str, Callable[[Sequence[Part], str | None], bytes]] = {

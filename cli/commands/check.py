@@ -39,6 +39,7 @@ from satcheck.cli.options import (
     outside_option,
     package_option,
     paths_argument,
+    picture_options,
     planar_option,
     pose_options,
     report_form_option,
@@ -50,6 +51,7 @@ from satcheck.cli.options import (
     units_option,
 )
 from satcheck.cli.output import Document, Page, talk
+from satcheck.cli.pictures import refuse_pictures, taken_pictures, write_pictures
 from satcheck.cli.progress import Bar
 from satcheck.cli.report.ci import FORMATS as CI_FORMATS
 from satcheck.cli.report.ci import render as render_for_ci
@@ -119,6 +121,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @paths_argument("A B [C ...]")
 @report_form_option
 @output_option
+@picture_options
 @click.option(
     "--explain",
     is_flag=True,
@@ -281,14 +284,16 @@ def command(
         raise click.UsageError(
             "--certificate needs a JSON report: add -o report.json or --format json"
         )
-    if form in PICTURES:
+    pictures = taken_pictures(options)
+    refuse_pictures(pictures, inputs, baseline)
+    if pictures or form in PICTURES:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
     worlds = worlds_of(inputs)
     if len(worlds) > 1:
         from satcheck.cli.worlds import Delivery, check_worlds
 
-        _refuse_of_worlds(form, inputs, explain=explain, **options)
+        _refuse_of_worlds(form, inputs, explain=explain, **options, **pictures)
         delivery = Delivery(form, output, quiet, exit_zero, top)
         return check_worlds(worlds, inputs, options, baseline, delivery)
     known = None if baseline is None else read_baseline(baseline)
@@ -307,7 +312,7 @@ def command(
         if form != "table":
             result = with_stated_places(result, scene)
     else:
-        _refuse_of_poses(form, explain=explain, baseline=baseline, **options)
+        _refuse_of_poses(form, explain=explain, baseline=baseline, **options, **pictures)
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
     if output is not None or not quiet:
         document.deliver(
@@ -321,6 +326,8 @@ def command(
             output,
             utf8=form != "table",
         )
+    if isinstance(result, Report):
+        write_pictures(pictures, result, scene)
     _tell(result, scene, None if quiet else output)
     verdict = result.verdict if isinstance(result, Samples) else result.summary.verdict
     return exit_codes.for_verdict(verdict, result.issues, exit_zero=exit_zero)
@@ -359,8 +366,8 @@ def _refuse_of_poses(form: str, **options: Any) -> None:
     """Of many poses a report has counts and no evidence."""
     if form in (*CI_FORMATS, *PICTURES):
         raise click.UsageError(f"--format {form} takes one pose, and several are given")
-    for name in ("baseline", "certificate", "explain", "cross_check"):
-        if options[name]:
+    for name in ("baseline", "certificate", "explain", "cross_check", "png", "glb"):
+        if options.get(name):
             option = name.replace("_", "-")
             raise click.UsageError(f"--{option} takes one pose, and several are given")
 
@@ -369,6 +376,7 @@ def _refuse_of_worlds(form: str, inputs: Inputs, **options: Any) -> None:
     """What is about one world."""
     refused = {f"--format {form}": form in PICTURES, "poses": inputs.has_poses}
     refused |= {f"--{name}": bool(options[name]) for name in ("certificate", "explain")}
+    refused |= {f"--{name}": name in options for name in ("png", "glb")}
     for what in (what for what, given in refused.items() if given):
         raise click.UsageError(
             f"each scene is a world of its own, and {what} is about one: give one scene, or --merge"

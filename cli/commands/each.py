@@ -29,7 +29,18 @@ from satcheck.scene.drawing import DRAWINGS
 
 STANDARD_INPUT = "-"
 # What is about one world, or about one report.
-_NOT_HERE = ("form", "pose", "state", "sample", "seed", "explain", "certificate", "merge")
+_NOT_HERE = (
+    "form",
+    "png",
+    "glb",
+    "pose",
+    "state",
+    "sample",
+    "seed",
+    "explain",
+    "certificate",
+    "merge",
+)
 
 
 @click.command("each", cls=Command, context_settings=HELP_NAMES)

@@ -7,6 +7,7 @@ import sys
 import webbrowser
 from pathlib import Path
 from tempfile import mkdtemp
+from typing import Any
 
 import click
 from msgspec.structs import replace
@@ -23,8 +24,10 @@ from satcheck.cli.options import (
     form_of,
     output_option,
     outside_option,
+    picture_options,
 )
 from satcheck.cli.output import Document, talk, write_file
+from satcheck.cli.pictures import refuse_pictures, taken_pictures, write_pictures
 from satcheck.cli.report.picture import render
 from satcheck.cli.report.words import issue_line
 from satcheck.cli.report_file import read_report
@@ -36,6 +39,7 @@ from satcheck.report.report import Report
 @click.command("view", cls=Command, context_settings=HELP_NAMES)
 @click.argument("report", metavar="REPORT", type=click.Path(dir_okay=False, path_type=Path))
 @output_option
+@picture_options
 @click.option(
     "--asset",
     metavar="FILE",
@@ -66,18 +70,21 @@ def command(
     parts: bool,
     cache: bool,
     allow_outside: bool,
+    **options: Any,
 ) -> int:
     """Show a report in 3-D, from its mesh files.
 
     REPORT is a JSON report of a check. The mesh files are read again, and a file that has changed
-    since is named. Without -o the page opens in the browser. Where surfaces cross is shown if the
-    check had --contacts.
+    since is named. Without an output the page opens in the browser. Where surfaces cross is shown
+    if the check had --contacts.
 
     Exit codes: 0, every body is shown as it was checked; 2, wrong usage, an unreadable report, or
     an internal error; 3, a file is missing or has changed.
     """
     form = form_of(None, output, PICTURES) if output else "html"
-    refuse_early(Inputs((str(report),)), output)
+    pictures, inputs = taken_pictures(options), Inputs((str(report),))
+    refuse_early(inputs, output)
+    refuse_pictures(pictures, inputs)
     stated = _report_of(report, asset)
     scene, issues = stated_scene(stated, root, allow_outside=allow_outside)
     for issue in issues:
@@ -85,12 +92,10 @@ def command(
     document = Document()
     stated = replace(stated, issues=(*issues, *stated.issues))
     split = parts or stated.settings.accuracy == "parts"
-    content = render(form, stated, scene, split=split, cache=cache)
-    if output is None:
-        output = Path(mkdtemp(prefix="satcheck-")) / "report.html"
-        _show(output, content, document)
-    else:
-        write_file(output, content)
+    if output is not None or not pictures:
+        content = render(form, stated, scene, split=split, cache=cache)
+        _show(content, document) if output is None else write_file(output, content)
+    write_pictures(pictures, stated, scene)
     return exit_codes.INCOMPLETE if issues else exit_codes.CLEAN
 
 
@@ -111,8 +116,9 @@ def _of_asset(document: AssetsReport, path: Path, asset: str | None) -> Report:
     return named[0].report
 
 
-def _show(path: Path, content: bytes | str, document: Document) -> None:
+def _show(content: bytes | str, document: Document) -> None:
     """The path is printed, as a browser may not come up."""
+    path = Path(mkdtemp(prefix="satcheck-")) / "report.html"
     write_file(path, content)
     document.write(f"{path}\n")
     if _has_display():

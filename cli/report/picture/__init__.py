@@ -14,7 +14,11 @@ if TYPE_CHECKING:
     from satcheck.scene import Scene
 
 # Format -> the endings of the files that are in it.
-FORMATS: dict[str, tuple[str, ...]] = {"html": (".html", ".htm")}
+FORMATS: dict[str, tuple[str, ...]] = {
+    "html": (".html", ".htm"),
+    "png": (".png",),
+    "glb": (".glb",),
+}
 
 
 def render(

@@ -13,6 +13,7 @@ from satcheck.cli.report.picture.geometry import geometry
 from satcheck.cli.report.picture.packing import packed
 from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, interval, issue_line, with_unit
+from satcheck.core.errors import SatcheckError
 from satcheck.report.report import SEVERITIES
 from satcheck.scene.units import unit_of
 
@@ -40,7 +41,7 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
     drawn = geometry(bodies, met, parts or {}, ROOM)
     numbers = {body.id: k for k, body in enumerate(bodies)}
     unit = unit_of(report.units)
-    lines = [line for finding in findings for line in _lines(finding)]
+    lines = [line for finding in findings for line in lines_of(finding)]
     points = np.array([point for line in lines for point in line]).reshape(-1, 3)
     others = counted(len(bodies) - len(met & numbers.keys()), "body", "bodies")
     simpler = f"Simplified: {others} without findings, to {drawn.simplified}"
@@ -71,12 +72,18 @@ def can_be_drawn(scene: Scene) -> bool:
     return bool(np.abs(np.array(bounds)).max(initial=0.0) < LARGEST)
 
 
+def require_drawable(scene: Scene) -> None:
+    """Raises SatcheckError (`not-drawable`) if coordinates are too large for a picture."""
+    if not can_be_drawn(scene):
+        raise SatcheckError("not-drawable", "there is no picture: coordinates are too large for it")
+
+
 def _rank(finding: Finding) -> tuple[int, float, float]:
     rank = SEVERITIES.index(finding.severity)
     return rank, -(finding.thickness or 0.0), -(finding.depth or 0.0)
 
 
-def _lines(finding: Finding) -> list[list[tuple[float, float, float]]]:
+def lines_of(finding: Finding) -> list[list[tuple[float, float, float]]]:
     """Where the surfaces cross, and the outlines of patches in which both lie; a closed line
     repeats its start."""
     if finding.contacts is None:
@@ -111,7 +118,7 @@ def _shown(
         },
         "components": [_component(item, finding, middle) for item in items[:MOST_COMPONENTS]],
         "more": max(len(items) - MOST_COMPONENTS, 0),
-        "lines": list(map(len, _lines(finding))),
+        "lines": list(map(len, lines_of(finding))),
     }
 
 

@@ -1,0 +1,36 @@
+"""Pictures beside a report: `--png` and `--glb`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from satcheck.cli.inputs import Inputs, refuse_early
+from satcheck.cli.output import write_file
+
+if TYPE_CHECKING:
+    from satcheck.report.report import Report
+    from satcheck.scene import Scene
+
+# Format -> file.
+Pictures = Mapping[str, Path]
+_OPTIONS = ("png", "glb")
+
+
+def taken_pictures(options: dict[str, Any]) -> Pictures:
+    """Removes their options from `options`."""
+    return {form: path for form in _OPTIONS if (path := options.pop(form)) is not None}
+
+
+def refuse_pictures(pictures: Pictures, inputs: Inputs, baseline: Path | None = None) -> None:
+    for form, path in pictures.items():
+        refuse_early(inputs, path, baseline, option=f"--{form}")
+
+
+def write_pictures(pictures: Pictures, report: Report, scene: Scene) -> None:
+    """Raises SatcheckError where there is no picture, or it cannot be written."""
+    from satcheck.cli.report.picture import render
+
+    for form, path in pictures.items():
+        write_file(path, render(form, report, scene))
