@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from satcheck.audit.request.settings import Settings
 from satcheck.audit.summary import rule_reports, stated_health, stated_shape
 from satcheck.core.power_of_two import held_times_power, limit_times_power
-from satcheck.report.certificate import Cells, Certificate, Face, Plane
+from satcheck.report.certificate import Cells, Certificate, Excuse, Face, Plane
 from satcheck.report.report import BodyReport, Finding, Issue, Report, Stage, plain
 from satcheck.report.sweep import Place, Sweep
 from satcheck.scene import Scene
@@ -158,8 +158,16 @@ class Scaling:
 
     def _evidence(self, certificate: Certificate) -> Certificate:
         scaled = convert(self._certificate(plain(certificate)), Certificate)
-        cells = certificate.thickness
-        return scaled if cells is UNSET else replace(scaled, thickness=self._cells(cells))
+        if (cells := certificate.thickness) is not UNSET:
+            scaled = replace(scaled, thickness=self._cells(cells))
+        if scaled.band is not UNSET and scaled.band.excuse is not UNSET:
+            excuse = self._excuse(scaled.band.excuse)
+            scaled = replace(scaled, band=replace(scaled.band, excuse=excuse))
+        return scaled
+
+    def _excuse(self, excuse: Excuse) -> Excuse:
+        a, b = self._scaled(excuse.a, 1), self._scaled(excuse.b, 1)
+        return replace(excuse, a=a, b=b, cells=self._cells(excuse.cells))
 
     def _certificate(self, part: Any) -> Any:
         if not isinstance(part, Mapping):

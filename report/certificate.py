@@ -176,13 +176,31 @@ class Cells(Value, frozen=True):
     sums: tuple[Weighted, ...]
 
 
+class InnerBall(Value, frozen=True):
+    """World: it lies within a body."""
+
+    centre: Vector
+    radius: Length
+
+
+class Excuse(Value, frozen=True):
+    """Of solids: why surfaces that may be off explain their overlap. a, b: each is thicker than its
+    surface may be off. cells: no point lies deeper than that in both. That neither passes through
+    the other is decided again."""
+
+    a: InnerBall
+    b: InnerBall
+    cells: Cells
+
+
 class Band(Value, frozen=True):
-    """Why an overlap is within the touch band: an axis across it, or a move that frees A, and the
-    proof of that."""
+    """Why an overlap is within the touch band: an axis across it; a move that frees A, and the
+    proof of that; or surfaces that may be off."""
 
     axis: ExactVector | UnsetType = UNSET
     move: ExactVector | UnsetType = UNSET
     free: Proof | UnsetType = UNSET
+    excuse: Excuse | UnsetType = UNSET
 
 
 class Certificate(Value, frozen=True):

@@ -61,7 +61,8 @@ class Placed:
     resolution: world units, recomputed. convex: also of every curved shape. holed: the mesh has
     holes with unknown fills. pieces: as in `Shape`. missing: the file that does not exist, as the
     report names it. deviation: with --planar, the largest distance of the boundary from its
-    polygon. inscribed: the polygon lies within the boundary.
+    polygon. inscribed: the polygon lies within the boundary. surface_tolerance: how far its surface
+    may be off, world units, as the report says.
     """
 
     id: str
@@ -78,6 +79,7 @@ class Placed:
     missing: str | None = None
     deviation: float = 0.0
     inscribed: bool = False
+    surface_tolerance: float = 0.0
 
     @property
     def bounds(self) -> tuple[Floats, Floats] | None:
@@ -200,7 +202,7 @@ def _place(body: Body, shape: Shape, pose: tuple[float, ...] | None, entry: Body
         _check_figures(entry, shape, placed.resolution)
     except Rejected as why:
         return _lost(body, str(why))
-    return replace(placed, static=body.static)
+    return replace(placed, static=body.static, surface_tolerance=entry.surface_tolerance or 0.0)
 
 
 def _check_figures(entry: BodyReport, shape: Shape, resolution: float) -> None:

@@ -50,10 +50,29 @@ class Sides:
     back: tuple[bool, bool]
 
 
+@dataclass(frozen=True, slots=True)
+class CutTriangle:
+    """A triangle of a surface, and the convex cells that all it shares with others cut it into."""
+
+    number: int
+    corners: Corners
+    normal: IntVector
+    cells: list[list[Plane]]
+
+
 def sides_of(
     a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
 ) -> Iterator[Sides]:
-    """Both sides of every cell of the triangles of A.
+    """Both sides of every cell of the triangles of A, as `cells_in` has them."""
+    for triangle in cells_in(a, b, contacts, wanted):
+        for cell in triangle.cells:
+            yield sides_of_cell(triangle, cell, a, b)
+
+
+def cells_in(
+    a: Exact, b: Exact, contacts: list[tuple[int, int]], wanted: Callable[[bool], bool]
+) -> Iterator[CutTriangle]:
+    """The triangles of A that have an area.
 
     contacts: all pairs of triangles that meet. wanted: whether to include a region that B does not
     meet; its argument: whether the region lies inside B.
@@ -72,12 +91,18 @@ def sides_of(
         if not any(normal):
             continue
         others = [b.corners(u) for u in partners.get(t, [])], [a.corners(u) for u in own]
-        for cell in cells_of(corners, normal, *others):
-            total += 1
-            if total > MOST_CELLS:
-                raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
-            point, (in_a, in_b) = look(corners, normal, cell, (a, b))
-            yield Sides(t, point, normal, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
+        cells = cells_of(corners, normal, *others)
+        total += len(cells)
+        if total > MOST_CELLS:
+            raise Rejected(f"the contact falls into more than {MOST_CELLS} pieces")
+        yield CutTriangle(t, corners, normal, cells)
+
+
+def sides_of_cell(triangle: CutTriangle, cell: list[Plane], a: Exact, b: Exact) -> Sides:
+    """Of a triangle of A."""
+    corners, normal = triangle.corners, triangle.normal
+    point, (in_a, in_b) = look(corners, normal, cell, (a, b))
+    return Sides(triangle.number, point, normal, (in_a[0], in_b[0]), (in_a[1], in_b[1]))
 
 
 def _point(p: IntVector) -> Point:

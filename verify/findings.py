@@ -16,6 +16,7 @@ from satcheck.verify.curved_finding import check_curved
 from satcheck.verify.distances import check_distance, hulls_are_apart, spanned, squared_gap
 from satcheck.verify.evidence import axis, gap_along, given, vector
 from satcheck.verify.exact import Point, Rejected, dot
+from satcheck.verify.excuse import is_explained
 from satcheck.verify.figures import (
     EXACT_WIDTH,
     Rounding,
@@ -79,7 +80,7 @@ def check_finding(finding: Finding, a: Placed, b: Placed, request: Request) -> P
     proven = _with_thickness(proven, finding, request, thickest, rounding)
     if relation != exact:
         near = max(clearance - error.farther, Fraction(0))
-        _check_band(finding, certificate, pair, (a, b), tolerance, near, proven)
+        _check_band(finding, certificate, pair, (a, b), tolerance, near, proven, request.across)
     if exact not in OVERLAPS and not hulls_apart:
         check_holes(a, b, max(tolerance, clearance))
         check_pieces(a, b)
@@ -219,6 +220,7 @@ def _check_band(
     tolerance: Fraction,
     clearance: Fraction,
     proven: ProvenFields,
+    across: int | None,
 ) -> None:
     """Checks the proof that the relation differs from the exact one."""
     relation, exact = finding.relation, finding.exact_relation
@@ -230,7 +232,7 @@ def _check_band(
     elif not (
         exact in OVERLAPS
         and relation == "touching"
-        and _is_in_band(finding, certificate.band, pair, bodies, band, proven)
+        and _is_in_band(finding, certificate.band, pair, bodies, band, proven, across)
     ):
         raise Rejected(f"{relation!r} does not follow from {exact!r}")
 
@@ -242,8 +244,10 @@ def _is_in_band(
     bodies: tuple[Placed, Placed],
     band: Fraction,
     proven: ProvenFields,
+    across: int | None,
 ) -> bool:
-    """Whether a way out of the overlap is within the tolerance."""
+    """Whether a way out of the overlap is within the tolerance, or surfaces that may be off explain
+    it."""
     if isinstance(proof, UnsetType):
         if proven.depth and finding.depth is not None and finding.depth <= band:
             return True
@@ -252,6 +256,11 @@ def _is_in_band(
         if pair.convex and depth_at_most(axis(proof.axis), pair, band):
             return True
         raise Rejected("the bodies overlap by more than the tolerance")
+    if not isinstance(proof.excuse, UnsetType):
+        if across is not None:
+            raise Rejected("an excuse in space, and a check in a plane")
+        is_explained(proof.excuse, pair, bodies, Fraction(finding.tolerance or 0.0))
+        return True
     move = vector(given(proof.move, "move"))
     if not _is_short(move, band):
         return False

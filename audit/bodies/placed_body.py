@@ -143,13 +143,16 @@ def _curved(body: Body) -> CurvedShape | None:
     return curved_shape(body.shape, body.transform)
 
 
-def _checked(body: Body, shared: SharedMesh) -> Placed:
+def _checked(body: Body, shared: SharedMesh, surface_tolerance: float) -> Placed:
+    from dataclasses import replace
+
     from satcheck.verify.bodies import curved_of, place_shape
 
     primitive = body.shape
     curved = primitive is not None and is_curved(primitive)
     shape = curved_of(body.file, primitive) if curved and primitive else shared.shape()
-    return place_shape(body.id, body.groups, shape, body.transform)
+    placed = place_shape(body.id, body.groups, shape, body.transform)
+    return replace(placed, surface_tolerance=surface_tolerance)
 
 
 class PlacedBody:
@@ -223,7 +226,7 @@ class PlacedBody:
         """The body as the checker of certificates sees it."""
         checked = self._checked
         if checked is None:
-            checked = self._checked = _checked(self.body, self.shared)
+            checked = self._checked = _checked(self.body, self.shared, self.surface_tolerance)
         return checked
 
     @property

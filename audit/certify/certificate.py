@@ -14,6 +14,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.certify import overlaps
 from satcheck.audit.certify.cover import cover
 from satcheck.audit.certify.curved import curved_certificate
+from satcheck.audit.certify.excuse import excuse
 from satcheck.audit.certify.hulls import Expanded, expanded, nearest_point, shortened
 from satcheck.audit.certify.thickness import cells
 from satcheck.audit.certify.values import (
@@ -48,7 +49,7 @@ from satcheck.verify import Rejected
 from satcheck.verify.bodies import Placed
 from satcheck.verify.distances import check_distance
 from satcheck.verify.evidence import exceeds, gap_along, vector
-from satcheck.verify.figures import rounding_of
+from satcheck.verify.figures import EXACT_WIDTH, rounding_of
 from satcheck.verify.findings import check_finding, depth_at_most
 from satcheck.verify.in_plane import curve_error, reaching
 from satcheck.verify.relations import pair_of
@@ -122,7 +123,10 @@ class _Maker:
             if finding.exact_relation == "separated":
                 gap = self._gap()
             elif finding.exact_relation in OVERLAPS:
-                band = self._band()
+                within = self._band()
+                if isinstance(within, NoCertificate):
+                    return within
+                band = within
         return Certificate(
             relation,
             mtv=or_unset(self._mtv()),
@@ -311,7 +315,7 @@ class _Maker:
             return _on_hulls(nearest_point(self.placed).weights)
         return self._nearest()
 
-    def _band(self) -> Band | None:
+    def _band(self) -> Band | NoCertificate | None:
         """Why an overlap is within the touch band."""
         finding = self.finding
         if (
@@ -322,11 +326,16 @@ class _Maker:
             return None
         if self.placed.convex:
             inner = expanded(self.placed, Fraction(self.pair.tolerance) * 2)
-            if inner is not None:
-                return Band(integer_axis(shortened(inner.axis)))
+            axis = None if inner is None else integer_axis(shortened(inner.axis))
+            band = Fraction(self.pair.tolerance) * (1 + EXACT_WIDTH)
+            if axis is not None and depth_at_most(vector(list(axis)), self.placed, band):
+                return Band(axis)
         answer = self.examined.answer
         move = None if answer is None or answer.band is None else answer.band.move
-        return None if move is None else Band(move=move, free=self._free(move))
+        if move is not None:
+            return Band(move=move, free=self._free(move))
+        explained = excuse(self.pair)
+        return explained if isinstance(explained, NoCertificate) else Band(excuse=explained)
 
     def _nearest(self) -> Ends:
         """Points next to each other, on the nearest triangles."""

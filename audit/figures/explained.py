@@ -35,21 +35,20 @@ def may_be_explained(pair: Pair) -> bool:
 def explain(pair: Pair, trace: Trace, nanoseconds: int = 0) -> Explained:
     """Of an overlap of closed bodies. nanoseconds: what was spent on the question before."""
     result, detail = _decided(pair)
-    off = " and ".join(f"{length:.3g} in {body.id}" for length, body in _surfaces(pair))
+    off = " and ".join(f"{length:.3g} in {body.id}" for length, body in surfaces(pair))
     trace.add_since(STAGE, result, f"{detail} {off}", nanoseconds)
     return result
 
 
 def _decided(pair: Pair) -> tuple[Explained, str]:
-    for length, body in _surfaces(pair):
-        if not _search(pair, body, body, (length, length), 0.0).lower > 0:
+    for length, body in surfaces(pair):
+        if not ball_in(pair, body, length).lower > 0:
             return "not excused", f"{body.id} is not known to be thicker than its tolerance:"
     through = core.passes_through(pair.a.surface(), pair.b.surface(), MOST_CROSSINGS)
     if through:
         return "not excused", "one body passes through the other, which is no matter of"
-    # The band ends exactly, a surface tolerance to rounding.
-    limit = EXACT_WIDTH * max(pair.off) if pair.excuses else 0.0
-    interval = _search(pair, pair.a, pair.b, pair.off, limit)
+    limit = limit_of(pair)
+    interval = deeper(pair, prove=False)
     if interval.lower > limit:
         return "deeper", "a point lies deeper than"
     if interval.upper > limit:
@@ -62,12 +61,34 @@ def _decided(pair: Pair) -> tuple[Explained, str]:
     return "within", "no point lies deeper than"
 
 
-def _surfaces(pair: Pair) -> list[tuple[float, PlacedBody]]:
+def surfaces(pair: Pair) -> list[tuple[float, PlacedBody]]:
     return list(zip(pair.off, (pair.a, pair.b), strict=True))
 
 
+def ball_in(pair: Pair, body: PlacedBody, off: float) -> core.ThicknessInterval:
+    """Over 0: of a body that is thicker than its surface may be off."""
+    return _search(pair, body, body, (off, off), 0.0, prove=False)
+
+
+def limit_of(pair: Pair) -> float:
+    """The band ends exactly, a surface tolerance to rounding."""
+    return EXACT_WIDTH * max(pair.off) if pair.excuses else 0.0
+
+
+def deeper(pair: Pair, *, prove: bool) -> core.ThicknessInterval:
+    """By how much a point lies deeper in both than their surfaces may be off, twice. prove: with
+    what shows the upper end."""
+    return _search(pair, pair.a, pair.b, pair.off, limit_of(pair), prove=prove)
+
+
 def _search(
-    pair: Pair, a: PlacedBody, b: PlacedBody, off: tuple[float, float], limit: float
+    pair: Pair,
+    a: PlacedBody,
+    b: PlacedBody,
+    off: tuple[float, float],
+    limit: float,
+    *,
+    prove: bool,
 ) -> core.ThicknessInterval:
     return core.search_thickness(
         a.surface(),
@@ -78,4 +99,5 @@ def _search(
         less_b=off[1],
         limit=limit,
         across=pair.settings.across,
+        prove=prove,
     )

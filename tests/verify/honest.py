@@ -12,6 +12,7 @@ from typing import Any
 
 from satcheck.audit import Settings, check
 from satcheck.scene import load_scene
+from tests.audit.figures.test_thickness import wedge
 from tests.audit.shapes import Mesh, bracket, moved, open_box, unit_box, write
 from tests.cli.process import SAMPLES
 from tests.verify.reports import Json, pieces, sheet
@@ -112,6 +113,7 @@ HONEST: dict[str, Callable[[Path], Json]] = {
     "a gap in the touch band": meshes(unit_box(), unit_box(1.0 + 1e-12), clearance=1e-3),
     "an overlap in the touch band": meshes(unit_box(), unit_box(0.9), tolerance=0.2),
     "a way out in the touch band": meshes(unit_box(), unit_box(0.9), tolerance=0.2, depth=True),
+    "surfaces that are off": meshes(unit_box(), wedge(), surface_tolerance=0.125),
     "inside": meshes(unit_box(1.0, 1.0, 1.0), unit_box(edge=4.0), depth=True),
     "open": meshes(open_box(), unit_box(1.0, 1.0, 1.0), allow_open=True),
     "a sheet across": meshes(unit_box(), moved(sheet(), 0.5, 0.25, 0.5), depth=True),

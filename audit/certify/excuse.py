@@ -1,0 +1,42 @@
+"""Why surfaces that may be off explain an overlap: a ball in each body, and cells.
+
+Most searches for an excuse leave nothing behind. This one is run again, and writes down its cells.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from satcheck.audit.certify.thickness import cells
+from satcheck.audit.certify.values import NoCertificate
+from satcheck.audit.figures.explained import (
+    ball_in,
+    deeper,
+    limit_of,
+    may_be_explained,
+    surfaces,
+)
+from satcheck.report.certificate import Excuse, InnerBall
+from satcheck.verify.partition import MOST_CELLS
+
+if TYPE_CHECKING:
+    from satcheck.audit.bodies.pair import Pair
+
+
+def excuse(pair: Pair) -> Excuse | NoCertificate:
+    """Of a pair that surfaces which may be off explain."""
+    if not may_be_explained(pair):
+        return NoCertificate("no evidence was found that the overlap is within the touch band")
+    if pair.settings.planar is not None:
+        return NoCertificate("a touch by its thickness in a plane is not certified")
+    found = [ball_in(pair, body, off) for off, body in surfaces(pair)]
+    balls = [InnerBall(one.centre, one.radius) for one in found if one.centre is not None]
+    interval = deeper(pair, prove=True)
+    if len(balls) < len(found) or interval.proof is None or interval.upper > limit_of(pair):
+        return NoCertificate(
+            "the budget ends the search for what shows that surfaces may explain it"
+        )
+    shown = cells(interval.proof)
+    if shown is None:
+        return NoCertificate(f"the search for a deeper point has more than {MOST_CELLS:,} cells")
+    return Excuse(balls[0], balls[1], shown)

@@ -1,0 +1,32 @@
+"""Whether surfaces that may be off by a little explain the overlap of two solids.
+
+The surface of each body may be off by half of the touch band, or by its surface tolerance where
+that is more. An overlap is explained where no point lies deeper than that in both. Nothing is
+explained where a body is no thicker than that, and where one body passes through the other.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from satcheck.report.certificate import Excuse
+from satcheck.verify.bodies import Placed
+from satcheck.verify.exact import Rejected
+from satcheck.verify.figures import EXACT_WIDTH
+from satcheck.verify.passing import neither_passes
+from satcheck.verify.relations import Pair
+from satcheck.verify.thickness import at_most, holds_ball
+
+
+def is_explained(
+    excuse: Excuse, pair: Pair, bodies: tuple[Placed, Placed], tolerance: Fraction
+) -> None:
+    """Rejects an excuse that does not explain the overlap. tolerance: of the touch band."""
+    off_a, off_b = (max(tolerance / 2, Fraction(body.surface_tolerance)) for body in bodies)
+    for ball, off, body in ((excuse.a, off_a, pair.a), (excuse.b, off_b, pair.b)):
+        radius = Fraction(ball.radius)
+        if radius <= off:
+            raise Rejected("a body is not shown to be thicker than its surface may be off")
+        holds_ball(body, ball.centre, radius)
+    at_most(excuse.cells, pair.a, pair.b, EXACT_WIDTH * max(off_a, off_b) / 2, (off_a, off_b))
+    neither_passes(pair)
