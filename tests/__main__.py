@@ -16,6 +16,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from tests.browser.browsers import missing
 from tests.links import LINKS, make_links
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -70,6 +71,14 @@ def pytest() -> Outcome:
     return run(sys.executable, "-m", "pytest", "--numprocesses", cores, "--dist", "loadfile")
 
 
+def browser() -> Outcome:
+    """The page with the 3-D view, in a Chromium where there is one."""
+    lacking = missing()
+    if lacking is not None:
+        return Outcome(SKIPPED, lacking)
+    return run(sys.executable, "-m", "pytest", "tests/browser/driven_page.py")
+
+
 STEPS: dict[str, tuple[str, Callable[[], Outcome]]] = {
     "lint": ("ruff check", lint),
     "layout": ("ruff format --check", layout),
@@ -78,6 +87,7 @@ STEPS: dict[str, tuple[str, Callable[[], Outcome]]] = {
     "native": ("C++ unit tests", native),
     "sanitized": ("C++ unit tests under ASan and UBSan", sanitized),
     "pytest": ("pytest", pytest),
+    "browser": ("the page in Chromium", browser),
 }
 
 

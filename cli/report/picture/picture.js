@@ -3,6 +3,7 @@ const A = [0.16, 0.44, 0.84], B = [0.9, 0.55, 0.1], OTHER = [0.5, 0.54, 0.6], RE
 const YELLOW = [1, 0.85, 0.1], GREEN = [0, 0.6, 0.45];
 const TINTS = { error: [0.82, 0.2, 0.2], warning: [0.8, 0.52, 0.05], note: [0.25, 0.5, 0.75] };
 const STILL = [0, 0, 0];
+const FAINT = report.bodies.ids.length > 100 ? 0.035 : 0.08; // of one body of many
 const hues = (count) => Array.from({ length: count }, (_, k) => {
   const turn = (k * 0.618034) % 1; // golden section: neighbours differ
   return [0, 1 / 3, 2 / 3].map((at) => 0.5 + 0.35 * Math.cos(2 * Math.PI * (turn + at)));
@@ -117,7 +118,7 @@ class Picture {
       return labels;
     }
     if (view.others)
-      for (const crowd of this.crowds) renderer.drawCrowd(crowd, [...OTHER, 0.08], [now.a, now.b], false);
+      for (const crowd of this.crowds) renderer.drawCrowd(crowd, [...OTHER, FAINT], [now.a, now.b], false);
     const [a, b] = [now.a, now.b].map((body) => this.shape(body, view.rung));
     this.body(a, A, view.move);
     this.body(b, B, STILL);

@@ -1,0 +1,20 @@
+"""A browser for the tests of the page: Chromium without a window, with WebGL in software."""
+
+from __future__ import annotations
+
+import shutil
+from importlib.util import find_spec
+
+ARGUMENTS = ["--headless=new", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+
+
+def missing() -> str | None:
+    """What the tests lack here."""
+    if find_spec("playwright") is None:
+        return "playwright is missing: pip install '.[browser]'"
+    return None if program() else f"there is no {_NAMES[0]} on the path"
+
+
+def program() -> str | None:
+    return next(filter(None, map(shutil.which, _NAMES)), None)
