@@ -101,8 +101,8 @@ def _counts(result: AxesReport) -> Iterator[str]:
     yield (
         f"By direction {of_a:,} + {of_b:,} + {of_edges:,} = {of_a + of_b + of_edges:,}. "
         f"{counts.facet_pairs:,} of {counts.edge_pairs:,} edge pairs can make a face of the "
-        f"Minkowski difference. Left to test, parallel ones merged: "
-        f"{counted(counts.distinct, 'axis', 'axes')}."
+        f"Minkowski difference. Parallel ones merged, "
+        f"{counted(counts.distinct, 'axis is', 'axes are')} left to test."
     )
 
 

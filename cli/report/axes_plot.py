@@ -102,6 +102,7 @@ def _draw_lines(
                 row, -axis.gap, height=0.9, left=0.5 * axis.gap, color=palette.wrong, alpha=0.3
             )
         _name_row(axes, row, axis, result, palette)
+    axes.use_sticky_edges = False
     axes.margins(x=0.02)
     axes.set_ylim(len(shown) - 0.5, -0.5)
     axes.set_yticks([])

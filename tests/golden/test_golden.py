@@ -93,7 +93,7 @@ def test_the_findings_of_a_scene_are_true(name: str) -> None:
         if depth is not None:
             low, high = finding["depth_bounds"]
             assert low - ROUNDING <= depth <= high + ROUNDING
-    assert {finding["relation"] for finding in found.values()} == {"separated"}
+    assert {finding["relation"] for finding in found.values()} <= {"separated"}
 
 
 @pytest.mark.parametrize("name", ["fin", "open", "inside_out"])
