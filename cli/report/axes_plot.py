@@ -151,7 +151,10 @@ def _draw_all(axes: Axes, result: AxesReport, palette: Palette) -> None:
     )
     axes.axhline(0, color=palette.faint, linewidth=0.8)
     if result.early_out.axis is not None:
-        axes.axvline(result.early_out.axis, color=palette.wrong, linewidth=1.2)
+        stop = result.early_out.axis
+        axes.axvline(stop, color=palette.wrong, linewidth=1.2)
+        place = {"xytext": (4, 6), "textcoords": "offset points", "color": palette.wrong}
+        axes.annotate("a test stops here", (stop, 0), xycoords=("data", "axes fraction"), **place)
     if result.winner is not None:
         best = gaps[numbers == result.winner.axis]
         axes.plot([result.winner.axis], best, "o", color=palette.wrong, markersize=6)
