@@ -1,4 +1,4 @@
-"""Draw docs/axes.svg and its dark twin, and print the table of docs/axes.md: `python -m docs.axes`."""
+"""Draw docs/axes.svg and write the table of docs/axes.md: `python -m docs.axes`."""
 
 from __future__ import annotations
 
@@ -20,15 +20,28 @@ SCENE = HERE.parent / "sample_meshes" / "crossed_edges.toml"
 VERTICES = (10, 30, 100, 300, 1000)
 # Of two round bodies of radius 1: they overlap by about half a radius.
 OFFSET = 1.5
+HEAD = """| vertices of each body | candidates | axes to test | steps of GJK and EPA |
+|---|---|---|---|
+"""
 
 
 def main() -> None:
     report = axes_of(load_scene([SCENE]))
     write_both(HERE / "axes.svg", lambda dark: draw(report, dark=dark))
-    for vertices, one in zip(VERTICES, round_bodies(), strict=True):
-        counts = one.counts
-        cells = (vertices, counts.candidates, counts.distinct, one.gjk_steps or 0)
-        print("|", " | ".join(f"{cell:,}" for cell in cells), "|")
+    page = (HERE / "axes.md").read_text(encoding="utf-8")
+    before, rest = page.split(HEAD)
+    after = rest[rest.index("\n\n") :]
+    (HERE / "axes.md").write_text(before + HEAD + "\n".join(growth()) + after, encoding="utf-8")
+
+
+def growth() -> list[str]:
+    """A row for each pair of round bodies: vertices, candidates, axes to test, steps of GJK."""
+    rows = []
+    for vertices, report in zip(VERTICES, round_bodies(), strict=True):
+        counts = report.counts
+        cells = (vertices, counts.candidates, counts.distinct, report.gjk_steps or 0)
+        rows.append(f"| {' | '.join(f'{cell:,}' for cell in cells)} |")
+    return rows
 
 
 def round_bodies() -> Iterator[AxesReport]:

@@ -153,7 +153,11 @@ def _draw_all(axes: Axes, result: AxesReport, palette: Palette) -> None:
     if result.early_out.axis is not None:
         stop = result.early_out.axis
         axes.axvline(stop, color=palette.wrong, linewidth=1.2)
-        place = {"xytext": (4, 6), "textcoords": "offset points", "color": palette.wrong}
+        place: dict[str, Any] = {
+            "xytext": (4, 6),
+            "textcoords": "offset points",
+            "color": palette.wrong,
+        }
         axes.annotate("a test stops here", (stop, 0), xycoords=("data", "axes fraction"), **place)
     if result.winner is not None:
         best = gaps[numbers == result.winner.axis]

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from docs import axes as growth_page
 from satcheck import core
 from satcheck.audit import Settings, check
 from satcheck.core.errors import SatcheckError
@@ -208,6 +209,11 @@ def test_a_pair_of_a_scene_is_named(tmp_path: Path) -> None:
         with pytest.raises(SatcheckError) as raised:
             axes_of(scene, ids)
         assert raised.value.code == code
+
+
+def test_the_page_shows_how_the_axes_grow() -> None:
+    page = (growth_page.HERE / "axes.md").read_text(encoding="utf-8")
+    assert growth_page.HEAD + "\n".join(growth_page.growth()) + "\n\n" in page
 
 
 FLAT: Mesh = ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
