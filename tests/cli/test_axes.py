@@ -131,7 +131,7 @@ def test_a_plot_is_an_image_on_dark_paper_if_asked(tmp_path: Path) -> None:
         (("cell.toml", "--pair", "crate", "nothing"), "there is no body 'nothing'"),
         (("box.obj", "cube.off", "--plot", "plot.jpg"), "drawn as .svg, .png or .pdf"),
         (("box.obj", "cube.off", "--top", "0"), "--top"),
-        (("box.obj", "cube.off", "-o", "cube.off"), "overwrite an input"),
+        (("box.obj", "cube.off", "--format", "json", "-o", "cube.off"), "overwrite an input"),
     ],
 )
 def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:

@@ -94,7 +94,7 @@ def test_the_schema_is_printed() -> None:
         (("box.obj", "missing.obj"), "no such file"),
         (("box.obj", "cube.off", "--plot", "plot.jpg"), "drawn as .svg, .png or .pdf"),
         (("box.obj", "cube.off", "--repeat", "0"), "--repeat"),
-        (("box.obj", "cube.off", "-o", "cube.off"), "overwrite an input"),
+        (("box.obj", "cube.off", "--format", "json", "-o", "cube.off"), "overwrite an input"),
     ],
 )
 def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:
