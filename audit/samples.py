@@ -13,6 +13,7 @@ from satcheck.audit.bodies.placed_bodies import BodyCache
 from satcheck.audit.check import DEFAULT_SETTINGS, check
 from satcheck.audit.request.rule_book import RuleBook
 from satcheck.audit.request.settings import Settings
+from satcheck.report.config import StatedConfig
 from satcheck.report.report import (
     OVERLAPS,
     BodyReport,
@@ -99,7 +100,8 @@ class Samples(Struct, frozen=True):
     pairs: every checked pair, in the order of the bodies, including pairs that never met. counts:
     of the last sample; the numbers of allowed and exempt pairs are the same in all samples. bodies,
     exempt and rules: as in a report; the transforms are those of the last sample. issues: those
-    that are not about a single pose. seed: of the random poses; None: not random.
+    that are not about a single pose. seed: of the random poses; None: not random. config: as in a
+    report.
     """
 
     tool: Tool
@@ -113,6 +115,7 @@ class Samples(Struct, frozen=True):
     counts: PairCounts
     issues: tuple[Issue, ...]
     seed: int | None = None
+    config: StatedConfig | None = None
 
     @property
     def verdict(self) -> Verdict:
@@ -144,6 +147,7 @@ class Samples(Struct, frozen=True):
             ),
             pairs=tuple(SampledPair(*astuple(pair)) for pair in self.pairs if not pair.settled),
             issues=self.issues,
+            config=self.config,
         )
 
     def to_dict(self, timings: bool = True) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import click
+from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from satcheck.audit import Settings
@@ -33,11 +34,23 @@ _ENDINGS = {
 # Documents of other kinds, by the end of their names.
 _NO_REPORTS = frozenset({".svg", ".pdf", ".toml", ".yaml", *MESHES}) - frozenset(_ENDINGS)
 _STANDARD_OUTPUT = Path("-")
+_NO_CONFIG = "satcheck.no-config"
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
 class Command(click.Command):
-    """Its help is a document like any other: when it cannot be written, that is said."""
+    """Its help is a document like any other: when it cannot be written, that is said. A wrong value
+    of a config file is told with its line."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        try:
+            return super().parse_args(ctx, args)
+        except click.BadParameter as error:
+            if not ctx.default_map:
+                raise
+            from satcheck.cli.config.source import refuse_value
+
+            refuse_value(ctx, error)
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         return _written(super().get_help_option(ctx))
@@ -69,6 +82,8 @@ def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMAT
 
     Raises click.UsageError for a name that promises another kind of document.
     """
+    if output is not None and _is_overridden("form", "output"):
+        form = None
     if form is not None and form not in forms:
         raise click.UsageError(f"--format {form}: this command writes {', '.join(forms)}")
     if form is not None or output is None:
@@ -81,6 +96,16 @@ def form_of(form: str | None, output: Path | None, forms: Sequence[str] = FORMAT
             "or name the file .json"
         )
     return named
+
+
+def _is_overridden(name: str, typed: str) -> bool:
+    """Whether an option comes from a config file, and another one that decides it was typed."""
+    ctx = click.get_current_context(silent=True)
+    return (
+        ctx is not None
+        and ctx.get_parameter_source(name) is ParameterSource.DEFAULT_MAP
+        and ctx.get_parameter_source(typed) is ParameterSource.COMMANDLINE
+    )
 
 
 def length(text: str) -> Length:
@@ -279,6 +304,44 @@ color_option = click.option(
     callback=_set_colour,
     help="Use colour in tables. auto: on a terminal, unless NO_COLOR is set; FORCE_COLOR means "
     "always.  [default: auto]",
+)
+
+
+def _take_config(ctx: click.Context, _: click.Parameter, path: str | None) -> None:
+    if ctx.resilient_parsing:
+        return
+    if not ctx.meta.get(_NO_CONFIG):
+        from satcheck.cli.config.source import take_config
+
+        take_config(ctx, path)
+    elif path is not None:
+        raise click.UsageError("--config and --no-config contradict each other")
+
+
+def _take_no_config(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted and ctx.default_map is not None:
+        raise click.UsageError("--config and --no-config contradict each other")
+    ctx.meta[_NO_CONFIG] = wanted
+
+
+# Eager: the config file gives defaults to the options that are read after it.
+config_option = click.option(
+    "--config",
+    type=click.Path(dir_okay=False),
+    metavar="FILE",
+    is_eager=True,
+    expose_value=False,
+    callback=_take_config,
+    help="Take options from FILE, as from satcheck.toml.  [default: the nearest satcheck.toml or "
+    "[tool.satcheck] of pyproject.toml, from this folder upward]",
+)
+no_config_option = click.option(
+    "--no-config",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_take_no_config,
+    help="Take no options from a config file.",
 )
 debug_option = click.option(
     "--debug",

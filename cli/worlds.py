@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import click
 from msgspec import to_builtins
+from msgspec.structs import replace
 
 from satcheck.audit import Settings
 from satcheck.audit.assets import check_asset, unused_rules, without_unused_rules
@@ -28,6 +29,7 @@ from satcheck.core import keep_freed_memory
 from satcheck.core.errors import SatcheckError
 from satcheck.report.assets import Asset, AssetsReport, AssetVerdict, asset, assets_report
 from satcheck.report.baseline import Baseline
+from satcheck.report.config import StatedConfig
 from satcheck.report.report import without_timings
 from satcheck.scene import Scene
 from satcheck.scene.loader import read_rules
@@ -59,11 +61,14 @@ def check_worlds(
     options: Mapping[str, Any],
     baseline: Path | None,
     delivery: Delivery,
+    config: StatedConfig | None,
     *,
     complete: bool = True,
 ) -> int:
     """The exit code, that of the worst world. inputs: how files are read. options: those of
-    `audit.Settings`. complete: these are all worlds; a rule that none of them needs is unused."""
+    `audit.Settings`. config: the options that come from a config file. complete: these are all
+    worlds; a rule that none of them needs is unused.
+    """
     known = None if baseline is None else read_baseline(baseline)
     for path in inputs.rules:
         read_rules(str(path))  # what is wrong there is no fault of an asset
@@ -74,6 +79,8 @@ def check_worlds(
     shared = frozenset(map(str, inputs.rules))
     unused = unused_rules(assets, shared) if complete else ()
     assets = [without_unused_rules(each, shared) for each in assets]
+    if config is not None:
+        assets = [replace(each, report=replace(each.report, config=config)) for each in assets]
     report = assets_report(tool(), assets, unused)
     _deliver(document, report, delivery, timings=options["timings"])
     _tell(report, None if delivery.quiet else delivery.output)

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from satcheck.report.bodies import StatedShape
+from satcheck.report.config import StatedConfig
 from satcheck.report.report import Exempt, Finding, Issue, JointValues, RuleReport
 from satcheck.report.settings import StatedSettings
 from satcheck.report.values import Count, Sha256, Tool, Value, Verdict
@@ -77,7 +78,7 @@ class SamplesReport(Value, frozen=True, kw_only=True):
     units of the files. A figure that was not computed is None, never 0.
 
     seed: of the random poses; None: they are not random. pairs: those that are not separated in
-    all samples. issues: those that are not about the pose of one sample.
+    all samples. issues: those that are not about the pose of one sample. config: as in a report.
     """
 
     schema: Literal["satcheck.samples/1"] = "satcheck.samples/1"
@@ -92,3 +93,4 @@ class SamplesReport(Value, frozen=True, kw_only=True):
     samples: Annotated[tuple[SampledPose, ...], Meta(min_length=1)]
     pairs: tuple[SampledPair, ...]
     issues: tuple[Issue, ...]
+    config: StatedConfig | None = None

@@ -19,6 +19,7 @@ from satcheck.audit.stated_places import with_stated_places
 from satcheck.cli import exit_codes
 from satcheck.cli.baseline_file import read_baseline
 from satcheck.cli.commands import COMMANDS
+from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, load, refuse_early, worlds_of
 from satcheck.cli.options import (
     DEFAULTS,
@@ -28,12 +29,14 @@ from satcheck.cli.options import (
     Command,
     cache_option,
     color_option,
+    config_option,
     debug_option,
     form_of,
     jobs_option,
     length,
     merge_option,
     method_option,
+    no_config_option,
     open_option,
     output_option,
     outside_option,
@@ -244,6 +247,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @package_option
 @pose_options
 @color_option
+@no_config_option
+@config_option
 @debug_option
 @click.option(
     "--version",
@@ -289,13 +294,14 @@ def command(
     if pictures or form in PICTURES:
         # Where the surfaces cross, in checks that can say so.
         options["contacts"] |= options["planar"] is None and options["accuracy"] == "exact"
+    config = stated_config(click.get_current_context())
     worlds = worlds_of(inputs)
     if len(worlds) > 1:
         from satcheck.cli.worlds import Delivery, check_worlds
 
         _refuse_of_worlds(form, inputs, explain=explain, **options, **pictures)
         delivery = Delivery(form, output, quiet, exit_zero, top)
-        return check_worlds(worlds, inputs, options, baseline, delivery)
+        return check_worlds(worlds, inputs, options, baseline, delivery, config)
     known = None if baseline is None else read_baseline(baseline)
     document = Document()
     scene = load(inputs, hashed=form == "json")
@@ -314,6 +320,8 @@ def command(
     else:
         _refuse_of_poses(form, explain=explain, baseline=baseline, **options, **pictures)
         result = _check_poses(scene, poses, settings_of(options, scene), inputs.random_seed)
+    if config is not None:
+        result = replace(result, config=config)
     if output is not None or not quiet:
         document.deliver(
             lambda page: (

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from satcheck.cli.commands.check import command as check_command
+from satcheck.cli.config.source import stated_config
 from satcheck.cli.inputs import Inputs, refuse_early
 from satcheck.cli.options import (
     HELP_NAMES,
@@ -78,16 +79,20 @@ def command(
     if not inputs.paths:
         raise click.UsageError("give a folder or files: `satcheck each .` checks this folder")
     refuse_early(inputs, output, baseline)
+    config = stated_config(click.get_current_context())
     files = _files(inputs, planar=options["planar"] is not None)
     refuse_early(Inputs(paths=tuple(files)), output)
     if changed_since is not None:
-        files = _changed(changed_since, files, inputs.rules)
+        shared = [*inputs.rules, *filter(None, [baseline])]
+        shared += [Path(config.file)] if config else []
+        files = _changed(changed_since, files, shared)
     return check_worlds(
         [(file,) for file in files],
         inputs,
         options,
         baseline,
         Delivery(form, output, quiet, exit_zero, top),
+        config,
         complete=changed_since is None,
     )
 
@@ -113,9 +118,9 @@ def _standard_input() -> list[str]:
     return text.split("\0" if "\0" in text else "\n")
 
 
-def _changed(revision: str, files: list[str], rules: Sequence[Path]) -> list[str]:
-    """rules: what they say of every asset counts."""
-    if new := changed_since(revision, list(map(str, rules))):
+def _changed(revision: str, files: list[str], shared: Sequence[Path]) -> list[str]:
+    """shared: what these files say of every asset counts."""
+    if new := changed_since(revision, list(map(str, shared))):
         talk(f"satcheck: {new[0]} changed since {revision}: every asset is checked")
         return files
     changed = changed_since(revision, files)

@@ -12,6 +12,7 @@ DOCUMENTS = (
     "report",
     "assets",
     "axes",
+    "config",
     "decomposition",
     "resolution",
     "samples",
@@ -27,10 +28,10 @@ DOCUMENTS = (
 @click.command("schema", cls=Command, context_settings=HELP_NAMES)
 @click.argument("document", type=click.Choice(DOCUMENTS), default=DOCUMENTS[0])
 def command(document: str) -> None:
-    """Print the JSON Schema of the report of a command, or of a scene file.
+    """Print the JSON Schema of a report, a scene file or the config file.
 
-    report describes a check, assets many of them, samples a robot in many poses, resolution the
-    result of resolve, suggestions and surface-tolerances those of suggest, verification that of
-    verify.
+    report describes a check, assets many of them, samples a robot in many poses, config the options
+    in satcheck.toml, resolution the result of resolve, suggestions and surface-tolerances those of
+    suggest, verification that of verify.
     """
     Document().write(text(document), utf8=True)

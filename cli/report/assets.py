@@ -11,6 +11,7 @@ from rich.text import Text
 from satcheck.cli.report.beside_baseline import beside_baseline
 from satcheck.cli.report.canvas import Canvas
 from satcheck.cli.report.ci.problems import problems
+from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.report.assets import ASSET_VERDICTS
 
@@ -44,6 +45,8 @@ def render(report: AssetsReport, page: Page, *, top: int | None = None) -> str:
         console.print(f"{counted(passing, 'more asset')} {'passes' if passing == 1 else 'pass'}")
     for issue in report.issues:
         console.print(issue_line(issue))
+    for line in config_lines(asset.report for asset in report.assets):
+        console.print(line)
     console.print(summary_line(report))
     return console.text()
 

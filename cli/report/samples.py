@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from satcheck.cli.report.canvas import Canvas
+from satcheck.cli.report.config import config_line
 from satcheck.cli.report.samples_summary import samples_counts, samples_verdict
 from satcheck.cli.report.words import counted, in_motion, interval, issue_line, with_unit
 from satcheck.report.report import OVERLAPS
@@ -61,6 +62,8 @@ def render(result: Samples, page: Page, *, top: int | None = None) -> str:
             console.print(issue_line(issue))
     for line in _remarks(result.samples):
         console.print(line)
+    if result.config is not None:
+        console.print(config_line(result.config))
     console.print(samples_counts(result))
     console.print(samples_verdict(result))
     return console.text()

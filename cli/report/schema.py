@@ -38,9 +38,13 @@ SCENE = HERE.parents[1] / "scene" / "format"
 def text(name: str = "report") -> str:
     """The schema of one kind of document: `report` of a check, `assets`, `axes`, `decomposition`,
     `resolution`, `samples`, `stability`, `suggestions`, `surface-tolerances`, `tradeoff`,
-    `verification`; `scene`."""
+    `verification`; `scene`; `config`."""
     if name == "scene":
         return (SCENE / "scene.schema.json").read_text(encoding="utf-8")
+    if name == "config":
+        from satcheck.cli.config.schema import schema
+
+        return schema()
     if name in STRUCTS:
         return json.dumps(schema_of(name, STRUCTS[name]), indent=2) + "\n"
     text = (HERE / f"{name}.schema.json").read_text(encoding="utf-8")

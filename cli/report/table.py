@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.request.settings import LISTED_PAIRS
 from satcheck.cli.report.columns import columns_of, fit
+from satcheck.cli.report.config import config_line
 from satcheck.cli.report.grid import Grid
 from satcheck.cli.report.lines import (
     BOLD_MAGENTA,
@@ -70,6 +71,8 @@ def render(
         lines += explanation(page, report, shown, timings=timings)
     for remark in remarks(report, shown):
         lines += fitted(remark.text, page, remark.style)
+    if report.config is not None:
+        lines += fitted(config_line(report.config), page)
     lines += fitted(counts_line(report), page)
     lines += fitted(" ".join([verdict_line(report), *next_step(report)]), page)
     return joined(lines, page)

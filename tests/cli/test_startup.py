@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from satcheck.cli.commands import COMMANDS
-from tests.cli.process import private_cache, satcheck
+from tests.cli.process import SAMPLES, private_cache, satcheck
 
 HEAVY = {
     "DracoPy",
@@ -32,9 +32,11 @@ HEAVY = {
 }
 
 
-def imported(*arguments: str, code: int, env: Mapping[str, str] | None = None) -> set[str]:
+def imported(
+    *arguments: str, code: int, env: Mapping[str, str] | None = None, cwd: Path = SAMPLES
+) -> set[str]:
     """Every module that the process imported."""
-    ran = satcheck(*arguments, python=("-X", "importtime"), env=env)
+    ran = satcheck(*arguments, python=("-X", "importtime"), env=env, cwd=cwd)
     assert ran.code == code, ran.err[-2000:]
     lines = [line for line in ran.err.splitlines() if line.startswith("import time:")]
     return {line.rsplit("|", 1)[1].strip() for line in lines}

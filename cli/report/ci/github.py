@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from satcheck.cli.report.ci.problems import near, problems
+from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.verdict import summary_line
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ def render(reports: Mapping[str, Report]) -> str:
         values = {"file": near(place.file), "line": str(place.line), "title": title}
         properties = ",".join(f"{name}={_property(value)}" for name, value in values.items())
         lines.append(f"::{_COMMANDS[problem.level]} {properties}::{_data(problem.message)}\n")
+    lines += [f"{_own(line)}\n" for line in config_lines(reports.values())]
     lines += [f"{_own(f'{name}: {summary_line(r)}')}\n" for name, r in reports.items()]
     return "".join(lines)
 

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 from satcheck.audit.severity import fails
 from satcheck.cli.report.ci.problems import kind_of, sentence
+from satcheck.cli.report.config import config_line
 from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted, issue_line
 from satcheck.scene.units import unit_of
@@ -36,6 +37,10 @@ def render(reports: Mapping[str, Report]) -> str:
 
 def _suite(name: str, report: Report) -> ElementTree.Element:
     suite = ElementTree.Element("testsuite", name=_clean(name))
+    if report.config is not None:
+        properties = ElementTree.SubElement(suite, "properties")
+        value = _clean(config_line(report.config))
+        ElementTree.SubElement(properties, "property", name="config", value=value)
     files = {body.id: body.file for body in report.bodies}
     for finding in report.findings:
         case = _case(suite, files[finding.a], f"{finding.a} and {finding.b}")
@@ -49,7 +54,7 @@ def _suite(name: str, report: Report) -> ElementTree.Element:
             _say(case, "error", issue.code, issue_line(issue))
     if report.summary.verdict == "incomplete" and suite.find("testcase/error") is None:
         _say(_case(suite, name, "incomplete"), "error", "incomplete", summary_line(report))
-    if not len(suite):
+    if suite.find("testcase") is None:
         _case(suite, name, "no pair")
     ElementTree.SubElement(suite, "system-out").text = _clean(summary_line(report))
     for name, kind in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):

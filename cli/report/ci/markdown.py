@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from satcheck.cli.report.ci.problems import problems
+from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.verdict import summary_line
 from satcheck.cli.report.words import counted
 from satcheck.report.assets import asset
@@ -26,6 +27,8 @@ def render(reports: Mapping[str, Report]) -> str:
     for name, report in reports.items():
         verdict = asset(name, report).verdict
         lines.append(f"- **{verdict}** {_text(name)}: {_text(summary_line(report))}")
+    for line in config_lines(reports.values()):
+        lines += ["", _text(line)]
     if listed:
         lines += ["", "| severity | kind | what |", "|---|---|---|"]
         lines += [

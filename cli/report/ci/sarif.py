@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from satcheck.audit.summary import tool
 from satcheck.cli.report.ci.problems import KINDS, Problem, problems, uri
+from satcheck.cli.report.config import config_lines
 from satcheck.cli.report.json import document
 
 if TYPE_CHECKING:
@@ -63,6 +64,9 @@ def _invocation(reports: Mapping[str, Report], left_out: int) -> dict[str, Any]:
             report.summary.verdict != "incomplete" for report in reports.values()
         ),
         "toolExecutionNotifications": notes,
+        "toolConfigurationNotifications": [
+            {"level": "note", "message": {"text": line}} for line in config_lines(reports.values())
+        ],
     }
 
 

@@ -1,0 +1,83 @@
+"""`satcheck config`: which options are in effect, and where they come from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any, cast
+
+import click
+from click.core import ParameterSource
+
+from satcheck.cli.config.source import COMMANDS, config_of, is_from_config
+from satcheck.cli.config.values import configurable, is_inverted
+from satcheck.cli.options import HELP_NAMES, Command, Group
+from satcheck.cli.output import Document
+from satcheck.cli.report.config import toml
+
+# Words of a call are those of another command, not options of this one.
+_ANY = {**HELP_NAMES, "ignore_unknown_options": True}
+
+
+@click.group("config", cls=Group, context_settings=HELP_NAMES)
+def command() -> None:
+    """The config file: show which options are in effect.
+
+    Options of a check and of `satcheck each` can be in the nearest satcheck.toml or in
+    [tool.satcheck] of pyproject.toml, from the current folder upward. `satcheck schema config`
+    prints the JSON Schema of the file.
+    """
+
+
+@command.command("show", cls=Command, context_settings=_ANY)
+@click.argument("arguments", metavar="[each] [OPTIONS]", nargs=-1, type=click.UNPROCESSED)
+def show(arguments: Sequence[str]) -> None:
+    """Print the options in effect, and where each comes from.
+
+    Of `satcheck [OPTIONS]`, or of `satcheck each [OPTIONS]`: default, the line of the config file,
+    or the command line.
+    """
+    name, rest = COMMANDS[0], list(arguments)
+    if rest and rest[0] in COMMANDS:
+        name, *rest = rest
+    called = import_module(f"satcheck.cli.commands.{name}").command
+    with cast("click.Command", called).make_context(f"satcheck {name}", rest) as ctx:
+        Document().write("".join(_lines(ctx)))
+
+
+def _lines(ctx: click.Context) -> list[str]:
+    file = config_of(ctx)
+    options = configurable(ctx.command)
+    rows = [
+        (f"{key} = {_shown(ctx, key, option)}", _source(ctx, key, option))
+        for key, option in options.items()
+    ]
+    width = max(len(value) for value, _ in rows)
+    head = f"# {file.path}\n" if file else "# no config file\n"
+    return [head, *(f"{value:{width}}  # {source}\n" for value, source in rows)]
+
+
+def _shown(ctx: click.Context, key: str, option: click.Option) -> str:
+    file = config_of(ctx)
+    if file is not None and is_from_config(ctx, option):
+        return toml(file.values[key])
+    return _in_words(option, ctx.params.get(option.name or "", option.get_default(ctx)))
+
+
+def _in_words(option: click.Option, value: Any) -> str:
+    if is_inverted(option):
+        return toml(not value)
+    if value is None or value == () or value == {}:
+        return "not set"
+    if isinstance(value, bool | int | float):
+        return toml(value)
+    return toml(tuple(map(str, value))) if isinstance(value, tuple) else toml(str(value))
+
+
+def _source(ctx: click.Context, key: str, option: click.Option) -> str:
+    source = ctx.get_parameter_source(option.name or "")
+    if source is ParameterSource.DEFAULT_MAP:
+        file = config_of(ctx)
+        assert file is not None
+        return file.where(key)
+    return "command line" if source is ParameterSource.COMMANDLINE else "default"
