@@ -59,7 +59,7 @@ def test_explain_lists_every_variant() -> None:
         (("box.obj", "missing.obj"), "no such file"),
         (("box.obj", "workcell.json"), "two mesh files"),
         (("box.obj", "cube.off", "--samples", "0"), "--samples"),
-        (("box.obj", "cube.off", "-o", "cube.off"), "overwrite an input"),
+        (("box.obj", "cube.off", "--format", "json", "-o", "cube.off"), "overwrite an input"),
     ],
 )
 def test_misuse_exits_with_two(arguments: tuple[str, ...], said: str) -> None:
