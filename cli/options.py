@@ -409,6 +409,26 @@ def picture_options(command: _Command) -> _Command:
     return command
 
 
+_ONE_POSE_OPTIONS = (
+    click.option(
+        "--pose",
+        multiple=True,
+        metavar="FILE",
+        help="Values of the joints of a robot, as in a check, of one pose.",
+    ),
+    click.option(
+        "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
+    ),
+)
+
+
+def one_pose_options(command: _Command) -> _Command:
+    """Adds the options that pose robots once."""
+    for option in reversed(_ONE_POSE_OPTIONS):
+        command = option(command)
+    return command
+
+
 def pose_options(command: _Command) -> _Command:
     """Adds the options that pose robots, in their order."""
     for option in reversed(_POSE_OPTIONS):

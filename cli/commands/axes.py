@@ -18,13 +18,13 @@ from satcheck.cli.options import (
     form_of,
     form_option,
     merge_option,
+    one_pose_options,
     open_option,
     output_option,
     outside_option,
     package_option,
     paths_argument,
     planar_option,
-    pose_options,
     split_option,
     units_option,
 )
@@ -69,7 +69,7 @@ TABLE_ROWS = 20
 @open_option
 @outside_option
 @package_option
-@pose_options
+@one_pose_options
 @color_option
 @debug_option
 def command(

@@ -24,6 +24,7 @@ from satcheck.cli.options import (
     jobs_option,
     length,
     merge_option,
+    one_pose_options,
     open_option,
     output_option,
     outside_option,
@@ -86,15 +87,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 @split_option
 @merge_option
 @package_option
-@click.option(
-    "--pose",
-    multiple=True,
-    metavar="FILE",
-    help="Values of the joints of a robot, as in a check: its links stay there.",
-)
-@click.option(
-    "--state", multiple=True, metavar="NAME", help="A state that the SRDF names, as in a check."
-)
+@one_pose_options
 @units_option
 @outside_option
 @color_option

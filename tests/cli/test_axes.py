@@ -94,7 +94,7 @@ def test_a_robot_is_posed() -> None:
     posed = satcheck("axes", *pair, "--pose", '{"shoulder": 0.5}', "--format", "json")
     assert posed.code == 0, posed.err
     assert posed.out != satcheck("axes", *pair, "--format", "json").out
-    many = satcheck("axes", *pair, "--sample", "3")
+    many = satcheck("axes", *pair, "--pose", "arm_poses.json")
     assert many.code == 2
     assert "one pose" in many.err
 
