@@ -26,7 +26,7 @@ FORMATS = ("table", "json")
 REPORT_FORMATS = (*FORMATS, *CI_FORMATS)
 PICTURES = tuple(PICTURE_FORMATS)
 SPLITS = ("nodes", "components", "none")
-HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
+HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 DEFAULTS = Settings()
 _ENDINGS = {
     ending: form for form, endings in (CI_FORMATS | PICTURE_FORMATS).items() for ending in endings
@@ -39,8 +39,8 @@ _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
 class Command(click.Command):
-    """Its help is a document like any other: when it cannot be written, that is said. A wrong value
-    of a config file is told with its line."""
+    """Its help is a document like any other: when it cannot be written, that is said. Many options
+    stand under headings. A wrong value of a config file is told with its line."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         try:
@@ -51,6 +51,16 @@ class Command(click.Command):
             from satcheck.cli.config.source import refuse_value
 
             refuse_value(ctx, error)
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        from satcheck.cli.help_sections import MANY, brief, sections
+
+        options = [p for p in self.get_params(ctx) if isinstance(p, click.Option) and not p.hidden]
+        groups = sections(options) if len(options) >= MANY else {"Options": options}
+        for heading, chosen in groups.items():
+            with formatter.section(heading):
+                records = (option.get_help_record(ctx) for option in chosen)
+                formatter.write_dl([brief(record) for record in records if record is not None])
 
     def get_help_option(self, ctx: click.Context) -> click.Option | None:
         return _written(super().get_help_option(ctx))
@@ -181,22 +191,23 @@ form_option = click.option(
     "--format",
     "form",
     type=click.Choice(FORMATS),
-    help="The format of the report. [default: table; json if the file of -o ends in .json]",
+    metavar="FORMAT",
+    help="table or json.  [default: json if the file of -o ends in .json, otherwise table]",
 )
 reports_form_option = click.option(
     "--format",
     "form",
     type=click.Choice(REPORT_FORMATS),
-    help="The format of the reports. [default: as the file of -o ends: .json, .sarif, .xml "
-    "(JUnit), .md, .csv, .jsonl; otherwise table]",
+    metavar="FORMAT",
+    help=f"{', '.join(REPORT_FORMATS)}.  [default: as the file of -o ends, otherwise table]",
 )
 report_form_option = click.option(
     "--format",
     "form",
     type=click.Choice((*REPORT_FORMATS, *PICTURES)),
-    help="The format of the report. html is a page with a 3-D view, png an image of the worst "
-    "finding, glb a 3-D model. [default: as the file of -o "
-    "ends: .json, .sarif, .xml (JUnit), .md, .csv, .jsonl, .html, .png, .glb; otherwise table]",
+    metavar="FORMAT",
+    help=f"{', '.join((*REPORT_FORMATS, *PICTURES))}; html is a 3-D view, png an image of the "
+    "worst finding, glb a 3-D model.  [default: as the file of -o ends, otherwise table]",
 )
 _PICTURE_OPTIONS = (
     click.option(
@@ -218,59 +229,59 @@ output_option = click.option(
     type=click.Path(dir_okay=False, allow_dash=True, path_type=Path),
     metavar="FILE",
     callback=_file_or_nothing,
-    help="Write the result to FILE; - is standard output.",
+    help="Write the report to FILE; - is standard output.",
 )
 top_option = click.option(
     "--top",
     type=click.IntRange(min=1),
     metavar="N",
-    help="List only the N worst in the table. The summary and the exit code count all.",
+    help="List only the N worst in a table. The summary and the exit code count all.",
 )
 outside_option = click.option(
     "--allow-outside",
     is_flag=True,
-    help="Read files that lie outside of the folder of the scene, robot or glTF file that names "
-    "them.",
+    help="Read files outside of the folder of the scene, robot or glTF file that names them.",
 )
 split_option = click.option(
     "--split",
     type=click.Choice(SPLITS),
-    help="What a body is: a node of a GLB, glTF, 3MF or 3DXML file, a connected component, or a "
-    "whole file. [default: nodes for one file alone, otherwise none]",
+    metavar="HOW",
+    help="A body is a node of a file (nodes), a connected piece (components) or a whole file "
+    "(none).  [default: nodes for one file alone, otherwise none]",
 )
 planar_option = click.option(
     "--planar",
     type=click.Choice(PLANES),
+    metavar="PLANE",
     default=DEFAULTS.planar,
-    help="Check the outlines of bodies in this plane: flat layouts, SVG and DXF drawings too.",
+    help="Check outlines in this plane (xy, yz or xz): flat layouts, SVG and DXF drawings.",
 )
 units_option = click.option(
     "--units",
     type=click.Choice(tuple(MICROMETRES)),
-    help="The unit of length of the inputs that state none: OBJ, STL, PLY, OFF, XAML, a scene "
-    "without `units`.",
+    metavar="UNIT",
+    help=f"The unit of files that state none, such as OBJ and STL: {', '.join(MICROMETRES)}.",
 )
 tolerance_option = click.option(
     "--tolerance",
     type=length,
     default=DEFAULTS.tolerance,
-    help="A gap or a depth up to this counts as touching. "
-    "[default: the precision of the input files]",
+    help="A gap or a depth up to this counts as touching.  [default: the precision of the files]",
 )
 method_option = click.option(
     "--method",
     type=click.Choice(METHODS),
+    metavar="METHOD",
     default=DEFAULTS.method,
     show_default=True,
-    help="How convex hulls are compared: by the separating axis test, or by portals, GJK and EPA. "
-    "auto takes the faster one.",
+    help="Compare hulls by the separating axis test (sat), by portals, GJK and EPA (gjk), or by "
+    "the faster one (auto).",
 )
 open_option = click.option(
     "--allow-open",
     is_flag=True,
     default=DEFAULTS.allow_open,
-    help="Declare that open meshes are meant to be open: their open parts are sheets "
-    "without an inside, not solids with holes.",
+    help="Open meshes are meant to be open: sheets without an inside, not solids with holes.",
 )
 jobs_option = click.option(
     "-j",
@@ -299,11 +310,12 @@ def _set_colour(ctx: click.Context, _: click.Parameter, choice: str) -> None:
 color_option = click.option(
     "--color",
     type=click.Choice(("auto", "always", "never")),
+    metavar="WHEN",
     default="auto",
     expose_value=False,
     callback=_set_colour,
-    help="Use colour in tables. auto: on a terminal, unless NO_COLOR is set; FORCE_COLOR means "
-    "always.  [default: auto]",
+    help="Colour in tables: always, never or auto (on a terminal; NO_COLOR and FORCE_COLOR "
+    "count).  [default: auto]",
 )
 
 
@@ -332,8 +344,8 @@ config_option = click.option(
     is_eager=True,
     expose_value=False,
     callback=_take_config,
-    help="Take options from FILE, as from satcheck.toml.  [default: the nearest satcheck.toml or "
-    "[tool.satcheck] of pyproject.toml, from this folder upward]",
+    help="Take options from FILE.  [default: the nearest satcheck.toml, or [tool.satcheck] of "
+    "pyproject.toml]",
 )
 no_config_option = click.option(
     "--no-config",
@@ -352,16 +364,15 @@ debug_option = click.option(
 merge_option = click.option(
     "--merge",
     is_flag=True,
-    help="Put several scene files into one world. Otherwise each of them is a world of its own: "
-    "bodies of two scenes are not compared.",
+    help="Put several scene files into one world, instead of checking each by itself.",
 )
 rules_option = click.option(
     "--rules",
     multiple=True,
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Apply the rules of FILE to all bodies, after those of scenes: what may overlap, and by "
-    "how much. Repeatable.",
+    help="Rules about all bodies, after those of scenes: what may overlap, and by how much. "
+    "Repeatable.",
 )
 package_option = click.option(
     "--package",
@@ -369,23 +380,21 @@ package_option = click.option(
     multiple=True,
     metavar="NAME=DIR",
     callback=_packages,
-    help="The folder of the ROS package NAME that a URDF names; NAME can also be a folder in a "
-    "package (arm/meshes). Repeatable.",
+    help="The folder of a ROS package, or of a folder in it (arm/meshes). Repeatable.",
 )
 _POSE_OPTIONS = (
     click.option(
         "--pose",
         multiple=True,
         metavar="FILE",
-        help='Values of joints, {"joint": value}: a JSON file, or the text; radians, metres. '
-        "Several poses, or a list of them, are checked one by one. Joints that are not named are "
-        "at 0, or at the limit nearest to 0.",
+        help='Values of joints in radians and metres, {"joint": value}: a JSON file or the text. '
+        "Several poses, or a list of them, are checked one by one.",
     ),
     click.option(
         "--state",
         multiple=True,
         metavar="NAME",
-        help="A state that the SRDF names. Several are combined; --pose overrides them.",
+        help="A state of the SRDF. Several are combined; --pose overrides them.",
     ),
     click.option(
         "--sample",
@@ -397,7 +406,7 @@ _POSE_OPTIONS = (
         "--seed",
         type=click.IntRange(min=0),
         metavar="N",
-        help="The seed of the random poses: the same seed draws the same poses.  [default: 0]",
+        help="The seed of the random poses.  [default: 0]",
     ),
 )
 

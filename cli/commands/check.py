@@ -128,49 +128,47 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show the steps of each pair: what each tested, what it proved, its time. JSON "
-    "always has them.",
+    help="Show the steps of each pair: what each tested, what it proved, its time.",
 )
 @top_option
 @click.option(
     "--depth/--no-depth",
     default=DEFAULTS.depth,
-    help="Find how deep and how thick overlaps are, and the shortest way out.  [default: depth for "
-    "mesh files of one body each; otherwise only where a rule needs it]",
+    help="How deep and how thick overlaps are, and the shortest way out.  [default: for mesh files "
+    "of one body each; otherwise only where a rule needs it]",
 )
 @click.option(
     "--contacts",
     is_flag=True,
-    help="Find where surfaces meet: curves, patches of flush faces, points. JSON has their points.",
+    help="Where surfaces meet: curves, patches of flush faces, points.",
 )
 @click.option(
     "--components",
     is_flag=True,
-    help="List the connected parts of each overlap: place, thickness, and whether a body passes "
-    "through the other there. JSON has them all.",
+    help="The connected parts of each overlap: place, thickness, and whether a body passes "
+    "through the other there.",
 )
-@click.option("--volume", is_flag=True, help="Measure the volume that overlapping solids share.")
+@click.option("--volume", is_flag=True, help="The volume that solids share.")
 @click.option(
     "--clearance",
     type=length,
-    help="Also report pairs with a gap smaller than this, and the gap.",
+    help="Pairs with a gap smaller than this fail; shows the gap.",
 )
 @tolerance_option
 @click.option(
     "--surface-tolerance",
     type=length,
-    help="How far the surfaces of closed bodies may be off. An overlap that no point shows, deeper "
-    "than this in both, counts as touching. satcheck suggest --surface-tolerance measures one.  "
-    "[default: as the scene says; else 0]",
+    help="How far surfaces of closed bodies may be off: overlaps that this explains count as "
+    "touching.  [default: as the scene says, otherwise 0]",
 )
 @click.option(
     "--accuracy",
     type=click.Choice(ACCURACIES),
+    metavar="LEVEL",
     default=DEFAULTS.accuracy,
     show_default=True,
-    help="The finest test allowed: boxes, oriented boxes, convex hulls, convex parts, triangles. "
-    "Tests below exact may report false overlaps, which "
-    "the report calls possible.",
+    help="The finest test: aabb, obb, hull, parts or exact. Those below exact may report false "
+    "overlaps, called possible.",
 )
 @method_option
 @click.option(
@@ -179,7 +177,7 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="RATIO",
     default=DEFAULTS.depth_width,
     show_default=True,
-    help="Narrow the depth interval of concave pairs to this width, relative to its upper end.",
+    help="Narrow the depth of concave pairs to an interval this wide, as a share of it.",
 )
 @click.option(
     "--depth-budget",
@@ -187,9 +185,8 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="SECONDS",
     default=DEFAULTS.depth_budget,
     show_default=True,
-    help="Stop narrowing the depth of a pair after this much work, and its thickness after "
-    "half of it. The work is counted in steps, which a slow machine does in that many seconds, "
-    "so the answer is the same on every machine.",
+    help="Stop narrowing after this much work on a pair. Steps are counted, not time: every "
+    "machine gives the same answer.",
 )
 @click.option(
     "--thickness-width",
@@ -197,24 +194,24 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     metavar="RATIO",
     default=DEFAULTS.thickness_width,
     show_default=True,
-    help="Narrow the interval of the thickness of an overlap to this width, relative to its upper "
-    "end.",
+    help="The same of the thickness.",
 )
 @planar_option
 @split_option
 @click.option(
     "--fail-on",
     type=click.Choice(FAIL_ON),
+    metavar="SEVERITY",
     default=DEFAULTS.fail_on,
     show_default=True,
-    help="The least severity of a finding that makes the check fail. Overlaps and gaps below the "
-    "clearance are errors, unless a rule of the scene says otherwise; a touch is a note.",
+    help="Findings of this severity fail: error, warning or note. Without rules an overlap is an "
+    "error, a touch a note.",
 )
 @click.option(
     "--baseline",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
-    help="Fail only on findings that are new, or worse than in this baseline (satcheck baseline).",
+    help="Fail only on findings that are new, or worse than in FILE (satcheck baseline).",
 )
 @rules_option
 @merge_option
@@ -222,13 +219,12 @@ def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
 @click.option(
     "--cross-check",
     is_flag=True,
-    help="Compare each verdict with python-fcl and manifold3d. A contradiction makes the "
-    "check incomplete.",
+    help="Compare with python-fcl and manifold3d. A contradiction makes the check incomplete.",
 )
 @click.option(
     "--certificate",
     is_flag=True,
-    help="Add evidence to the proven verdicts of a JSON report; satcheck verify checks it.",
+    help="Add evidence to a JSON report, for satcheck verify.",
 )
 @jobs_option
 @cache_option
@@ -270,17 +266,17 @@ def command(
 ) -> int:
     """Do these meshes collide? How deep, and which way out?
 
-    A, B, C ... are mesh files (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), each one
-    body; scenes (TOML or JSON: satcheck.scene/1, satcheck-scene-1) of several bodies; robots (URDF,
-    and the SRDF about it), each link a body; or drawings (SVG, DXF), with --planar. One GLB, glTF,
-    3MF or 3DXML file alone is a scene too: each node with a mesh is a body. Every pair of bodies is
-    checked, in the coordinates of the files. A body inside another collides with it.
+    A, B ... are meshes (OBJ, STL, PLY, OFF, GLB, glTF, 3MF, DAE, ZAE, 3DXML, XAML), scenes (TOML,
+    JSON), robots (URDF, SRDF) or, with --planar, drawings (SVG, DXF). A body is a file; of one GLB,
+    glTF, 3MF or 3DXML file alone it is a node. Every pair of bodies is checked, in the coordinates
+    of the files. A body inside another collides with it. A LENGTH is in the units of the files, or
+    has its own where these are known: 2mm, 0.5in.
 
-    With several TOML or JSON scenes, each is checked by itself, together with the files that are no
-    such scenes; --merge puts all into one world.
-
-    A LENGTH is a number in the units of the files. Where a scene declares its units, the number may
-    carry a unit of its own: 2mm, 0.5in (um, mm, cm, m, in, ft).
+    \b
+      satcheck a.stl b.stl                   do they collide?
+      satcheck a.stl b.stl -o report.html    look at the overlap
+      satcheck assembly.glb                  the parts of one file
+      satcheck each models                   every file of a folder, by itself
     """
     inputs = Inputs.taken_from(options)
     refuse_early(inputs, output, baseline)

@@ -17,12 +17,14 @@ from satcheck.cli import exit_codes
 from satcheck.cli.inputs import Inputs, load, refuse_early
 from satcheck.cli.options import (
     DEFAULTS,
-    FORMATS,
     HELP_NAMES,
     Command,
     cache_option,
     color_option,
     debug_option,
+    form_of,
+    form_option,
+    output_option,
     outside_option,
     paths_argument,
     split_option,
@@ -71,8 +73,7 @@ class _Parts(Struct, frozen=True):
 @click.command("decompose", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("MESH")
 @click.option(
-    "-o",
-    "--output",
+    "--parts-out",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
     help=f"Write the parts to FILE ({_FILES}): a node of a GLB or an object of an OBJ file each; "
@@ -103,9 +104,8 @@ class _Parts(Struct, frozen=True):
     show_default=True,
     help="The time limit of one body.",
 )
-@click.option(
-    "--format", "form", type=click.Choice(FORMATS), default="table", help="How to report."
-)
+@form_option
+@output_option
 @cache_option
 @split_option
 @units_option
@@ -113,11 +113,12 @@ class _Parts(Struct, frozen=True):
 @color_option
 @debug_option
 def command(
+    parts_out: Path | None,
     output: Path | None,
     threshold: float,
     seed: int,
     seconds: float,
-    form: str,
+    form: str | None,
     cache: bool,
     **options: Any,
 ) -> int:
@@ -132,11 +133,12 @@ def command(
     or an internal error; 3, some bodies have no parts.
     """
     inputs = Inputs.taken_from(options)
-    _refuse_output(inputs, output)
+    _refuse_outputs(inputs, parts_out, output)
+    form = form_of(form, output)
     document = Document()
     scene = load(inputs, least=1)
     require_in_range(scene)
-    if output is not None:
+    if parts_out is not None:
         scene.require_one_unit()
     if not scene.bodies and form == "table":
         return exit_codes.ERROR  # the error is told
@@ -148,19 +150,19 @@ def command(
             if bar is not None:
                 bar(number, len(scene.bodies))
     parts = [part for each in bodies for part in each.named()]
-    if output is not None and parts:
-        write_file(output, parts_file.written(parts, output.suffix.lower(), scene.units))
+    if parts_out is not None and parts:
+        write_file(parts_out, parts_file.written(parts, parts_out.suffix.lower(), scene.units))
     for each in bodies:
         if isinstance(each.result, SatcheckError):
             talk(f"satcheck: error: {each.body.id}: {each.result} [{each.result.code}]")
     settings = DecompositionOptions(threshold=threshold, seed=seed, seconds=seconds)
     document.deliver(
         lambda page: (
-            json_document(_report(bodies, scene, settings, output))
+            json_document(_report(bodies, scene, settings, parts_out))
             if form == "json"
-            else _table(bodies, scene, output, page)
+            else _table(bodies, scene, parts_out, page)
         ),
-        None,
+        output,
         utf8=form == "json",
     )
     if scene.unreadable or not parts:
@@ -169,12 +171,19 @@ def command(
     return exit_codes.CLEAN if whole else exit_codes.INCOMPLETE
 
 
-def _refuse_output(inputs: Inputs, output: Path | None) -> None:
+def _refuse_outputs(inputs: Inputs, parts_out: Path | None, output: Path | None) -> None:
     if not inputs.paths:
         raise click.UsageError("give a mesh file or a scene")
     refuse_early(inputs, output)
-    if output is not None and output.suffix.lower() not in parts_file.FORMATS:
-        raise click.UsageError(f"-o {output}: parts are written as {_FILES}")
+    if output is not None and output.suffix.lower() in parts_file.FORMATS:
+        raise click.UsageError(
+            f"-o {output}: the report is no mesh; --parts-out {output} writes the parts"
+        )
+    if parts_out is None:
+        return
+    refuse_early(inputs, parts_out, option="--parts-out")
+    if parts_out.suffix.lower() not in parts_file.FORMATS:
+        raise click.UsageError(f"--parts-out {parts_out}: parts are written as {_FILES}")
 
 
 def _split(

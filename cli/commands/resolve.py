@@ -53,7 +53,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 @click.command("resolve", cls=Command, context_settings=HELP_NAMES)
 @paths_argument("SCENE")
 @click.option(
-    "--moved",
+    "--scene-out",
     type=click.Path(dir_okay=False, path_type=Path),
     metavar="FILE",
     help="Write the moved scene to FILE. [default: show the moves only]",
@@ -95,7 +95,7 @@ SCENE_SUFFIXES = frozenset({".json", ".toml"})
 def command(
     form: str | None,
     output: Path | None,
-    moved: Path | None,
+    scene_out: Path | None,
     pins: tuple[str, ...],
     max_motion: Length | None,
     iterations: int,
@@ -105,7 +105,7 @@ def command(
 
     SCENE is a scene file or mesh files, with or without robots. Static and pinned bodies stay, and
     so do the links of robots and pairs that the scene allows. Among several ways resolve takes one
-    with a small sum of squared lengths. The moved scene is checked again (with --moved the file
+    with a small sum of squared lengths. The moved scene is checked again (with --scene-out the file
     that was written), and what still overlaps is reported.
 
     Exit codes: 0, no pair overlaps any more; 1, a pair does; 2, wrong usage, an unreadable
@@ -115,11 +115,11 @@ def command(
     inputs = Inputs.taken_from(options)
     if form is None and output is not None and output.suffix.lower() == ".toml":
         raise click.UsageError(
-            f"-o {output}: the report is no TOML; --moved {output} writes the moved scene"
+            f"-o {output}: the report is no TOML; --scene-out {output} writes the moved scene"
         )
     form = form_of(form, output)
     refuse_early(inputs, output)
-    target = _target(inputs, moved, output)
+    target = _target(inputs, scene_out, output)
     document = Document()
     scene = _posed(load(inputs), inputs)
     stray = _stray(target, scene, allow_outside=inputs.allow_outside)
@@ -132,12 +132,14 @@ def command(
         result = resolve(
             scene, settings, pins=pins, max_motion=farthest, iterations=iterations, progress=bar
         )
-    if moved is not None:
-        _write_moved(moved, target, scene, result)
-        result = replace(result, report=_checked(moved, target, settings, inputs))
-    document.deliver(lambda page: _render(result, form, page, moved), output, utf8=form == "json")
+    if scene_out is not None:
+        _write_moved(scene_out, target, scene, result)
+        result = replace(result, report=_checked(scene_out, target, settings, inputs))
+    document.deliver(
+        lambda page: _render(result, form, page, scene_out), output, utf8=form == "json"
+    )
     if stray is not None:
-        talk(f"note: to read {moved} give --allow-outside, because of {stray}")
+        talk(f"note: to read {scene_out} give --allow-outside, because of {stray}")
     summary = result.report.summary
     return exit_codes.for_verdict(summary.verdict, result.report.issues, exit_zero=False)
 
@@ -157,9 +159,9 @@ class _Target(Struct, frozen=True):
 def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
     """What cannot be written is said before any work is done."""
     if moved is not None:
-        refuse_early(inputs, moved, option="--moved")
+        refuse_early(inputs, moved, option="--scene-out")
         if output is not None and output.absolute() == moved.absolute():
-            raise click.UsageError("--moved and -o name the same file")
+            raise click.UsageError("--scene-out and -o name the same file")
     rules = tuple(filter(is_rules, inputs.paths)) if len(inputs.paths) > 1 else ()
     bodies = [path for path in inputs.paths if path not in rules]
     alone = len(bodies) == 1 and Path(bodies[0]).suffix.lower() in SCENE_SUFFIXES
@@ -169,11 +171,11 @@ def _target(inputs: Inputs, moved: Path | None, output: Path | None) -> _Target:
     wanted = {Path(bodies[0]).suffix.lower()} if alone else set(SCENE_SUFFIXES)
     if not alone and not all(map(is_mesh, bodies)):
         raise click.UsageError(
-            "--moved needs one scene file, or mesh files alone: links of robots are not moved"
+            "--scene-out needs one scene file, or mesh files alone: links of robots are not moved"
         )
     if moved.suffix.lower() not in wanted:
         known = " or ".join(sorted(wanted))
-        raise click.UsageError(f"--moved {moved}: this scene is written as a {known} file")
+        raise click.UsageError(f"--scene-out {moved}: this scene is written as a {known} file")
     return target
 
 
@@ -194,8 +196,8 @@ def _stray(target: _Target, scene: Scene, *, allow_outside: bool) -> str | None:
     stray = stray_mesh(target.scene, target.path, scene)
     if stray is not None and not allow_outside:
         raise click.UsageError(
-            f"--moved {target.path}: {stray} lies outside of its folder: write it into a folder "
-            "that contains the meshes, or add --allow-outside"
+            f"--scene-out {target.path}: {stray} lies outside of its folder: write it into a "
+            "folder that contains the meshes, or add --allow-outside"
         )
     return stray
 

@@ -26,7 +26,7 @@ WRITERS: dict[str, tuple[tuple[str, ...], str]] = {
     "table": (("-o", "{}", "--explain", *PUSHED), "out.txt"),
     "samples": (("-o", "{}", "arm.urdf", "--sample", "2"), "out.json"),
     "resolve": (("resolve", "-o", "{}", *PUSHED), "out.json"),
-    "scene": (("resolve", "--moved", "{}", *PUSHED, "--allow-outside"), "out.json"),
+    "scene": (("resolve", "--scene-out", "{}", *PUSHED, "--allow-outside"), "out.json"),
     "suggest": (("suggest", "-o", "{}", "cell.toml"), "out.toml"),
     "stability": (("stability", "-o", "{}", "--samples", "1", *PUSHED), "out.json"),
     "tradeoff": (("tradeoff", "-o", "{}", "--repeat", "1", "--budget", "1", *PUSHED), "out.json"),

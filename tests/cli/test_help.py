@@ -8,9 +8,11 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
+import click
 import pytest
 
 from satcheck.cli.commands import COMMANDS
+from satcheck.cli.help_sections import MANY, OTHER, SECTIONS, sections
 from satcheck.cli.report.schema import text
 from tests.cli.process import (
     SAMPLES,
@@ -97,3 +99,22 @@ def test_a_file_named_like_a_command_can_be_checked(tmp_path: Path) -> None:
     assert ran.code == 2  # no ending: an unknown format, but a path
     assert "cache" in ran.err
     assert sys.executable not in ran.err
+
+
+@pytest.mark.parametrize("name", ["check", *COMMANDS])
+def test_every_option_of_much_help_has_a_heading(name: str) -> None:
+    """Those of no section are the ones of every program."""
+    command = import_module(f"satcheck.cli.commands.{name}").command
+    options = [option for option in command.params if isinstance(option, click.Option)]
+    if len(options) + 1 >= MANY:
+        others = {option.name for option in sections(options).get(OTHER, [])}
+        assert others <= {"config", "no_config", "debug", "version"}
+
+
+def test_help_has_headings_and_stays_short() -> None:
+    lines = satcheck("--help").out.splitlines()
+    for heading in SECTIONS:
+        assert f"{heading}:" in lines
+    assert len(lines) <= 145
+    assert max(map(len, lines)) <= 80
+    assert "x<" not in "".join(lines)

@@ -73,7 +73,7 @@ def test_a_pair_that_is_left_is_named_as_it_is(tmp_path: Path) -> None:
 def test_what_is_written_passes_a_check(tmp_path: Path) -> None:
     scene, moved = scene_of_boxes(tmp_path, 0, 0.7, 1.4, units="mm"), str(tmp_path / "moved.json")
     assert satcheck("--no-depth", scene).code == 1
-    ran = satcheck("resolve", scene, "--moved", moved, "--clearance", "10um")
+    ran = satcheck("resolve", scene, "--scene-out", moved, "--clearance", "10um")
     assert ran.code == 0, ran.err
     assert f"{moved}, checked again: 3 bodies, 3 pairs" in ran.out
     assert satcheck("--no-depth", "--clearance", "10um", moved).code == 0
@@ -88,7 +88,7 @@ def test_the_document_follows_its_schema(tmp_path: Path) -> None:
     assert ran.document["summary"]["total_motion"] == 1.0
     assert [move["translation"] for move in ran.document["moves"]] == [[-0.5, 0, 0], [0.5, 0, 0]]
     scene = scene_of_boxes(tmp_path, 0, 0.5)
-    written = satcheck("resolve", scene, "--moved", str(output), "--format", "json")
+    written = satcheck("resolve", scene, "--scene-out", str(output), "--format", "json")
     Draft202012Validator(SCHEMA).validate(written.document)
     assert written.document["output"] == str(output)
 
@@ -96,7 +96,7 @@ def test_the_document_follows_its_schema(tmp_path: Path) -> None:
 def test_the_same_scene_gives_the_same_bytes(tmp_path: Path) -> None:
     scene, output = scene_of_boxes(tmp_path, 0, 0.3, 0.8, 1.1), tmp_path / "moved.json"
     seen = set()
-    arguments = ("resolve", scene, "--moved", str(output), "--format", "json")
+    arguments = ("resolve", scene, "--scene-out", str(output), "--format", "json")
     for jobs in ("1", "3"):
         ran = satcheck(*arguments, "--jobs", jobs, env={"PYTHONHASHSEED": jobs})
         seen.add((ran.out, output.read_bytes()))
@@ -135,11 +135,11 @@ def test_the_longest_motion_is_in_units(tmp_path: Path) -> None:
         (("box.obj",), "one body alone"),
         (("missing.json",), "no such file"),
         ((*PUSHED, "--pin", "boks"), "no body is called 'boks'"),
-        ((*PUSHED, "--moved", "moved.obj"), ".json"),
-        ((*PUSHED, "workcell.json", "--moved", "moved.json"), "mesh files alone"),
+        ((*PUSHED, "--scene-out", "moved.obj"), ".json"),
+        ((*PUSHED, "workcell.json", "--scene-out", "moved.json"), "mesh files alone"),
         ((*PUSHED, "--max-motion", "1mm"), "no units"),
-        (("workcell.json", "--moved", "workcell.json"), "overwrite an input"),
-        (("workcell.json", "--moved", "nowhere/moved.json"), "does not exist"),
+        (("workcell.json", "--scene-out", "workcell.json"), "overwrite an input"),
+        (("workcell.json", "--scene-out", "nowhere/moved.json"), "does not exist"),
     ],
 )
 def test_wrong_usage(arguments: tuple[str, ...], said: str) -> None:
@@ -163,7 +163,7 @@ position = [0.75, 0.0, 0.0]  # too close
 """
     scene, moved = tmp_path / "scene.toml", tmp_path / "moved.toml"
     scene.write_text(text)
-    ran = satcheck("resolve", str(scene), "--moved", str(moved))
+    ran = satcheck("resolve", str(scene), "--scene-out", str(moved))
     assert ran.code == 0, ran.err
     assert moved.read_text() == text.replace("0.75", "1.0")
 
@@ -195,7 +195,7 @@ def test_mesh_files_become_a_scene_in_toml(tmp_path: Path) -> None:
     for name in PUSHED:
         shutil.copy(SAMPLES / name, tmp_path)
     moved = tmp_path / "moved.toml"
-    ran = satcheck("resolve", *(str(tmp_path / name) for name in PUSHED), "--moved", str(moved))
+    ran = satcheck("resolve", *(str(tmp_path / name) for name in PUSHED), "--scene-out", str(moved))
     assert ran.code == 0, ran.err
     document = tomllib.loads(moved.read_text())
     assert document["schema"] == "satcheck.scene/1"
@@ -206,11 +206,11 @@ def test_mesh_files_become_a_scene_in_toml(tmp_path: Path) -> None:
 def test_a_scene_that_could_not_be_read_is_not_written(tmp_path: Path) -> None:
     meshes = [str(SAMPLES / name) for name in PUSHED]
     moved = tmp_path / "moved.json"
-    ran = satcheck("resolve", *meshes, "--moved", str(moved))
+    ran = satcheck("resolve", *meshes, "--scene-out", str(moved))
     assert ran.code == 2
     assert "write it into a folder that contains the meshes" in " ".join(ran.err.split())
     assert not moved.exists()
-    ran = satcheck("resolve", *meshes, "--moved", str(moved), "--allow-outside")
+    ran = satcheck("resolve", *meshes, "--scene-out", str(moved), "--allow-outside")
     assert ran.code == 0, ran.err
     assert "give --allow-outside" in ran.err
     assert satcheck("--no-depth", "--allow-outside", str(moved)).code == 0
@@ -235,7 +235,7 @@ def test_the_links_of_a_robot_are_said_to_stay(tmp_path: Path) -> None:
 def test_the_report_goes_where_that_of_any_command_goes(tmp_path: Path) -> None:
     report, moved = tmp_path / "report.json", tmp_path / "moved.json"
     scene = scene_of_boxes(tmp_path, 0, 0.5)
-    ran = satcheck("resolve", scene, "--moved", str(moved), "-o", str(report))
+    ran = satcheck("resolve", scene, "--scene-out", str(moved), "-o", str(report))
     assert (ran.code, ran.out) == (0, ""), ran.err
     document = json.loads(report.read_text(encoding="utf-8"))
     Draft202012Validator(SCHEMA).validate(document)
@@ -246,9 +246,9 @@ def test_the_report_goes_where_that_of_any_command_goes(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("-o", "moved.toml"), "--moved moved.toml writes the moved scene"),
-        (("-o", "x.json", "--moved", "x.json"), "--moved and -o name the same file"),
-        (("--moved", "box.obj"), "--moved box.obj would overwrite an input"),
+        (("-o", "moved.toml"), "--scene-out moved.toml writes the moved scene"),
+        (("-o", "x.json", "--scene-out", "x.json"), "--scene-out and -o name the same file"),
+        (("--scene-out", "box.obj"), "--scene-out box.obj would overwrite an input"),
     ],
 )
 def test_outputs_that_make_no_sense(arguments: tuple[str, ...], said: str) -> None:

@@ -116,7 +116,7 @@ def test_what_resolve_writes_is_in_the_same_units(tmp_path: Path) -> None:
     (tmp_path / "c.stl").write_bytes(files.binary_stl(cube_at(160, 100)))
     given = ("a.glb", "b.3mf", "c.stl", "--units", "cm")
     assert satcheck(*given, cwd=tmp_path).code == 1
-    ran = satcheck("resolve", *given, "--moved", "moved.json", cwd=tmp_path)
+    ran = satcheck("resolve", *given, "--scene-out", "moved.json", cwd=tmp_path)
     assert ran.code == 0, ran.err
     scene = json.loads((tmp_path / "moved.json").read_text())
     assert scene["units"] == "mm"

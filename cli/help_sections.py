@@ -1,0 +1,42 @@
+"""The headings under which the help of a command lists its options: one table for all commands."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import click
+
+# Help with fewer options has no headings.
+MANY = 15
+OTHER = "Other options"
+# The range of a number, as click writes it: ` [x>=1]`, `; 0<x<1`.
+_RANGE = re.compile(r"\s*\[[^\]\s]*x[<>][^\]]*\]|; [^;\]]*x[<>][^\]]*(?=\])")
+# The names of the parameters, in the order of the help.
+SECTIONS = {
+    "What to check": "bodies pairs changed_since split merge planar units allow_open "
+    "package packages pose state sample seed allow_outside",
+    "What to compute": "depth contacts components volume tolerances never cross_check certificate",
+    "Tolerances and rules": "clearance tolerance surface_tolerance rules baseline fail_on "
+    "exit_zero pins",
+    "Output": "output form png glb scene_out plot dark top explain timings quiet color",
+    "Accuracy and limits": "accuracy method depth_width depth_budget thickness_width "
+    "max_motion iterations repeat budget jobs cache",
+}
+
+
+def brief(record: tuple[str, str]) -> tuple[str, str]:
+    """Without the range of a number: a message states it where it matters."""
+    option, text = record
+    return option, _RANGE.sub("", text)
+
+
+def sections(options: Sequence[click.Option]) -> dict[str, list[click.Option]]:
+    """The options under their headings; what has none comes last."""
+    by_name = {option.name: option for option in options}
+    made = {
+        heading: [by_name.pop(name) for name in names.split() if name in by_name]
+        for heading, names in SECTIONS.items()
+    }
+    made[OTHER] = list(by_name.values())
+    return {heading: chosen for heading, chosen in made.items() if chosen}
