@@ -242,6 +242,15 @@ def test_the_mouse_turns_and_zooms(opened: Opened) -> None:
     assert after[2:] == before[2:]
 
 
+def test_another_axis_points_up(opened: Opened) -> None:
+    page = opened(*PUSHED)
+    assert page.evaluate("camera.world([0, 0, 1])") == [0, 0, 1]
+    press(page, "u")
+    assert page.locator("#up").input_value() == "y"
+    assert page.evaluate("camera.world([0, 0, 1])") == [0, 1, 0]
+    assert share(page, "red") > 0.01
+
+
 def test_every_control_has_a_name(opened: Opened) -> None:
     page = opened(*SCENES["concave"])
     for role in ("button", "checkbox", "slider", "combobox", "searchbox", "listbox", "option"):

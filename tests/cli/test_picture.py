@@ -100,6 +100,12 @@ def test_copies_share_their_geometry() -> None:
     assert len(set(posts)) == 1
 
 
+@pytest.mark.parametrize(("name", "up"), [("gripper.glb", "y"), ("rack.3mf", "z")])
+def test_the_axis_that_points_up_is_that_of_the_format(name: str, up: str) -> None:
+    scene = load_scene([str(SAMPLES / name)])
+    assert picture_data(check(scene), scene)["up"] == up
+
+
 def test_the_worst_finding_comes_first() -> None:
     scene = load_scene([str(SAMPLES / "gripper.glb")])
     severities = [f["severity"] for f in picture_data(check(scene), scene)["findings"]]

@@ -5,18 +5,26 @@ const dot = (a, b) => a.reduce((sum, v, k) => sum + v * b[k], 0);
 const norm = (a) => Math.hypot(...a);
 const unit = (a) => times(a, 1 / norm(a));
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-// A unit vector at a right angle: level where there is one.
-const across = (a) => unit(Math.hypot(a[0], a[1]) > 0.1 * norm(a) ? cross(a, [0, 0, 1]) : cross(a, [0, 1, 0]));
+// A unit vector at a right angle to a, and to b unless that is parallel.
+const across = (a, b = [0, 0, 1]) => {
+  const normal = cross(a, b);
+  return norm(normal) > 0.1 * norm(a) ? unit(normal) : across(a, [b[2], b[0], b[1]]);
+};
 
-// Looks at a target from a distance; z is up.
+// Looks at a target from a distance.
 class Camera {
-  constructor() {
-    Object.assign(this, { yaw: -0.7, pitch: 0.5, far: 10, target: [0, 0, 0] });
+  constructor(upwards) {
+    Object.assign(this, { yaw: -0.7, pitch: 0.5, far: 10, target: [0, 0, 0], upwards });
+  }
+
+  // From a frame whose z is up.
+  world([x, y, z]) {
+    return this.upwards === "y" ? [y, z, x] : [x, y, z];
   }
 
   get axis() {
     const c = Math.cos(this.pitch);
-    return [c * Math.cos(this.yaw), c * Math.sin(this.yaw), Math.sin(this.pitch)];
+    return this.world([c * Math.cos(this.yaw), c * Math.sin(this.yaw), Math.sin(this.pitch)]);
   }
 
   get eye() {
@@ -24,7 +32,7 @@ class Camera {
   }
 
   get side() {
-    return [-Math.sin(this.yaw), Math.cos(this.yaw), 0];
+    return this.world([-Math.sin(this.yaw), Math.cos(this.yaw), 0]);
   }
 
   get up() {

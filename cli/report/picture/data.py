@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from msgspec import to_builtins
@@ -49,6 +49,7 @@ def picture_data(report: Report, scene: Scene, parts: Parts | None = None) -> di
         "title": summary_line(report),
         "verdict": report.summary.verdict,
         "unit": unit or "",
+        "up": up_of(scene),
         "simplified": simpler if drawn.simplified else "",
         "findings": [_shown(finding, numbers, drawn.middle, unit) for finding in findings],
         "points": packed((points - drawn.middle).astype(np.float32)),
@@ -70,6 +71,12 @@ def can_be_drawn(scene: Scene) -> bool:
     except OverflowError:
         return False
     return bool(np.abs(np.array(bounds)).max(initial=0.0) < LARGEST)
+
+
+def up_of(scene: Scene) -> Literal["y", "z"]:
+    """The axis that points up: y in glTF (2.0, section 3.4), z in most other files."""
+    formats = {body.file.format for body in scene.bodies}
+    return "y" if formats and formats <= {"glb", "gltf"} else "z"
 
 
 def require_drawable(scene: Scene) -> None:

@@ -3,7 +3,7 @@ const A = [0.16, 0.44, 0.84], B = [0.9, 0.55, 0.1], OTHER = [0.5, 0.54, 0.6], RE
 const YELLOW = [1, 0.85, 0.1], GREEN = [0, 0.6, 0.45];
 const TINTS = { error: [0.82, 0.2, 0.2], warning: [0.8, 0.52, 0.05], note: [0.25, 0.5, 0.75] };
 const STILL = [0, 0, 0];
-const FAINT = report.bodies.ids.length > 100 ? 0.035 : 0.08; // of one body of many
+const FAINT = report.bodies.ids.length > 100 ? 0.025 : 0.08; // of one body of many
 const hues = (count) => Array.from({ length: count }, (_, k) => {
   const turn = (k * 0.618034) % 1; // golden section: neighbours differ
   return [0, 1 / 3, 2 / 3].map((at) => 0.5 + 0.35 * Math.cos(2 * Math.PI * (turn + at)));
@@ -199,7 +199,8 @@ class Picture {
   axis(now, view, shapes, labels) {
     const { axis, both } = this.shadowsOf(now, view.rung, shapes);
     const [centre, radius] = this.sphereAround([now.a, now.b]), middle = dot(axis, centre);
-    const side = across(axis), down = side[2] > 0 ? times(side, -1) : side, width = 0.025 * radius;
+    const level = across(axis, view.up), side = cross(level, axis), width = 0.025 * radius;
+    const down = dot(side, view.up) > 0 ? times(side, -1) : side;
     const place = (t, off) => plus(plus(centre, times(axis, t - middle)), times(down, off));
     const reach = Math.max(...[now.a, now.b].map((body) => this.reach(body, down, centre))) + 3 * width;
     const step = dot(view.move, axis), a = both[0].map((t) => t + step), b = both[1];

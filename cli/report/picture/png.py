@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from satcheck.cli.report.picture.data import lines_of, listed, require_drawable
+from satcheck.cli.report.picture.data import lines_of, listed, require_drawable, up_of
 from satcheck.cli.report.picture.marks import arrow_of, ball_of, sphere_around
 from satcheck.cli.report.picture.raster import Kind, Triangles, drawn
 
@@ -39,6 +39,7 @@ KINDS = [
     Kind((1.0, 0.85, 0.1), 0.8, in_front=True),
     Kind((0.86, 0.1, 0.12), 1.0, in_front=True),
 ]
+CROWD, FAINT = 100, 0.025  # of so many bodies each is as faint
 OVERLAP = Kind((0.86, 0.1, 0.12), 0.9)
 YAW, PITCH = -0.7, 0.5  # of the page, too
 MARGIN = 1.1
@@ -63,18 +64,21 @@ def render(report: Report, scene: Scene) -> bytes:
     bodies = {body.id: body for body in scene.bodies}
     finding = next((f for f in listed(report) if f.a in bodies and f.b in bodies), None)
     pair = [bodies[finding.a], bodies[finding.b]] if finding else list(bodies.values())
-    view = _view(pair, bool(finding))
-    corners, kinds = [np.empty((0, 3, 3))], [np.empty(0, dtype=np.int64)]
+    view = _view(pair, bool(finding), up_of(scene))
+    corners, numbers = [np.empty((0, 3, 3))], [np.empty(0, dtype=np.int64)]
     for mesh, kind in _meshes(scene, finding, pair):
         faces = view.seen(np.asarray(mesh.vertices))[np.asarray(mesh.triangles)]
         corners.append(faces)
-        kinds.append(np.full(len(faces), kind))
+        numbers.append(np.full(len(faces), kind))
     for line in lines_of(finding) if finding else ():
         quads = _quads(view.seen(np.array(line)))
         corners.append(quads)
-        kinds.append(np.full(len(quads), CURVE))
-    triangles = Triangles(np.concatenate(corners), np.concatenate(kinds))
-    return image_file(drawn(triangles, KINDS, OVERLAP, SIZE, WHITE))
+        numbers.append(np.full(len(quads), CURVE))
+    triangles = Triangles(np.concatenate(corners), np.concatenate(numbers))
+    kinds = list(KINDS)
+    if len(bodies) > CROWD:
+        kinds[OTHER] = kinds[OTHER]._replace(alpha=FAINT)
+    return image_file(drawn(triangles, kinds, OVERLAP, SIZE, WHITE))
 
 
 def image_file(pixels: npt.NDArray[np.uint8]) -> bytes:
@@ -91,11 +95,12 @@ def image_file(pixels: npt.NDArray[np.uint8]) -> bytes:
     )
 
 
-def _view(bodies: list[Body], is_pair: bool) -> _View:
+def _view(bodies: list[Body], is_pair: bool, up: str) -> _View:
     """Fits the bodies into the image."""
     towards = np.array([np.cos(PITCH) * np.cos(YAW), np.cos(PITCH) * np.sin(YAW), np.sin(PITCH)])
     right = np.array([-np.sin(YAW), np.cos(YAW), 0.0])
     rows = np.stack([right, np.cross(towards, right), towards])
+    rows = np.roll(rows, -1, axis=1) if up == "y" else rows
     seen = _to_be_seen(bodies, is_pair) @ rows.T
     low, high = seen.min(axis=0), seen.max(axis=0)
     largest = max((high - low)[:2] / SIZE) or 1.0

@@ -1,5 +1,5 @@
 // What is selected, the panel, and what the mouse and the keys do.
-const camera = new Camera();
+const camera = new Camera(report.up);
 const state = { selected: -1, component: -1, pending: false };
 let picture = null;
 
@@ -19,6 +19,7 @@ function paint() {
   const labels = picture.paint(now, {
     rung: element("rung").value,
     move: now && now.mtv ? times(now.mtv, +element("slider").value) : [0, 0, 0],
+    up: camera.world([0, 0, 1]),
     ink: dark ? [1, 1, 1] : [0, 0, 0],
     component: now && now.components[state.component],
     ...Object.fromEntries(["others", "axis", "ball", "witness"].map((id) => [id, isOn(id)])),
@@ -128,6 +129,11 @@ function see(rung) {
   show();
 }
 
+function setUp(upwards) {
+  camera.upwards = element("up").value = upwards;
+  show();
+}
+
 function turn(x, y) {
   camera.turn(x, y);
   show();
@@ -150,6 +156,7 @@ const ACTIONS = {
   i: () => toggle("ball"),
   w: () => toggle("witness"),
   f: () => frame(),
+  u: () => setUp(camera.upwards === "y" ? "z" : "y"),
   "+": () => zoom(-0.2),
   "-": () => zoom(0.2),
   "/": () => element("search").focus(),
@@ -190,6 +197,8 @@ function listen() {
   canvas.addEventListener("wheel", (event) => { event.preventDefault(); zoom(event.deltaY * 0.001); }, { passive: false });
   for (const id of ["slider", "rung", "others", "axis", "ball", "witness"]) element(id).addEventListener("input", show);
   element("frame").addEventListener("click", frame);
+  element("up").value = report.up;
+  element("up").addEventListener("input", () => setUp(element("up").value));
   element("all").addEventListener("click", () => select(-1));
   addEventListener("resize", show);
 }
