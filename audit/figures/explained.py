@@ -3,8 +3,9 @@
 The surface of each body X may be off by e_X: by half of the touch band, or by its surface tolerance
 where that is more. An overlap is real where a point lies deeper than e_A in A and deeper than e_B
 in B. The core looks for such a point, or proves that there is none. Nothing is explained where all
-of a body is as thin as its own tolerance, and where one body passes through the other: enters it in
-one place and leaves it in another.
+of a body is as thin as its own tolerance, where one body passes through the other: enters it in one
+place and leaves it in another, and where a thin part of a body, as a fin or a wire, reaches deep
+into the other one: no point of it is deep in its own body.
 """
 
 from __future__ import annotations
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
 STAGE = "touch-band"
 # Pairs of triangles that meet, at most, where it is asked whether a body passes through another.
 MOST_CROSSINGS = 100_000
+# A thin part of a body reaches deeper into the other one than this, times e_A + e_B. The edge of a
+# wedge of angle w that is nowhere deeper than e reaches e (1 + 1 / sin(w / 2)) deep: no more than
+# that, with e_A = e_B = e, if w is 17 degrees or more.
+MOST_REACH = 4.0
 
 
 Explained = Literal["within", "deeper", "not excused", "undecided"]
@@ -32,15 +37,18 @@ def may_be_explained(pair: Pair) -> bool:
     return max(pair.off) > 0 and why_not_thick(pair) is None
 
 
-def explain(pair: Pair, trace: Trace, nanoseconds: int = 0) -> Explained:
-    """Of an overlap of closed bodies. nanoseconds: what was spent on the question before."""
+def explain(pair: Pair, trace: Trace, nanoseconds: int = 0) -> tuple[Explained, str]:
+    """Of an overlap of closed bodies, and the question that is open if it is undecided.
+    nanoseconds: what was spent before."""
     result, detail = _decided(pair)
     off = " and ".join(f"{length:.3g} in {body.id}" for length, body in surfaces(pair))
-    trace.add_since(STAGE, result, f"{detail} {off}", nanoseconds)
-    return result
+    told = f"{detail} is open; the surfaces are off by" if result == "undecided" else detail
+    trace.add_since(STAGE, result, f"{told} {off}", nanoseconds)
+    return result, detail
 
 
 def _decided(pair: Pair) -> tuple[Explained, str]:
+    """The result, and what is said before the lengths."""
     for length, body in surfaces(pair):
         if not ball_in(pair, body, length).lower > 0:
             return "not excused", f"{body.id} is not known to be thicker than its tolerance:"
@@ -52,13 +60,29 @@ def _decided(pair: Pair) -> tuple[Explained, str]:
     if interval.lower > limit:
         return "deeper", "a point lies deeper than"
     if interval.upper > limit:
-        return "undecided", "no point was found, nor excluded, deeper than"
-    if through is None:
-        return (
-            "undecided",
-            "whether one body passes through the other is open; no point deeper than",
-        )
-    return "within", "no point lies deeper than"
+        return "undecided", "whether a point lies deeper in both than the surfaces may be off"
+    reach = _reach(pair, limit)
+    if through is None and (reach is None or reach[0] == "undecided"):
+        return "undecided", "whether one body passes through the other"
+    return reach or ("within", "no point lies deeper than")
+
+
+def _reach(pair: Pair, limit: float) -> tuple[Explained, str] | None:
+    """Whether a thin part of one body lies deeper in the other than what is off explains; None: no
+    part does."""
+    most = MOST_REACH * sum(pair.off)
+    for off, body, other in (((0.0, most), pair.a, pair.b), ((most, 0.0), pair.b, pair.a)):
+        if pair.settings.across >= 0:
+            interval = _search(pair, pair.a, pair.b, off, limit, prove=False)
+            reaches = None if interval.lower <= limit < interval.upper else interval.lower > limit
+        else:
+            work = pair.settings.thickness_work
+            reaches = core.reaches_deeper(body.surface().mesh, other.surface(), most, work)
+        if reaches:
+            return "not excused", f"a thin part of {body.id} reaches {most:.3g} deep, more than"
+        if reaches is None:
+            return "undecided", f"whether a thin part of {body.id} reaches {most:.3g} deep"
+    return None
 
 
 def surfaces(pair: Pair) -> list[tuple[float, PlacedBody]]:

@@ -86,11 +86,11 @@ def _explained(pair: Pair, trace: Trace, nanoseconds: int = 0) -> Band | None:
 
     if not may_be_explained(pair):
         return None
-    side = explain(pair, trace, nanoseconds)
+    side, question = explain(pair, trace, nanoseconds)
     if side == "within" or side == "deeper":
         return Band(side)
     if side == "undecided" and pair.excuses:
-        return Band("hidden", why="whether a point lies deeper in both than the surface tolerance")
+        return Band("hidden", why=question)
     return None
 
 

@@ -19,6 +19,7 @@
 #include "mesh_pair/gap_comparison.hpp"
 #include "mesh_pair/mesh_distance.hpp"
 #include "mesh_pair/mesh_pair.hpp"
+#include "mesh_pair/reach.hpp"
 #include "scene/words.hpp"
 
 namespace nb = nanobind;
@@ -144,6 +145,15 @@ is exact if nothing is rounded.)");
         "surface_of"_a, "solid"_a, "tolerance"_a, ReleaseGil(),
         R"((lower, upper) bounds of the largest distance of a point of the surface from the solid, 0 inside; they are at
 most `tolerance` apart, unless the work limit was reached. Branch and bound over triangles: the distance is 1-Lipschitz.)");
+  m.def("reaches_deeper",
+        [](const Mesh& surface_of, const Surface& solid, double length, std::uint64_t work) {
+          if (!solid.solid) throw std::invalid_argument("the surface is not a solid");
+          if (!(length > 0)) throw std::invalid_argument("the length must be positive");
+          return reaches_deeper(surface_of, solid, length, work);
+        },
+        "surface_of"_a, "solid"_a, "length"_a, "work"_a, ReleaseGil(),
+        R"(Whether a point of the triangles lies inside the solid, farther than `length` from its surface, to rounding. None:
+`work` steps, each about a nanosecond, do not decide that.)");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ import pytest
 from satcheck.audit import Finding, Settings, check
 from satcheck.scene import load_scene
 from tests.audit.figures.test_thickness import WEDGE_HEIGHT, WEDGE_THICKNESS, only, wedge
-from tests.audit.shapes import box, open_box, unit_box, write
+from tests.audit.shapes import Mesh, box, open_box, unit_box, write
 
 PLATE = box((-1, -1, -1.75), (1, 1, -1.625))
 # A pyramid with its tip down, 0.09 wide where it passes through the plate.
@@ -87,6 +87,50 @@ def test_a_body_that_passes_through_excuses_nothing(tmp_path: Path) -> None:
     found = only(tmp_path, PLATE, SPIKE, surface_tolerance=0.05)
     assert found.relation == "penetrating"
     assert "passes through" in told(found)
+
+
+# A block with a fin, 0.02 thick, that reaches 0.8 into another block.
+FINNED = box((-3, -1, -1), (-1, 1, 1)), box((-1.5, -0.01, -0.5), (0.8, 0.01, 0.5))
+BLOCK = box((0, -2, -2), (3, 2, 2))
+
+
+def joined(first: Mesh, other: Mesh) -> Mesh:
+    faces = [tuple(i + len(first[0]) for i in face) for face in other[1]]
+    return [*first[0], *other[0]], [*first[1], *faces]
+
+
+def moved(mesh: Mesh, back: float) -> Mesh:
+    return [(x - back, y, z) for x, y, z in mesh[0]], mesh[1]
+
+
+@pytest.mark.parametrize("apart", [0.0, 3.0])
+@pytest.mark.parametrize("off", [{"surface_tolerance": 0.02}, {"tolerance": 0.04}])
+def test_a_thin_part_that_reaches_deep_excuses_nothing(
+    tmp_path: Path, apart: float, off: dict[str, float]
+) -> None:
+    """Whether it hangs together with the rest of its body or not."""
+    finned = joined(moved(FINNED[0], apart), FINNED[1])
+    for pair in ((finned, BLOCK), (BLOCK, finned)):
+        found = only(tmp_path, *pair, **off)
+        assert found.relation == "penetrating"
+        assert "a thin part" in told(found)
+
+
+@pytest.mark.parametrize(("reach", "relation"), [(0.156, "touching"), (0.164, "penetrating")])
+def test_a_thin_part_may_reach_a_little(tmp_path: Path, reach: float, relation: str) -> None:
+    """4 times two tolerances of 0.02 are 0.16."""
+    fin = box((-1.5, -0.01, -0.5), (reach, 0.01, 0.5))
+    found = only(tmp_path, joined(moved(FINNED[0], 3.0), fin), BLOCK, surface_tolerance=0.02)
+    assert found.relation == relation
+
+
+def test_the_reason_names_the_open_question(tmp_path: Path) -> None:
+    """Where two solids of one body meet in the plate, passing through is not decided."""
+    half = box((-0.01, -0.01, -1.7), (0.01, 0.01, -1))
+    pins = joined(joined(half, box((-0.01, -0.01, -3), (0.01, 0.01, -1.69))), FINNED[0])
+    found = only(tmp_path, PLATE, pins, surface_tolerance=0.02)
+    assert found.relation == "indeterminate"
+    assert found.reason == "undecided: whether one body passes through the other"
 
 
 def test_open_bodies_have_no_surface_that_is_off(tmp_path: Path) -> None:
