@@ -26,11 +26,11 @@ def check_asset(
     *,
     places: bool = False,
 ) -> Asset:
-    """An asset that cannot be loaded has a report without bodies, with the error as an issue.
+    """Checks one asset. If it cannot be loaded, the report has no bodies and the error as an issue.
 
-    One body alone passes: it has nothing to collide with, and the report has the issues of its
-    mesh. settings_for: lengths may be in the units of the scene. places: state where scene files
-    name the bodies of findings.
+    An asset with a single body passes, and the report has the issues of its mesh. settings_for:
+    makes the settings for a scene, because lengths may be in its units.
+    places: state where scene files name the bodies of findings.
     """
     try:
         scene = load()

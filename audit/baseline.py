@@ -1,8 +1,8 @@
-"""Findings beside a baseline: which are new, unchanged, worse, and which known ones are gone.
+"""Compares findings with a baseline: which are new, unchanged or worse, and which are gone.
 
 An unchanged finding does not fail a check. A finding is worse if its relation is graver than the
-known one, or if a figure is proven to be worse, a length by more than the precision of the input
-(the default touch band of the pair). It is unchanged if no figure can be worse.
+known one, or if a figure is proven to be worse. A length has to be worse by more than the precision
+of the input (the default touch band of the pair). It is unchanged if no figure can be worse.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _GRAVITY: dict[KnownRelation, int] = {
 _FIGURES: tuple[Figure, ...] = get_args(Figure)
 _OF_OVERLAPS: tuple[Figure, ...] = ("depth", "thickness", "volume")
 _OF_MOTIONS: tuple[Figure, ...] = ("motion_depth", "motion_distance")
-# The less, the worse.
+# Figures for which a smaller value is worse.
 _GAPS: tuple[Figure, ...] = ("distance", "motion_distance")
 
 
@@ -111,8 +111,8 @@ def _would_fail(known: KnownFinding, report: Report) -> bool:
 
 
 def updated(baseline: Baseline, findings: Iterable[KnownFinding]) -> Baseline:
-    """With these findings, in the order of their names. Of a known one the worse figures and the
-    reason are kept; figures in other units are replaced."""
+    """The baseline with these findings added, sorted by name. A finding that is already known keeps
+    its reason and the worse of both figures; figures in other units are replaced."""
     known = {each.key: each for each in baseline.findings}
     for each in findings:
         known[each.key] = _merged(known.get(each.key), each)
@@ -172,7 +172,8 @@ def _compared(before: KnownFinding, now: Finding, report: Report) -> BaselineSta
 
 
 def _figures_to_compare(before: KnownFinding, now: Finding) -> list[Figure]:
-    """Figures that one of them has, and those of a motion, unless the relation is milder now."""
+    """The figures that either finding has, and figures of a motion unless the relation is milder
+    now."""
     names: set[Figure] = set()
     if now.at_rest in OVERLAPS:
         names.update(_OF_OVERLAPS)
@@ -190,7 +191,7 @@ def _figures_to_compare(before: KnownFinding, now: Finding) -> list[Figure]:
 def _is_no_worse(
     name: Figure, known: float | None, bounds: Interval | None, band: float
 ) -> bool | None:
-    """None: not known."""
+    """None: unknown."""
     if known is None or bounds is None:
         return None
     if name in _GAPS:
@@ -207,7 +208,7 @@ def _band(finding: Finding, report: Report) -> float:
 
 
 def _bounds(finding: Finding) -> dict[Figure, Interval]:
-    """Of the figures that were computed. The error of a volume is an estimate."""
+    """Bounds of the figures that were computed. The error of a volume is an estimate."""
     gap, volume, error = finding.distance, finding.volume, finding.volume_error or 0.0
     worst = None if finding.motion is None else finding.motion.worst
     bounds: dict[Figure, Interval | None] = {

@@ -61,8 +61,8 @@ def check(
     """Check every pair of bodies that the scene does not exempt.
 
     scene: a loaded scene, or paths of mesh and scene files. progress(done, total) is called from
-    this thread as pairs are settled. cache: data from earlier checks of the same bodies in other
-    places, with the same settings; this check adds to it. least: the least number of bodies; a
+    this thread as pairs are settled. cache: data from earlier checks of the same bodies at other
+    placements, with the same settings; this check adds to it. least: the least number of bodies; a
     single usable body passes.
 
     Findings come in the order of the bodies. There is one for every pair that was neither pruned
@@ -280,7 +280,7 @@ def _findings(
     total, allowed = bodies.book.count()
     listed = settings.list_pruned
     if total - allowed <= LISTED_PAIRS if listed is None else listed:
-        for i, j in bodies.book.asked_pairs():
+        for i, j in bodies.book.checked_pairs():
             if (i, j) not in findings:
                 pair = Pair(bodies.placed[i], bodies.placed[j], settings, planner.request(i, j))
                 apart = apart_by_boxes(pair)

@@ -67,7 +67,8 @@ def _by_fcl(pair: Pair, verdict: Verdict, peers: Peers) -> Opinion:
 
 
 def _tells_whether_surfaces_meet(pair: Pair, verdict: Verdict) -> bool:
-    """A body within another one may still touch faces inside its material."""
+    """Whether meeting surfaces follow from the relation. A body within another one may touch
+    internal faces of its material."""
     if verdict.relation in ("contains", "inside"):
         return core.mesh_distance(pair.a.surface(), pair.b.surface()).distance > 0
     return verdict.relation in ("separated", "penetrating")

@@ -36,7 +36,7 @@ OPEN_BAND = "undecided: whether that is within the tolerance"
 
 
 class Examined(Struct, frozen=True):
-    """A finding, and what it follows from. answer: None where the relation stays open."""
+    """A finding and the results that it follows from. answer: None if the relation is undecided."""
 
     finding: Finding
     verdict: Verdict
@@ -44,13 +44,14 @@ class Examined(Struct, frozen=True):
 
 
 def finding_id(a: str, b: str) -> str:
-    """Stable for the two bodies, whatever their order, pose or result."""
+    """An id that depends on the two bodies only, and not on their order, poses or result."""
     key = f"{a}\0{b}" if a < b else f"{b}\0{a}"
     return hashlib.sha256(key.encode(errors="surrogatepass")).hexdigest()[:ID_DIGITS]
 
 
 def examine(pair: Pair, trace: Trace, climb: Climb | None = None) -> Examined:
-    """Everything asked about one pair. Warnings go to the trace. climb: where it has been made."""
+    """Computes everything that is requested for one pair. Warnings go to the trace. climb: the
+    climb of the core; None: not made yet."""
     verdict = settle(pair, trace, climb)
     reason = _why_open(pair, verdict)
     if reason is not None:
@@ -101,7 +102,7 @@ def indeterminate(a: str, b: str, reason: str, trace: Trace) -> Finding:
 
 
 def _why_open(pair: Pair, verdict: Verdict) -> str | None:
-    """None: it is known how the bodies relate."""
+    """The reason why the relation is undecided; None: it is decided."""
     if verdict.relation == "indeterminate":
         return verdict.reason or "undecided"
     if verdict.relation in ("separated", "touching"):
@@ -110,7 +111,7 @@ def _why_open(pair: Pair, verdict: Verdict) -> str | None:
 
 
 def _with_extras(answer: Answer, pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
-    """With what only some ask for."""
+    """Adds the figures that are computed only on request."""
     asked = pair.request.by
     if "thickness" in asked and verdict.relation in OVERLAPS:
         answer = _with_thickness(answer, pair, trace)
@@ -144,7 +145,7 @@ def _with_thickness(answer: Answer, pair: Pair, trace: Trace) -> Answer:
 
 
 def _contradiction(pair: Pair, verdict: Verdict, trace: Trace) -> str | None:
-    """What another library says against the relation."""
+    """The answer of another library that contradicts the relation; None: no contradiction."""
     if pair.peers is None or pair.curved:
         return None
     from satcheck.audit.cross_check import say
@@ -153,7 +154,8 @@ def _contradiction(pair: Pair, verdict: Verdict, trace: Trace) -> str | None:
 
 
 def _weakness(pair: Pair, verdict: Verdict) -> str | None:
-    """What the answer leaves out; the relation of hulls that are apart leaves out nothing."""
+    """The reason why an answer is weaker than a proof; None: it is proven. Separate hulls prove
+    their relation."""
     if verdict.reason is not None:
         return verdict.reason
     if not verdict.proven:
@@ -166,7 +168,8 @@ def _unproven(pair: Pair) -> str:
 
 
 def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | str:
-    """A text: why it is not known whether the overlap is within the tolerance."""
+    """The answer for an overlap. A text instead: the reason why it is unknown whether the overlap
+    is within the tolerance."""
     band = touch_band(pair, verdict, trace)
     guess = band.side == "within" and not verdict.proven
     depth = None if guess else _depth(pair, verdict, band.move, trace)
@@ -199,7 +202,7 @@ def _overlapping(pair: Pair, verdict: Verdict, trace: Trace) -> Answer | str:
 
 
 def _unexcused(pair: Pair) -> str | None:
-    """Why a surface tolerance does not count; None: it does."""
+    """The reason why a surface tolerance does not apply; None: it applies."""
     from satcheck.audit.figures.thickness import why_not_thick
 
     why_not = why_not_thick(pair)
@@ -211,7 +214,8 @@ def _depth(pair: Pair, verdict: Verdict, move: Vector | None, trace: Trace) -> D
 
 
 def _band_of_depth(pair: Pair, depth: Depth) -> Band | None:
-    """By the way out that was found, by parts for instance; None: it says nothing."""
+    """The touch band by the translation that frees A; None: it is not verified, or the depth
+    exceeds the tolerance."""
     if not depth.escape.verified or depth.lower > pair.tolerance:
         return None
     return band_of(pair, depth.escape.mtv)
@@ -234,7 +238,7 @@ def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
     relation, proven, reason = verdict.relation, verdict.proven, _weakness(pair, verdict)
     if gap.within:
         relation = "touching"
-        # The band is proven, whichever side of a touch the bodies are on.
+        # The band is proven, even if it is unknown whether the bodies overlap a little.
         proven = proven or _overlaps_within(verdict, pair.tolerance)
     elif relation == "separated":
         guess = gap.kept is None and gap.distance is None
@@ -255,7 +259,7 @@ def _apart(pair: Pair, verdict: Verdict, trace: Trace) -> Answer:
 
 
 def _is_shown(pair: Pair, gap: Gap) -> bool:
-    """Whether the figure goes into the finding."""
+    """Whether the finding states the gap."""
     return pair.request.clearance is not None and gap.distance is not None
 
 
@@ -264,7 +268,7 @@ def _within_curves(pair: Pair) -> str:
 
 
 def _overlaps_within(verdict: Verdict, tolerance: float) -> bool:
-    """Whether two convex bodies are proven to overlap by no more than that, if they do."""
+    """Whether any overlap of two convex bodies is proven to be at most the tolerance deep."""
     lower = None if verdict.signed_distance is None else verdict.signed_distance.lower
     return lower is not None and lower >= -tolerance
 
@@ -272,13 +276,13 @@ def _overlaps_within(verdict: Verdict, tolerance: float) -> bool:
 def _open_gap(pair: Pair) -> str:
     if not pair.may("exact"):
         return f"the gap is {_unproven(pair)}"
-    return "the gap may be less: what fills a hole may be nearer than the surface"
+    return "the gap may be less: the fill of a hole may be nearer than the surface"
 
 
 def _finding(pair: Pair, answer: Answer, judgement: Judgement, trace: Trace) -> Finding:
     depth, thick, volume = answer.depth, answer.thickness, answer.volume
     gap = answer.gap if answer.gap is not None and _is_shown(pair, answer.gap) else None
-    figure = gap if depth is None else depth  # a pair has one of them at most
+    figure = gap if depth is None else depth  # a pair has at most one of them
     return Finding(
         id=finding_id(pair.a.id, pair.b.id),
         a=pair.a.id,

@@ -77,7 +77,7 @@ def _along_curve(pairs: Sequence[Pair]) -> list[int]:
     order = core.order_along_curve([body.bounds for body in bodies.values()])
     keys, count = list(bodies), len(bodies)
     rank = {keys[number]: place for place, number in enumerate(order)}
-    places = []  # of the earlier body, then of the other one, as one number
+    places = []  # sort key: the position of the earlier body, then of the other one
     for pair in pairs:
         a, b = rank[id(pair.a)], rank[id(pair.b)]
         places.append(a * count + b if a < b else b * count + a)

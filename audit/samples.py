@@ -231,5 +231,5 @@ def _all_pairs(
 ) -> tuple[PairTally, ...]:
     """Every checked pair, in the order of the bodies."""
     ids = [body.id for body in report.bodies]
-    asked = ((ids[i], ids[j]) for i, j in book.asked_pairs())
-    return tuple(tallies.get(pair) or PairTally(*pair) for pair in asked)
+    checked = ((ids[i], ids[j]) for i, j in book.checked_pairs())
+    return tuple(tallies.get(pair) or PairTally(*pair) for pair in checked)

@@ -22,9 +22,9 @@ from satcheck.scene.mesh_units import placing_file, shape_of_file
 
 # The first stage of each trace.
 STAGE = "unit"
-# What states lengths in a certificate; all else are directions, weights and numbers of vertices.
+# The keys of a certificate that state lengths. Others state directions, weights and vertex numbers.
 POINTS_OF_CERTIFICATES = frozenset({"both", "a_alone", "b_alone", "move", "point"})
-# The fields of a finding, and of what it holds, that state lengths and areas. Volumes: _finding.
+# The fields of a finding and its parts that state lengths and areas. _finding scales volumes.
 DIMENSIONS = {
     **dict.fromkeys(("tolerance", "distance", "distance_bounds", "depth", "depth_bounds"), 1),
     **dict.fromkeys(("thickness", "thickness_bounds", "ball"), 1),
@@ -53,7 +53,8 @@ class Scaling:
         )
 
     def report(self, report: Report, scene: Scene, given: Settings) -> Report:
-        """In the unit of the scene as given, but for lengths in words, which say so."""
+        """The report in the unit of the given scene. Lengths within texts stay scaled, and a remark
+        says so."""
         from satcheck.audit.motion.movers import Movers
 
         return replace(
@@ -117,9 +118,9 @@ class Scaling:
         return replace(sweep, reason=sweep.reason and self._words(sweep.reason))
 
     def _scaled(self, value: Any, dimension: int = 0) -> Any:
-        """A part of a finding with the lengths and areas in it in the unit of the files.
+        """Converts lengths and areas in a part of a finding to the unit of the files.
 
-        dimension: of the numbers in it. Raises OverflowError where float64 cannot hold one.
+        dimension: of the numbers in it. Raises OverflowError if a number is beyond float64.
         """
         if isinstance(value, float) and dimension:
             return self._number(value, dimension)
@@ -142,7 +143,7 @@ class Scaling:
         return held
 
     def _held(self, value: Any, dimension: int = 0) -> Any:
-        """`_scaled`; None where float64 cannot hold it."""
+        """`_scaled`; None if a number is beyond float64."""
         try:
             return self._scaled(value, dimension)
         except OverflowError:
@@ -153,7 +154,7 @@ class Scaling:
         return Stage(STAGE, f"2^{-self._exponent}", 0.0, detail)
 
     def _words(self, text: str) -> str:
-        """With a remark on the lengths that it may state."""
+        """Adds a remark on the lengths that the text may state."""
         return f"{text} (lengths here are times 2^{self._exponent})"
 
     def _evidence(self, certificate: Certificate) -> Certificate:
@@ -180,7 +181,7 @@ class Scaling:
         }
 
     def _cells(self, cells: Cells) -> Cells:
-        """All numbers but normals and weights are lengths."""
+        """Scales all numbers except normals and weights."""
         return replace(
             cells,
             **{

@@ -85,7 +85,8 @@ def judged(answer: Answer, pair: Pair, *, overlaps: bool = False) -> Judgement:
 
 
 def fails(finding: Finding, fail_on: FailOn) -> bool:
-    """Whether the finding is decided and as grave as that. Errors are decided as far as matters."""
+    """Whether the finding is decided and at least as grave as `fail_on`. An error always counts as
+    decided."""
     decided = finding.undecided is None or finding.severity == "error"
     return decided and SEVERITIES.index(finding.severity) <= SEVERITIES.index(fail_on)
 

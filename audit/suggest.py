@@ -95,7 +95,7 @@ def suggest(
     undecided = _undecided(report, samples)
     assert cache.book is not None
     ids = [body.id for body in report.bodies]
-    asked = [(ids[i], ids[j]) for i, j in cache.book.asked_pairs()]
+    asked = [(ids[i], ids[j]) for i, j in cache.book.checked_pairs()]
     unchecked = _unchecked(scene, report, asked)
     left_out = {(pair.a, pair.b) for pair in unchecked}
     pairs, may_meet = _suggestions(scene, report, samples, asked, left_out)

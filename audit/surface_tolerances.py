@@ -1,5 +1,6 @@
-"""Proposes surface tolerances: how far facets are off the curved surfaces that they stand for,
-measured on the meshes alone. Whether they stand for a curved surface is a person's to say.
+"""Proposes surface tolerances: the distance between facets and the curved surfaces that they
+approximate, measured on the meshes alone. A person has to decide whether the facets approximate a
+curved surface.
 """
 
 from __future__ import annotations
@@ -22,16 +23,16 @@ if TYPE_CHECKING:
     from satcheck.report.values import Vector
     from satcheck.scene import Body, Scene
 
-# A proposed tolerance is rounded up to this many digits: it is an estimate.
+# A proposed tolerance is an estimate, so it is rounded up to this many digits.
 DIGITS = 3
-# Curves whose radius and sagitta differ by less than this fraction are told of together.
+# Curves whose radius and sagitta differ by less than this fraction are reported together.
 ALIKE = 0.03
 # Two placements with the same products of their columns, to this many digits, differ by a rotation.
 _GRAM_DIGITS = 6
 
 
 def surface_tolerances(scene: Scene) -> SurfaceTolerancesReport:
-    """Bodies in their order; those that cannot be read are left out."""
+    """The proposals for all readable bodies, in the order of the scene."""
     known: dict[tuple[object, ...], Curves] = {}
     bodies = tuple(_of_body(body, known) for body in scene.bodies)
     proposed = [body.surface_tolerance for body in bodies if body.surface_tolerance is not None]
@@ -73,8 +74,8 @@ def _of_body(body: Body, known: dict[tuple[object, ...], Curves]) -> BodyToleran
 
 
 def _linear(body: Body) -> tuple[Floats, int]:
-    """(matrix, exponent): the placement without its translation is the matrix, with entries up to
-    1, times 2**exponent."""
+    """(matrix, exponent): the linear part of the placement is matrix * 2**exponent; the entries of
+    the matrix are at most 1."""
     if body.transform is None:
         return np.eye(3), 0
     linear = np.array(body.transform).reshape(4, 4)[:3, :3]

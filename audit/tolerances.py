@@ -8,8 +8,8 @@ from __future__ import annotations
 # longer than the last. The longest is about 1e-9 of the size.
 LENGTHENING_ULPS = (4, 16, 64, 256, 1024, 4096, 16384, 65536, 262144, 1048576, 4194304)
 
-# The default touch band is at most this fraction of the smaller body's box diagonal. The float32
-# coordinates of a part that is 1/4000 of the assembly it sits in still keep their full precision.
+# The default touch band is at most this fraction of the smaller body's box diagonal. The touch band
+# of a part that is 1/4000 of its assembly still has the full precision of float32 coordinates.
 TOUCH_FRACTION = 1e-3
 
 # A depth interval of this relative width comes from rounding alone and counts as exact.

@@ -24,5 +24,5 @@ def crossed(a: Vector, b: Vector) -> Vector:
 
 
 def unit(v: Vector) -> Vector:
-    """Along v; the zero vector has no direction and divides by zero."""
+    """The unit vector along v. Raises ZeroDivisionError for the zero vector."""
     return scaled(v, 1 / math.hypot(*v))

@@ -29,7 +29,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
 from satcheck.audit.ladder.ladder import settle
-from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.planner import request_for
 from satcheck.audit.request.settings import WORK_PER_SECOND
 from satcheck.audit.request.trace import Trace
 from satcheck.report.report import OVERLAPS
@@ -76,7 +76,7 @@ def pair_of(entry: dict[str, Any], folder: Path, settings: Settings) -> Pair | N
     if len(scene.bodies) < 2:
         return None
     a, b = (PlacedBody(body, SharedMesh(body.file, settings)) for body in scene.bodies)
-    pair = Pair(a, b, settings, asked_by(settings))
+    pair = Pair(a, b, settings, request_for(settings))
     if pair.both_convex or settle(pair, Trace()).relation not in OVERLAPS:
         return None
     return pair

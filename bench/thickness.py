@@ -26,7 +26,7 @@ from satcheck.audit import Settings
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.ladder.cheap_bounds import way_out_of_hulls
-from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.planner import request_for
 from satcheck.audit.request.settings import WORK_PER_SECOND
 from satcheck.scene import load_scene
 
@@ -60,7 +60,7 @@ def placed_pair(entry: dict[str, Any], folder: Path) -> Pair:
         path.write_text(json.dumps(content), encoding="utf-8")
         scene = load_scene([path])
     a, b = (PlacedBody(body, SharedMesh(body.file, settings)) for body in scene.bodies)
-    return Pair(a, b, settings, asked_by(settings))
+    return Pair(a, b, settings, request_for(settings))
 
 
 def size_of(surface: core.Surface) -> float:

@@ -1,4 +1,4 @@
-"""Signs, frames and units: the one place where they are fixed.
+"""Signs, frames and units of the whole program.
 
 World frame, right-handed, float64, units as in the files.
 
@@ -15,9 +15,9 @@ from __future__ import annotations
 from typing import Literal, get_args
 
 Vector = tuple[float, float, float]
-Bounds = tuple[Vector, Vector]  # the least and the greatest corner of a box along the axes
+Bounds = tuple[Vector, Vector]  # least and greatest corner of an axis-aligned box
 
-# What the numbers in PairResults.outcome stand for.
+# The meaning of the numbers in PairResults.outcome.
 OUTCOMES = ("separated", "touching", "penetrating", "undecided")
 
 Plane = Literal["xy", "yz", "xz"]
@@ -25,13 +25,13 @@ PLANES: tuple[Plane, ...] = get_args(Plane)
 
 
 def axes_of(plane: Plane) -> tuple[int, int]:
-    """The world axes along which a plane is measured, in their order in the world."""
+    """The two world axes of a plane, in world order."""
     first, second = ("xyz".index(letter) for letter in plane)
     return first, second
 
 
 def axis_across(plane: Plane) -> int:
-    """The world axis that the plane does not have."""
+    """The world axis perpendicular to a plane."""
     return 3 - sum(axes_of(plane))
 
 

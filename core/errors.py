@@ -1,14 +1,14 @@
-"""The one exception family of satcheck: a stable code, and a message a person can act on."""
+"""The base class of all exceptions of satcheck: a stable code and a message for people."""
 
 from __future__ import annotations
 
 
 class SatcheckError(Exception):
-    """Something satcheck was asked to do could not be done.
+    """satcheck could not do what was requested.
 
     `code` is kebab-case and stable: scripts may rely on it. `message` says what happened, where,
-    and what to do about it. `file` and `body` name the culprit where there is one; `str(error)`
-    starts with them. `others`: what else is wrong, where one error stands for several.
+    and what to do about it. `file` and `body` name the place of the error, if there is one;
+    `str(error)` starts with them. `others`: further errors, if this one is the first of several.
     """
 
     def __init__(

@@ -1,10 +1,10 @@
-"""The volume that two small solids have in common, as a rational number, without any rounding.
+"""The common volume of two small solids as a rational number, without rounding.
 
-A solid is cut into convex cells with signs: itself where it is convex, else the tetrahedra over its
-triangles from one of its vertices. Such tetrahedra cancel outside of the solid, as the terms of the
-divergence theorem do, so that the signed volumes of what two cells have in common sum up to the
-answer. Cells are clipped by the planes of each other: I. E. Sutherland, G. W. Hodgman, "Reentrant
-polygon clipping" (1974), with the cap of each cut.
+A solid is cut into signed convex cells. A convex solid is one cell. Another solid is cut into
+tetrahedra that connect its triangles to one of its vertices. Outside of the solid their signs
+cancel, like the terms of the divergence theorem. The answer is therefore the sum of the signed
+common volumes of all pairs of cells. Cells are clipped by each other's planes: I. E. Sutherland, G.
+W. Hodgman, "Reentrant polygon clipping" (1974), with the cap of each cut.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Polyhedron = list[list[Point]]  # faces, counter-clockwise from outside
 # n and d: the points x with n . x <= d.
 HalfSpace = tuple[Point, Fraction]
 
-# Of each mesh, at most; and faces that are clipped, at most, by one plane each: some seconds.
+# Limits: triangles of each mesh, and clips of a face by a plane, which take some seconds.
 MOST_TRIANGLES: Final = 500
 MOST_CLIPS: Final = 40_000
 _TETRAHEDRON: Final = ((0, 1, 2), (0, 3, 1), (1, 3, 2), (2, 3, 0))
@@ -42,8 +42,8 @@ class _Cell:
 
 
 def exact_common_volume(a: Mesh, b: Mesh) -> Fraction | None:
-    """In cubed units; None where that is too much work. Of solids whose winding numbers are 0 and 1
-    only."""
+    """The common volume in cubed units; None: too much work. The winding numbers of both solids
+    have to be 0 and 1 only."""
     if max(len(a.triangles), len(b.triangles)) > MOST_TRIANGLES:
         return None
     cells_a, cells_b = _cells(a), _cells(b)
@@ -67,7 +67,7 @@ def _clips(pairs: list[tuple[_Cell, _Cell]]) -> int:
 
 
 def clipped(solid: Polyhedron, side: HalfSpace) -> Polyhedron:
-    """The part of a convex polyhedron in the half-space; empty where that has no volume."""
+    """The part of a convex polyhedron in the half-space; empty if it has no volume."""
     normal, limit = side
     heights = [[_dot(normal, p) - limit for p in face] for face in solid]
     if all(h <= 0 for face in heights for h in face):
@@ -75,7 +75,7 @@ def clipped(solid: Polyhedron, side: HalfSpace) -> Polyhedron:
     if all(h >= 0 for face in heights for h in face):
         return []
     kept: Polyhedron = []
-    follows: dict[Point, Point] = {}  # along the cap
+    follows: dict[Point, Point] = {}  # corner of the cap -> next corner
     for face, levels in zip(solid, heights, strict=True):
         if all(h >= 0 for h in levels):
             continue
@@ -92,7 +92,7 @@ def clipped(solid: Polyhedron, side: HalfSpace) -> Polyhedron:
 
 
 def volume(solid: Polyhedron) -> Fraction:
-    """Signed, by fans of tetrahedra from one of its points."""
+    """The signed volume, by tetrahedra that connect the faces to one point."""
     if not solid:
         return Fraction(0)
     apex = solid[0][0]
@@ -105,7 +105,7 @@ def volume(solid: Polyhedron) -> Fraction:
 
 
 def _kept(face: list[Point], levels: list[Fraction]) -> Iterator[tuple[Point, bool]]:
-    """The corners of the part at heights <= 0, and whether they lie at height 0."""
+    """(corner, whether its height is 0) for the part of a face at heights <= 0."""
     for k, (p, h) in enumerate(zip(face, levels, strict=True)):
         q, g = face[k - 1], levels[k - 1]
         if (h < 0 < g) or (g < 0 < h):
@@ -147,7 +147,7 @@ def _tetrahedra(faces: Polyhedron) -> Iterator[_Cell]:
 
 
 def _side(face: list[Point]) -> HalfSpace:
-    """Behind the face; the same for faces in one plane."""
+    """The half-space behind the face; equal for faces in one plane."""
     n = _normal(face)
     scale = max(abs(c) for c in n)
     unit = n[0] / scale, n[1] / scale, n[2] / scale

@@ -1,7 +1,7 @@
 """The flat facets of a mesh, and the ridges where two of them meet.
 
-Neighbouring triangles in one plane are one facet: where a strip is cut into triangles says nothing
-about its shape.
+Neighbouring triangles in one plane are one facet, because the cut of a strip into triangles does
+not change its shape.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ Flags = npt.NDArray[np.bool_]
 # A circle whose facets turn by this many radians is 1.25e-7 of its radius off them, about the
 # precision of float32.
 LEAST_TURN = 1e-3
-# A height above a plane through three points, all four off by the precision in each coordinate: at
-# most 4 sqrt(3) times that, rounded up.
+# The error of a height above a plane through three points, in precisions. All four points are off
+# by up to the precision in each coordinate, so the error is at most 4 sqrt(3), rounded up.
 FLAT_STEPS = 8.0
-# The normal of a triangle less than this many times as high as the precision is mostly noise.
+# If the height of a triangle is less than this many precisions, its normal is mostly noise.
 SLIVER_STEPS = 64.0
 # Beyond this angle (57 degrees) a small triangle is a step, not an uneven spot.
 MOST_UNEVEN = 1.0
-# A strip has two neighbours on a curve, and a few more where it is trimmed. A facet with more than
-# this is a face with rounded edges.
+# A strip of a curved surface has two neighbours, and a few more at trimmed ends. A facet with more
+# neighbours than this is a face with rounded edges.
 MOST_NEIGHBOURS = 64
 
 
@@ -35,7 +35,7 @@ class Facets(Struct, frozen=True):
     """Facets of a mesh, numbered from 0.
 
     points: (v, 3). triangles: (t, 3). of_triangle: (t,), the facet of each triangle. normals:
-    (f, 3), unit length, or 0 where a facet has no area.
+    (f, 3), unit length, or 0 if the facet has no area.
     """
 
     points: Floats
@@ -49,11 +49,12 @@ class Facets(Struct, frozen=True):
 
 
 class Ridges(Struct, frozen=True):
-    """One for each two facets that meet: on one line, though perhaps along several edges.
+    """One ridge for each two facets that meet. It lies on one line and may consist of several
+    edges.
 
     facets: (r, 2). angles: (r,) radians, between their normals. directions: (r, 3), unit length.
-    widths: (r, 2), how far each facet reaches from the ridge; inf for a face that has too many
-    neighbours to be a strip. edges: (e, 2), the vertices of the edges on ridges. of_edge: (e,).
+    widths: (r, 2), the extent of each facet from the ridge; inf for a face with too many neighbours
+    to be a strip. edges: (e, 2), the vertices of the edges on ridges. of_edge: (e,).
     """
 
     facets: Indices
@@ -67,8 +68,8 @@ class Ridges(Struct, frozen=True):
 def facets_and_ridges(
     points: Floats, triangles: Indices, precision: float
 ) -> tuple[Facets, Ridges]:
-    """points: (v, 3) of a welded mesh, triangles: (t, 3). precision: how finely coordinates are
-    known. An edge is on a ridge if it has two triangles that agree about the outside."""
+    """points: (v, 3) of a welded mesh, triangles: (t, 3). precision: of the coordinates. An edge is
+    on a ridge if it has two triangles with consistent orientation."""
     precision = max(precision, rounding_pad(float(np.abs(points).max(initial=0.0))))
     corners = points[triangles]
     edges, sides = _inner_edges(triangles)
@@ -101,7 +102,7 @@ def components(count: int, pairs: Indices) -> Indices:
 
 
 def unit(vectors: Floats) -> Floats:
-    """(..., 3) of length 1, or 0."""
+    """(..., 3): the vectors scaled to length 1; zero vectors stay zero."""
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     result = np.zeros_like(vectors)
     np.divide(vectors, lengths, out=result, where=lengths > 0)
@@ -109,7 +110,7 @@ def unit(vectors: Floats) -> Floats:
 
 
 def sums_of(group: Indices, vectors: Floats) -> Floats:
-    """(g, 3): of the vectors, (n, 3), of each group. group: (n,)."""
+    """(g, 3): the sum of the vectors, (n, 3), of each group. group: (n,)."""
     sums = np.zeros((int(group.max(initial=-1)) + 1, 3))
     for k in range(3):
         sums[:, k] = np.bincount(group, vectors[:, k])
@@ -117,15 +118,15 @@ def sums_of(group: Indices, vectors: Floats) -> Floats:
 
 
 def angles_between(first: Floats, second: Floats) -> Floats:
-    """Of unit vectors, radians; small ones too are exact."""
+    """Angles between unit vectors, radians; accurate for small angles too."""
     half_sines = 0.5 * np.linalg.norm(first - second, axis=-1)
     angles: Floats = 2 * np.arcsin(np.minimum(half_sines, 1.0))
     return angles
 
 
 def _inner_edges(triangles: Indices) -> tuple[Indices, Indices]:
-    """Edges of two triangles that run them in opposite directions: (e, 2) vertices as the first one
-    does, (e, 2) triangles."""
+    """Edges with two triangles that traverse them in opposite directions: (e, 2) vertices in the
+    order of the first triangle, (e, 2) triangles."""
     half = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
     key = half.min(axis=1) * (int(triangles.max(initial=0)) + 1) + half.max(axis=1)
     order = np.argsort(key, kind="stable")
@@ -137,7 +138,8 @@ def _inner_edges(triangles: Indices) -> tuple[Indices, Indices]:
 
 
 def _at_longest_edge(points: Floats, edges: Indices, sides: Indices, sliver: Flags) -> Flags:
-    """(e,): where a sliver joins the facet of a neighbour, so that it hides no ridge."""
+    """(e,): whether a sliver joins the facet of its neighbour at this edge, so that it hides no
+    ridge."""
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     longest = np.zeros(len(sliver))
     np.maximum.at(longest, sides, lengths[:, None])

@@ -1,8 +1,8 @@
-"""python-fcl behind core.worker: the only module that imports it, only ever in a child process.
+"""The python-fcl server for core.worker: the only module that imports it, only in a child process.
 
 Jia Pan, Sachin Chitta, Dinesh Manocha, "FCL: A General Purpose Library for Collision and Proximity
-Queries" (2012). It tells whether triangles meet, in float64 without exact predicates. Of its
-contacts only the count is used; it does not see a body inside another.
+Queries" (2012). It decides whether triangles meet, in float64 without exact predicates. Only its
+number of contacts is used. It does not detect a body inside another.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import msgspec
 
 
 def serve(request: bytes) -> bytes:
-    """Two meshes as four blocks; b"meet" or b"apart" of their surfaces."""
+    """request: two meshes as four blocks. Returns b"meet" or b"apart" for their surfaces."""
     import fcl
     import numpy as np
 

@@ -1,8 +1,8 @@
-"""manifold3d behind core.worker: the only module that imports it, and only ever in a child process.
+"""The manifold3d server for core.worker: the only module that imports it, only in a child process.
 
-Emmett Lalish's library: Booleans of triangle meshes in float64 that always end in a manifold.
-Vertices nearer than its tolerance, about 1e-12 of the extent, may be merged, and thinner parts be
-lost.
+Emmett Lalish's library computes Booleans of triangle meshes in float64, and its results are
+manifolds. Vertices closer than its tolerance, about 1e-12 of the extent, may be merged, and thinner
+parts may vanish.
 """
 
 from __future__ import annotations
@@ -16,18 +16,19 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-# How far a volume may be from what it is before the Boolean, in the same tolerance.
+# The largest change of a volume when manifold3d reads a mesh, in units of its tolerance times the
+# area.
 _SAME: Final = 4.0
 Request = tuple[Literal["volume", "mesh"], list[bytes]]
 
 
 def serve(request: bytes) -> bytes:
-    """What is wanted, and two meshes as four blocks. The reply has `volume` and `error`, or the
-    `mesh` of what both have in common as two blocks, or `refused` and `which`.
+    """request: "volume" or "mesh", and two meshes as four blocks. The reply has `volume` and `error`,
+    or the `mesh` of the overlap as two blocks, or `refused` and `which`.
 
-    The pair is moved to the origin and scaled by a power of two to unit size, which makes the
-    tolerance as small as it can be: true lengths are those of the answer times 2^exponent. A mesh
-    is moved back.
+    The pair is moved to the origin and scaled by a power of two to unit size, so that the tolerance
+    is as small as possible. True lengths are those of the answer times 2^exponent. A mesh is moved
+    back.
     """
     import numpy as np
 
@@ -56,7 +57,8 @@ def serve(request: bytes) -> bytes:
 
 
 def _frame(vertices: list[NDArray[np.float64]]) -> tuple[NDArray[Any], int]:
-    """(centre, e): of all points, (p - centre) / 2^e has its largest coordinate in [1/2, 1]."""
+    """(centre, e): the largest coordinate of (p - centre) / 2^e over all points p is in [1/2,
+    1]."""
     import numpy as np
 
     low = np.min([points.min(axis=0) for points in vertices], axis=0) / 2.0
@@ -65,7 +67,7 @@ def _frame(vertices: list[NDArray[np.float64]]) -> tuple[NDArray[Any], int]:
 
 
 def _solid(points: NDArray[Any], corners: NDArray[Any]) -> manifold3d.Manifold | str:
-    """The mesh as it is, or why it cannot be used."""
+    """The mesh as a Manifold, or the reason why it cannot be used."""
     import manifold3d
     import numpy as np
 
@@ -76,7 +78,7 @@ def _solid(points: NDArray[Any], corners: NDArray[Any]) -> manifold3d.Manifold |
     volume = float(np.einsum("ij,ij->i", p, np.cross(q, r)).sum()) / 6.0
     if not volume > 0.0:
         return "InsideOut"
-    # What manifold3d changes about a mesh while it reads it must be no more than its tolerance.
+    # manifold3d may change a mesh while it reads it, but by no more than its tolerance.
     if abs(solid.volume() - volume) > _SAME * solid.get_tolerance() * solid.surface_area():
         return "Changed"
     return solid

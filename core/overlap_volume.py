@@ -1,4 +1,4 @@
-"""What two solids have in common, its volume or its surface, by manifold3d in a child process."""
+"""Measures the overlap of two solids, its volume or its surface, with manifold3d in a child."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ _SERVER: Final = "satcheck.core.manifold_server"
 
 
 class OverlapVolume(Struct, frozen=True):
-    """volume: in float64. error: what moving both surfaces by the tolerance of the Boolean changes
-    at most; an estimate of how far off it is, not a proof."""
+    """volume: in float64. error: the largest change of the volume if both surfaces move by the
+    tolerance of the Boolean. It is an estimate and not a proof."""
 
     volume: float
     error: float
 
 
 class VolumeMeter:
-    """Measures common volumes, one pair after another in one child; to be used in a `with`.
+    """Measures common volumes, one pair after another, in one child. Use it in a `with` statement.
 
     seconds: for one pair. megabytes: of the child. Nothing starts before the first pair.
     """
@@ -46,10 +46,11 @@ class VolumeMeter:
         self._worker.close()
 
     def measure(self, a: Mesh, b: Mesh) -> OverlapVolume:
-        """Of two solids whose winding numbers are 0 and 1 only.
+        """The common volume of two solids whose winding numbers are 0 and 1 only.
 
-        Raises SatcheckError: `volume-refused` when manifold3d cannot use one of the meshes,
-        `volume-out-of-range` when it is no float64, `volume-failed` when the child gave no answer.
+        Raises SatcheckError: `volume-refused` if manifold3d cannot use a mesh,
+        `volume-out-of-range` if the volume is beyond float64, `volume-failed` if the child gave no
+        answer.
         """
         answer = self._answer("volume", a, b)
         scale = 3 * answer["exponent"]
@@ -57,11 +58,11 @@ class VolumeMeter:
             volume = math.ldexp(answer["volume"], scale)
             return OverlapVolume(volume, math.ldexp(answer["error"], scale))
         except OverflowError as error:
-            raise SatcheckError("volume-out-of-range", "the volume is no float64") from error
+            raise SatcheckError("volume-out-of-range", "the volume is beyond float64") from error
 
     def common(self, a: Mesh, b: Mesh) -> Mesh | None:
-        """The surface of what they have in common; None: nothing. Of solids as in `measure`, and
-        it raises the same errors."""
+        """The surface of the overlap of two solids; None: it is empty. Conditions and errors are
+        those of `measure`."""
         vertices, triangles = self._answer("mesh", a, b)["mesh"]
         return Mesh.from_bytes(vertices, triangles) if triangles else None
 

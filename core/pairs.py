@@ -1,7 +1,7 @@
-"""Pairs of convex shapes and of convex polygons, and what is wrong with the arguments in words.
+"""Checks pairs of convex shapes and of convex polygons, with clear messages for wrong arguments.
 
-The compiled functions know their argument types, but of a wrong one they list all types that they
-take. These ask again only then.
+For a wrong argument, the compiled functions list all types that they accept. The functions here
+call them first, and inspect the arguments only if a call fails.
 """
 
 from __future__ import annotations
@@ -35,17 +35,17 @@ def check_pair(
     """Check two placed convex shapes.
 
     pose_a, pose_b: None, (tx, ty, tz) or (tx, ty, tz, qx, qy, qz, qw): rotate by the quaternion
-    (any length but 0), then translate. query: "overlap" gives the outcome only and stops at the
+    (any length except 0), then translate. query: "overlap" gives the outcome only and stops at the
     first proof; "depth" and "distance" give the signed distance, normal and witness points. method:
-    "auto", "sat" to project on axes where that applies, or "gjk" to ask support functions alone:
-    portals for the outcome of an overlap, GJK and EPA for the rest.
+    "auto", "sat" (projections on axes, for shapes with faces), or "gjk" (support functions only:
+    portals for the outcome of an overlap, GJK and EPA for the rest).
 
-    Raises TypeError for other types, ValueError for a pose that is not finite or an unknown query
+    Raises TypeError for wrong types, ValueError for a pose that is not finite or an unknown query
     or method, OverflowError for a translation out of range.
 
     SAT (Gottschalk, Lin, Manocha 1996; Gregorius 2013), portals (Snethen 2008), GJK (Gilbert,
     Johnson, Keerthi 1988), EPA on signed face distances (after van den Bergen 2001), exact signs
-    (Shewchuk 1997) where float64 cannot tell.
+    (Shewchuk 1997) if float64 cannot decide.
     """
     try:
         return native.check_pair(a, b, pose_a, pose_b, query, method)
@@ -60,9 +60,9 @@ def compare_signed_distance(
 ) -> Literal[-1, 0, 1] | None:
     """-1, 0 or 1: the signed distance is smaller than, equal to, or larger than the length.
 
-    a, b: placed convex shapes, poses as for check_pair. length: negative for a depth. Decided
-    exactly, for the vertices, centres and axes where the poses round them to; None where a
-    cylinder, cone or ellipsoid takes part.
+    a, b: placed convex shapes, poses as for check_pair. length: negative for a depth. The decision
+    is exact for the rounded world coordinates of vertices, centres and axes. None: one of them is a
+    cylinder, cone or ellipsoid.
     """
     try:
         return native.compare_signed_distance(a, b, length, pose_a, pose_b)
@@ -82,11 +82,12 @@ def check_pairs(
     method: MethodChoice = "auto",
     threads: int = 0,
 ) -> PairResults:
-    """check_pair over many pairs at once, on `threads` threads (0: one a core), without the GIL.
+    """check_pair for many pairs at once, on `threads` threads (0: one for each core), without the
+    GIL.
 
     Pair i is shapes[index_a[i]] at poses_a[i] against shapes[index_b[i]] at poses_b[i]. index_a,
     index_b: uint32 (n,). poses_a, poses_b: float64 (n, 7), each row tx, ty, tz, qx, qy, qz, qw. The
-    results are the same bits at any thread count.
+    results are bitwise equal for any number of threads.
 
     Raises TypeError for other arrays, ValueError when lengths differ, an index is out of range or a
     pose is not finite.

@@ -1,4 +1,4 @@
-"""The other libraries, each asked in a child process: they may abort, hang or lie."""
+"""Queries other libraries in child processes, because they may abort, hang or be wrong."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _FCL_SERVER: Final = "satcheck.core.fcl_server"
 
 
 class Peers:
-    """python-fcl and manifold3d; to be used in a `with`. A child starts with its first question.
+    """python-fcl and manifold3d. Use it in a `with` statement. A child starts with its first query.
 
-    seconds: for one question. megabytes: of each child.
+    seconds: for one query. megabytes: of each child.
     """
 
     def __init__(self, *, seconds: float, megabytes: int, fcl_server: str = _FCL_SERVER) -> None:
@@ -36,7 +36,8 @@ class Peers:
         self._open.close()
 
     def surfaces_meet(self, a: Mesh, b: Mesh) -> bool:
-        """By python-fcl. Raises SatcheckError (`cross-check-failed`) when it gives no answer."""
+        """The answer of python-fcl. Raises SatcheckError (`cross-check-failed`) if it gives
+        none."""
         try:
             reply = self._fcl.ask(
                 msgspec.msgpack.encode([*a.to_bytes(), *b.to_bytes()]), seconds=self._seconds
@@ -46,5 +47,6 @@ class Peers:
         return reply == b"meet"
 
     def common_volume(self, a: Mesh, b: Mesh) -> OverlapVolume:
-        """By manifold3d. Raises SatcheckError when it cannot use a mesh or gives no answer."""
+        """The answer of manifold3d. Raises SatcheckError if it cannot use a mesh or gives no
+        answer."""
         return self._meter.measure(a, b)

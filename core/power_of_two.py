@@ -1,7 +1,7 @@
-"""Powers of two: the scales that change no digit of a float64.
+"""Scaling by powers of two, which change no digit of a float64.
 
-Numbers that the core cannot hold are brought into its range by one of them. What is proven of the
-scaled numbers holds for those as given.
+They bring numbers into the range of the core. Proofs about scaled numbers hold for the original
+ones.
 """
 
 from __future__ import annotations
@@ -10,26 +10,26 @@ import math
 import sys
 from collections.abc import Iterable
 
-# Numbers below 2**exponent. The core takes coordinates up to 1e45, which is more than 2**149, and
-# sizes down to 1e-45: this leaves room for the sum of a few.
+# Limits of exponents; numbers are below 2**exponent. The core accepts coordinates up to 1e45, which
+# is more than 2**149, and sizes down to 1e-45. These limits leave room for sums of a few numbers.
 _HIGHEST = 146
 _LOWEST = -146
-# Beyond this a float64 has too few digits left, or cannot hold a sum.
+# Beyond this exponent, a float64 has too few digits, or cannot hold a sum.
 _FARTHEST = 905
 _SMALLEST = -1073  # of 2**-1074
 
 
 def exponent_of(length: float) -> int:
-    """The least k with |length| < 2**k; of 0 that of the smallest float64."""
+    """The least k with |length| < 2**k; for 0, the k of the smallest float64."""
     return math.frexp(length)[1] if length else _SMALLEST
 
 
 def exponent_into_range(low: int, high: int) -> int:
-    """The k for which lengths with exponents from `low` to `high`, times 2**k, suit the core; 0 for
-    those that do, or that nothing helps.
+    """The k for which lengths with exponents from `low` to `high`, times 2**k, are in the range of
+    the core; 0 if they already are, or if no k helps.
 
-    Both ends come to lie equally far from 1. Where they are too far apart for that, the largest
-    ones are kept in the range.
+    Both ends are then equally far from 1. If they are too far apart, the largest lengths stay in
+    the range.
     """
     if (low >= _LOWEST and high <= _HIGHEST) or low < -_FARTHEST or high > _FARTHEST:
         return 0
@@ -37,7 +37,7 @@ def exponent_into_range(low: int, high: int) -> int:
 
 
 def times_power(values: Iterable[float], exponent: int) -> tuple[float, ...] | None:
-    """The values times 2**exponent; None where one of them loses digits by that."""
+    """The values times 2**exponent; None if a value would lose digits."""
     given = tuple(values)
     try:
         scaled = tuple(math.ldexp(value, exponent) for value in given)
@@ -48,7 +48,8 @@ def times_power(values: Iterable[float], exponent: int) -> tuple[float, ...] | N
 
 
 def limit_times_power(limit: float, exponent: int) -> float:
-    """The limit times 2**exponent, or what no length or volume of the core reaches."""
+    """The limit times 2**exponent. On overflow, the largest float64, which no length or volume
+    reaches."""
     try:
         return math.ldexp(limit, exponent)
     except OverflowError:
@@ -56,7 +57,7 @@ def limit_times_power(limit: float, exponent: int) -> float:
 
 
 def held_times_power(value: float, exponent: int) -> float:
-    """The value times 2**exponent; not a number where float64 cannot hold that."""
+    """The value times 2**exponent; nan if it is beyond float64."""
     try:
         scaled = math.ldexp(value, exponent)
     except OverflowError:

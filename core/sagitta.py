@@ -1,12 +1,12 @@
-"""How far a curved surface is off the flat facets that stand for it, estimated from the facets.
+"""Estimates the distance between a curved surface and its flat facets, from the facets alone.
 
-Across a strip of width w whose neighbours are turned by theta, a surface through its sides has the
-sagitta (w / 2) tan(theta / 4): that of a circle of radius w / (2 sin(theta / 2)). Here in two
-directions: the corners of the mesh are taken to lie on the surface, whose normal there is a mean of
-those of the facets around. Over an edge e the surface then rises to
-e . (change of the normal) / (8 cos^2(turn / 4)) at the middle, and over a triangle like the
-quadratic with these values. That is exact for cylinders, and off by a few per cent on spheres,
-cones, and where the curvature varies.
+Let a strip have width w, and let its neighbours be turned by theta. A surface through its sides
+then has the sagitta (w / 2) tan(theta / 4), as for a circle of radius w / (2 sin(theta / 2)). The
+same is done in two directions. The corners of the mesh are assumed to lie on the surface, and the
+normal at a corner is a mean of the normals of the facets around it. At the middle of an edge e the
+surface rises by e . (change of the normal) / (8 cos^2(turn / 4)). Over a triangle it rises like the
+quadratic with these values. The result is exact for cylinders, and off by a few per cent for
+spheres, cones and varying curvature.
 """
 
 from __future__ import annotations
@@ -30,34 +30,36 @@ from satcheck.core.facets import (
     unit,
 )
 
-# Tessellators turn by at most 30 degrees or 0.5 rad (28.6 degrees) from facet to facet. Beyond nine
-# facets around a circle, octagons (45 degrees) and hexagons (60 degrees) are shapes of their own:
-# columns, nuts. Nobody draws a circle with less than six.
+# Tessellators turn by at most 30 degrees or 0.5 rad (28.6 degrees) from facet to facet. A circle
+# therefore has at least nine facets. Octagons (45 degrees) and hexagons (60 degrees) are shapes of
+# their own, such as columns and nuts. Nobody draws a circle with fewer than six facets.
 LEAST_AROUND = 9
 LEAST_PRISM = 6
-# What rounding may add to a limit.
+# A factor on limits that allows for rounding.
 _SLACK = 1.01
-# Neighbouring facets of one curve are about equally wide. A flat side that a curve runs into, up to
-# twice as wide as its facets and turning half as much, reads no larger sagitta than they.
+# Neighbouring facets of one curve have about the same width. At its end a curve may run into a flat
+# side. If that side is up to twice as wide as the facets and turns half as much, its sagitta is no
+# larger than theirs.
 MOST_UNLIKE = 2.0
-# Fewer facets in a row are those of a roof or of a chamfer. Three count where the faces beside them
-# continue the curve: there it turns half as much as between facets, to this fraction.
+# A chain with fewer facets is a roof or a chamfer. Three are enough if the faces beside them
+# continue the curve: it then turns there half as much as between facets, to this fraction.
 LEAST_FACETS = 4
 HALF_WITHIN = 0.1
-# The last facet of a chain turns on one side only, so that it reads half the sagitta (1 / 2.05 at
-# 40 degrees).
+# The last facet of a chain turns on one side only, so its sagitta is half of the others (1 / 2.05
+# at 40 degrees).
 AGREEING = 2.1
-# A facet of a saddle counts as concave from this share of its convex sagitta on; less is noise.
+# A facet of a saddle counts as concave if its concave sagitta is at least this share of its convex
+# one. Less is noise.
 LEAST_CONCAVE = 0.25
 
 
 class Curve(Struct, frozen=True):
-    """A chain or a patch of facets that stands for one smooth surface.
+    """A chain or a patch of facets that approximates one smooth surface.
 
-    concave: the facets lie outside of the material of the curved body, which the mesh exceeds by
-    the sagitta; else inside. facets: how many. sagitta: the largest one. Of that facet, turn: the
-    angle by which the surface turns over it, radians; radius: of curvature; triangle: one of the
-    mesh.
+    concave: the facets lie outside of the material of the curved body, so the mesh has more
+    material, by up to the sagitta; else inside. facets: their number. sagitta: the largest one. For
+    the facet with the largest sagitta: turn: the angle by which the surface turns over it, radians;
+    radius: of curvature; triangle: one of its triangles.
     """
 
     concave: bool
@@ -69,16 +71,16 @@ class Curve(Struct, frozen=True):
 
 
 class Curves(Struct, frozen=True):
-    """Concave ones first, then the largest sagitta; lengths in the unit of the points. left_out:
-    chains that turn more from facet to facet, and may be prisms."""
+    """curves: concave ones first, then by falling sagitta; lengths in the unit of the points.
+    left_out: chains that turn more from facet to facet, and may be prisms."""
 
     curves: tuple[Curve, ...]
     left_out: tuple[Curve, ...]
 
 
 class _OverTriangles(Struct, frozen=True):
-    """rises: (c, 2), how far the curved surface gets outside and inside of the mesh. radii, turns:
-    (c,), over an edge across the triangle.
+    """rises: (c, 2), the largest distance of the curved surface outside and inside of the mesh.
+    radii, turns: (c,), over an edge across the triangle.
     """
 
     rises: Floats
@@ -87,9 +89,9 @@ class _OverTriangles(Struct, frozen=True):
 
 
 def find_curves(points: Floats, triangles: Indices, precision: float, solid: bool) -> Curves:
-    """points: (v, 3), triangles: (t, 3), of a welded mesh. precision: how finely the coordinates
-    are known, in their unit. solid: the triangles are wound outward; else no side of them has
-    material, and all curves are concave."""
+    """points: (v, 3), triangles: (t, 3), of a welded mesh. precision: of the coordinates, in their
+    unit. solid: the triangles are wound outward; else no side has material, and all curves count as
+    concave."""
     facets, ridges = facets_and_ridges(points, triangles.astype(np.intp), precision)
     nothing = np.zeros(facets.count, dtype=bool)
     curves, taken = _curves(facets, ridges, 2 * math.pi / LEAST_AROUND, nothing, solid)
@@ -100,8 +102,8 @@ def find_curves(points: Floats, triangles: Indices, precision: float, solid: boo
 def _curves(
     facets: Facets, ridges: Ridges, most_turn: float, apart_from: Flags, solid: bool
 ) -> tuple[tuple[Curve, ...], Flags]:
-    """The curves whose neighbouring facets turn by no more than that, and the facets of which they
-    consist, (f,). Those with a facet of `apart_from` are left out."""
+    """(the curves whose neighbouring facets turn by at most `most_turn`, whether each facet is on
+    one of them, (f,)). Curves with a facet in `apart_from` are left out."""
     most_turn *= _SLACK
     smooth = _smooth(facets, ridges, most_turn)
     patch = components(facets.count, ridges.facets[smooth])
@@ -121,7 +123,7 @@ def _curves(
     concave = rises[:, 1] >= LEAST_CONCAVE * rises[:, 0]
     sagittas = np.where(concave, rises[:, 1], rises[:, 0])
     order = np.lexsort((over.rises[np.arange(len(facet)), concave[facet].astype(int)], facet))
-    highest = order[np.cumsum(np.bincount(facet, minlength=facets.count)) - 1]  # of each facet
+    highest = order[np.cumsum(np.bincount(facet, minlength=facets.count)) - 1]  # per facet
     curve = 2 * patch + concave
     members = np.flatnonzero(taken & _agreeing(sagittas, curve, ridges.facets[smooth]))
     members = members[np.lexsort((-sagittas[members], curve[members]))]
@@ -144,12 +146,12 @@ def _curves(
 def _smooth(facets: Facets, ridges: Ridges, most_turn: float) -> Flags:
     """(r,): whether a curve may run across the ridge.
 
-    Between two ridges a facet turns by the angle between them too: the sides of a low pyramid
-    hardly bend, but there are only a few of them around."""
+    The angle between two ridges of a facet counts too. The ridges of a low pyramid have small
+    angles, but the pyramid has only a few sides."""
     alike = ridges.widths.max(axis=1) <= MOST_UNLIKE * ridges.widths.min(axis=1)
     gentle = alike & (ridges.angles <= most_turn)
     number = np.bincount(ridges.facets[gentle].ravel(), minlength=facets.count)
-    # The sum for two unit vectors at an angle phi has the largest eigenvalue 1 + |cos phi|.
+    # For two unit vectors at an angle phi, the largest eigenvalue of the sum is 1 + |cos phi|.
     largest = np.linalg.eigvalsh(_squares(facets, ridges, gentle)[number == 2])[:, 2]
     between = np.zeros(facets.count)
     between[number == 2] = np.arccos(np.clip(largest - 1, 0.0, 1.0))
@@ -168,7 +170,7 @@ def _squares(facets: Facets, ridges: Ridges, chosen: Flags) -> Floats:
 
 
 def _faces_beside(ridges: Ridges, smooth: Flags, patch: Indices) -> Indices:
-    """(p,): how many faces each patch of facets runs into: at them it turns half as much."""
+    """(p,): the number of faces that each patch runs into. At these faces it turns half as much."""
     inside = np.zeros(len(patch))
     np.maximum.at(inside, ridges.facets[smooth], ridges.angles[smooth][:, None])
     share = ridges.angles[:, None] / np.maximum(inside[ridges.facets], LEAST_TURN)
@@ -177,7 +179,7 @@ def _faces_beside(ridges: Ridges, smooth: Flags, patch: Indices) -> Indices:
 
 
 def _agreeing(sagittas: Floats, curve: Indices, pairs: Indices) -> Flags:
-    """(f,): whether a neighbour on the same curve has about the same sagitta: one facet alone is a
+    """(f,): whether a neighbour on the same curve has about the same sagitta. A single facet is a
     flaw."""
     low, high = np.sort(sagittas[pairs], axis=1).T
     same = curve[pairs[:, 0]] == curve[pairs[:, 1]]
@@ -189,13 +191,14 @@ def _agreeing(sagittas: Floats, curve: Indices, pairs: Indices) -> Flags:
 def _of_triangles(
     facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indices, most_turn: float
 ) -> _OverTriangles:
-    """No rises where the surface turns too far, even for the diagonal of a quadrilateral."""
+    """Rises over triangles; none where the surface turns too far even for the diagonal of a
+    quadrilateral."""
     facet = facets.of_triangle[chosen]
     corners = facets.points[facets.triangles[chosen]]
     normals = _corner_normals(facets, ridges, smooth, chosen)
     edges = np.roll(corners, -1, axis=1) - corners
     change = np.roll(normals, -1, axis=1) - normals
-    # A strip is curved across its ridges alone, whatever it runs into at its ends.
+    # A strip is curved only across its ridges. Its ends do not matter.
     values, vectors = np.linalg.eigh(_squares(facets, ridges, smooth))
     is_strip = values[:, 1] <= math.tan(math.pi / LEAST_AROUND) ** 2 * values[:, 2]
     along = np.where(is_strip[:, None], vectors[:, :, 2], 0.0)[facet, None]
@@ -205,7 +208,8 @@ def _of_triangles(
     at_edges = (edges * change).sum(axis=2) / (8 * np.cos(turns / 4) ** 2)
     sizes = np.abs(at_edges)
     squares = (edges**2).sum(axis=2)
-    # Of the edges over which it rises, by half of the most, the one that turns least: no diagonal.
+    # Among the edges with at least half of the largest rise, take the one that turns least. It is
+    # no diagonal.
     rising = sizes >= sizes.max(axis=1, keepdims=True) / 2
     across = np.arange(len(sizes)), np.where(rising, turns, np.inf).argmin(axis=1)
     rise, turn = sizes[across], turns[across]
@@ -216,11 +220,11 @@ def _of_triangles(
 
 
 def _highest(at_edges: Floats) -> Floats:
-    """(t, 2): how far above and below 0 the quadratic over a triangle gets that is 0 at its
-    corners. at_edges: (t, 3), its values at the middles of the edges.
+    """(t, 2): the largest values above and below 0 of the quadratic over a triangle that is 0 at
+    its corners. at_edges: (t, 3), its values at the middles of the edges.
 
-    These are squared lengths of the edges in the metric of the quadratic, over 8. In an acute
-    triangle the centre of the circle through the corners is inside, and highest."""
+    These values are squared lengths of the edges in the metric of the quadratic, divided by 8. In
+    an acute triangle the centre of the circumscribed circle is inside and is the highest point."""
     x, y, z = np.sort(np.abs(at_edges), axis=1).T
     below = x * (2 * (y + z) - x) - (z - y) ** 2
     acute = (z < x + y) & (below > 0)
@@ -233,9 +237,9 @@ def _highest(at_edges: Floats) -> Floats:
 
 
 def _corner_normals(facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indices) -> Floats:
-    """(c, 3, 3): the normal of the curved surface at each corner of these triangles, which are all
-    those of the facets of curves."""
-    # A node is a facet at one of its corners. Those that ridges of a curve join are a fan.
+    """(c, 3, 3): the normal of the curved surface at each corner of these triangles. chosen: all
+    triangles of facets on curves."""
+    # A node is a facet at one of its corners. Nodes joined by ridges of a curve form a fan.
     triangles = facets.triangles[chosen]
     key = triangles * facets.count + facets.of_triangle[chosen, None]
     nodes, node = np.unique(key, return_inverse=True)
@@ -244,7 +248,7 @@ def _corner_normals(facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indic
     sides = ridges.facets[ridges.of_edge[edges]]
     links = np.searchsorted(nodes, ridges.edges[edges, :, None] * facets.count + sides[:, None])
     fan = components(len(nodes), links.reshape(-1, 2))
-    # Of two chords of one circle the narrower one has the direction nearer to that of the corner.
+    # The narrower of two chords of one circle is closer to the tangent at the corner.
     width = np.full(facets.count, np.inf)
     np.minimum.at(width, ridges.facets[smooth], ridges.widths[smooth])
     angles = _corner_angles(facets.points[triangles])
@@ -254,7 +258,7 @@ def _corner_normals(facets: Facets, ridges: Ridges, smooth: Flags, chosen: Indic
     met = np.unique(np.stack([links.ravel(), np.repeat(ridges.of_edge[edges], 4)]), axis=1)[0]
     here = np.bincount(met, minlength=len(nodes))
     everywhere = np.bincount(ridges.facets[smooth].ravel(), minlength=facets.count)
-    # Where all ridges around run into one corner the surface has a tip, and no normal.
+    # If all ridges around a corner run into it, the surface has a tip there, and no normal.
     is_smooth = (np.bincount(fan, here < everywhere[facet]) > 0)[fan]
     normals: Floats = np.where(is_smooth[:, None], mean[fan], facets.normals[facet])
     of_corners: Floats = normals[node.reshape(-1, 3)]

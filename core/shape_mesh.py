@@ -1,4 +1,4 @@
-"""Meshes of shapes: one inside, with its vertices on the surface, and one around."""
+"""Meshes of shapes: an inscribed one with its vertices on the surface, and an enclosing one."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def mesh_of(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
     """The hull of points on the surface: closed, wound outward, and exactly convex.
 
     A box is exact, with 8 vertices and 12 triangles. A curved shape has `segments` points on each
-    of its circles, a multiple of 4 from 8 on, those on its axes among them; half as many bands
-    from pole to pole. Each coordinate is rounded to float64, so that a vertex lies on the surface
-    up to that rounding. Raises OverflowError for sizes beyond what is decided exactly.
+    of its circles, including those on its axes, and half as many bands from pole to pole. segments:
+    a multiple of 4, at least 8. Vertices lie on the surface up to the rounding of their coordinates
+    to float64. Raises OverflowError for sizes beyond the range of exact arithmetic.
     """
     if segments < 8 or segments % 4:
         raise ValueError(f"segments should be a multiple of 4 from 8 on, not {segments}")
@@ -41,10 +41,10 @@ def mesh_of(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
 
 
 def sag_of(shape: Primitive, segments: int) -> float:
-    """No point of the shape is farther than this from `mesh_of` it with so many segments.
+    """An upper bound of the distance of a point of the shape from `mesh_of(shape, segments)`.
 
-    A facet between two rings and two meridians of the unit ball is no nearer to its centre than
-    cos(pi / segments) squared; the other shapes are stretched or drawn out from balls and discs.
+    A facet of the unit ball, between two rings and two meridians, has at least the distance cos(pi
+    / segments) squared from the centre. The other shapes are stretched or extruded balls and discs.
     """
     match shape:
         case Box():
@@ -57,8 +57,9 @@ def sag_of(shape: Primitive, segments: int) -> float:
 
 
 def mesh_around(shape: Primitive, segments: int = DEFAULT_SEGMENTS) -> Mesh:
-    """Contains the shape. Each face plane of the inner mesh, grown by s, is s times as far from the
-    origin, which lies inside; the shape reaches as far as its support along the face's normal."""
+    """A mesh that contains the shape: the inner mesh, scaled by s about the origin, which lies
+    inside. s is the least factor for which no face plane is nearer to the origin than the support
+    of the shape along its normal."""
     import numpy as np
 
     inner = mesh_of(shape, segments)
@@ -92,10 +93,11 @@ def _surface_points(shape: Primitive, segments: int) -> Iterator[Vector]:
 
 
 def _ball(radii: Vector, segments: int, half_length: float = 0.0) -> Iterator[Vector]:
-    """Rings around z from either pole to the equator, each half moved out by `half_length`."""
+    """Rings around z from both poles to the equator. Each half is moved outward by
+    `half_length`."""
     rx, ry, rz = radii
     circle = _circle(segments)
-    for cosine, sine in circle[: segments // 4 + 1]:  # of the angle to the axis
+    for cosine, sine in circle[: segments // 4 + 1]:  # angle to the axis
         z = rz * cosine + half_length
         for x, y in circle if sine else circle[:1]:
             yield rx * sine * x, ry * sine * y, z
@@ -103,7 +105,8 @@ def _ball(radii: Vector, segments: int, half_length: float = 0.0) -> Iterator[Ve
 
 
 def _circle(segments: int) -> list[tuple[float, float]]:
-    """Vectors of the unit circle from (1, 0) on; a quarter turn maps them exactly to themselves."""
+    """Points of the unit circle, starting at (1, 0). A quarter turn maps the set exactly to
+    itself."""
     steps = [math.tau * k / segments for k in range(1, segments // 4)]
     first = [(1.0, 0.0), *((math.cos(angle), math.sin(angle)) for angle in steps)]
     second = [(-y, x) for x, y in first]

@@ -1,7 +1,6 @@
-"""Shapes stated by their sizes: a box, and five that are curved.
+"""Shapes defined by their sizes: a box and five curved shapes.
 
-Each is centred at its own origin, with its axis along z; the apex of a cone is at +z. All of them
-are convex.
+Each is convex and centred at its own origin, with its axis along z. The apex of a cone is at +z.
 """
 
 from __future__ import annotations
@@ -21,12 +20,13 @@ Columns = tuple[Vector, Vector, Vector]
 _TRIPLES = frozenset(("size", "radii"))
 _NUMBERS = frozenset((int, float))
 UNTURNED: Columns = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-# Of the entries of M^T M of a rotation: what a chain of float64 products makes of 0 and 1.
+# The rounding error of the entries of M^T M for a rotation M in float64.
 _TURN_ROUNDING = 2.0**-47
 
 
 class Sized(Struct, frozen=True, tag_field="type", tag=str.lower):
-    """Its fields are sizes: numbers, or tuples of three, positive and finite. Else ValueError."""
+    """Base of shapes. Fields are positive finite numbers, or tuples of three. Else raises
+    ValueError."""
 
     def __post_init__(self) -> None:
         for name in self.__struct_fields__:
@@ -34,7 +34,7 @@ class Sized(Struct, frozen=True, tag_field="type", tag=str.lower):
 
 
 class Box(Sized, frozen=True):
-    """size: its whole extent along x, y and z."""
+    """size: full extents along x, y and z."""
 
     size: Vector
 
@@ -46,7 +46,8 @@ class Sphere(Sized, frozen=True):
 
 
 class Capsule(Sized, frozen=True):
-    """All points at most `radius` from a segment of `length`, the caps not counted, along z."""
+    """All points at most `radius` from a segment of `length` along z. `length` excludes the
+    caps."""
 
     radius: float
     length: float
@@ -89,18 +90,19 @@ def is_curved(shape: Primitive) -> bool:
 
 
 def values_of(shape: Primitive) -> Values:
-    """{"type": "box", "size": (x, y, z)} and the like: as a scene file states the shape."""
+    """The shape as a scene file states it, for example {"type": "box", "size": (x, y, z)}."""
     return to_builtins(shape)  # type: ignore[no-any-return]
 
 
 def sizes_of(shape: Primitive) -> tuple[float, ...]:
-    """As the shape states them."""
+    """The sizes in the order of the fields."""
     sizes = (getattr(shape, name) for name in shape.__struct_fields__)
     return tuple(s for size in sizes for s in (size if isinstance(size, tuple) else (size,)))
 
 
 def half_sizes(shape: Primitive) -> Vector:
-    """Radius, radius, half height, of a capsule without its caps; of an ellipsoid its radii."""
+    """Half sizes along x, y, z: radius, radius, half height (of a capsule without its caps); for an
+    ellipsoid, its radii."""
     match shape:
         case Sphere(radius):
             return radius, radius, 0.0
@@ -113,7 +115,7 @@ def half_sizes(shape: Primitive) -> Vector:
 
 
 def times_power_of_two(shape: Primitive, exponent: int) -> Primitive | None:
-    """The shape with its sizes times 2**exponent; None where one of them is not that exactly."""
+    """The shape with its sizes times 2**exponent; None if a size would be rounded."""
     sizes = times_power(sizes_of(shape), exponent)
     if sizes is None:
         return None
@@ -123,7 +125,7 @@ def times_power_of_two(shape: Primitive, exponent: int) -> Primitive | None:
 
 
 def primitive_of(values: object) -> Primitive:
-    """The inverse of `values_of`; ValueError for what states no shape."""
+    """The inverse of `values_of`. Raises ValueError if the values are not a shape."""
     if not isinstance(values, dict):
         raise ValueError("not a shape: an object with a type and its sizes expected")
     kind = values.get("type")
@@ -144,7 +146,8 @@ def primitive_of(values: object) -> Primitive:
 
 
 def support(shape: Primitive, direction: Vector) -> float:
-    """The largest product of the direction with a point of the shape, in its own frame."""
+    """The support value: the largest dot product of the direction with a point of the shape, in its
+    own frame."""
     x, y, z = direction
     across = math.hypot(x, y)
     match shape:
@@ -163,8 +166,8 @@ def support(shape: Primitive, direction: Vector) -> float:
 
 
 class ShapeImage(Struct, frozen=True):
-    """What a matrix makes of a shape, exactly: the points origin + y[0] columns[0] +
-    y[1] columns[1] + y[2] columns[2], in rationals, for y in the primitive."""
+    """The exact image of a shape under a matrix: the points origin + y[0] columns[0] + y[1]
+    columns[1] + y[2] columns[2] for y in the primitive, in rational numbers."""
 
     primitive: Primitive
     columns: Columns
@@ -172,8 +175,8 @@ class ShapeImage(Struct, frozen=True):
 
 
 def image_of(primitive: Primitive, transform: tuple[float, ...] | None) -> ShapeImage:
-    """Under a row-major affine 4x4; None: as it is. A sphere that is turned stays what it was,
-    whatever was rounded in the rotation."""
+    """The image under a row-major affine 4x4; None: the identity. The rotation of a sphere is
+    ignored, so that its rounding has no effect."""
     if transform is None:
         return ShapeImage(primitive, UNTURNED, (0.0, 0.0, 0.0))
     x, y, z = (tuple(transform[k:12:4]) for k in range(3))
@@ -184,7 +187,7 @@ def image_of(primitive: Primitive, transform: tuple[float, ...] | None) -> Shape
 
 
 def _is_turn(columns: Columns) -> bool:
-    """Mirrored or not."""
+    """Whether the columns are a rotation, perhaps with a reflection."""
     for i in range(3):
         for j in range(i + 1):
             (a, b, c), (x, y, z) = columns[i], columns[j]
@@ -194,21 +197,21 @@ def _is_turn(columns: Columns) -> bool:
 
 
 def _checked_size(name: str, value: float | tuple[float, ...]) -> float | tuple[float, ...]:
-    """In float64."""
+    """The size in float64."""
     wanted = 3 if name in _TRIPLES else 1
     numbers = value if isinstance(value, tuple) else (value,)
     if isinstance(value, tuple) != (wanted == 3) or len(numbers) != wanted:
         what = "three numbers" if wanted == 3 else "a number"
         raise ValueError(f"{name} should be {what}")
     if not _NUMBERS.issuperset(map(type, numbers)):
-        raise ValueError(f"{name} holds something else than numbers")
+        raise ValueError(f"{name} should contain only numbers")
     if not _are_positive(numbers):
         raise ValueError(f"{name} should be positive and finite")
     return tuple(map(float, numbers)) if isinstance(value, tuple) else float(value)
 
 
 def _are_positive(numbers: Sequence[float]) -> bool:
-    """And finite."""
+    """Whether all numbers are positive and finite."""
     try:
         return min(numbers) > 0 and all(map(math.isfinite, numbers))
     except OverflowError:  # an integer beyond float64

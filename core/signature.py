@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class Signature:
-    """Descriptor for `__signature__` of a class, made when somebody reads it."""
+    """Descriptor for `__signature__` of a class. The signature is made at the first access."""
 
     def __get__(self, instance: object, owner: Any) -> inspect.Signature:
         import ast

@@ -18,7 +18,8 @@ Transform = tuple[float, ...]
 
 
 def cos_sin(degrees: float) -> tuple[float, float]:
-    """Exact at multiples of 90: whole turns and quarters are taken off without rounding."""
+    """(cosine, sine). Exact at multiples of 90, because full and quarter turns are removed without
+    rounding."""
     turned = math.fmod(degrees, 360.0)
     rest = math.remainder(turned, 90.0)
     quarter = round((turned - rest) / 90.0) % 4
@@ -27,7 +28,8 @@ def cos_sin(degrees: float) -> tuple[float, float]:
 
 
 def quaternion_matrix(x: float, y: float, z: float, w: float) -> Rotation:
-    """Of any length but zero. No root is taken, so that (s, 0, 0, s) is a quarter turn exactly."""
+    """The rotation of a quaternion of any length except zero. It needs no root, so (s, 0, 0, s)
+    gives an exact quarter turn."""
     largest = max(abs(x), abs(y), abs(z), abs(w))
     x, y, z, w = x / largest, y / largest, z / largest, w / largest
     s = 2.0 / (x * x + y * y + z * z + w * w)
@@ -41,7 +43,8 @@ def quaternion_matrix(x: float, y: float, z: float, w: float) -> Rotation:
 def about_fixed_axes(
     x: tuple[float, float], y: tuple[float, float], z: tuple[float, float]
 ) -> Rotation:
-    """Turned about the fixed axes x, then y, then z, by angles given as cosine and sine."""
+    """The rotation about the fixed axes x, then y, then z; each angle is given as (cosine,
+    sine)."""
     (cx, sx), (cy, sy), (cz, sz) = x, y, z
     return (
         *(cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx),
@@ -51,9 +54,9 @@ def about_fixed_axes(
 
 
 def about(axis: Vector, angle: tuple[float, float]) -> Rotation:
-    """About a unit axis, by the angle of the given cosine and sine. Formula: Rodrigues (1840).
+    """The rotation about a unit axis; the angle is (cosine, sine). Formula: Rodrigues (1840).
 
-    Exact zeros and ones where the axis is one of the frame's.
+    Entries are exactly 0 or 1 where they should be if the axis is an axis of the frame.
     """
     x, y, z = axis
     c, s = angle
@@ -66,7 +69,7 @@ def about(axis: Vector, angle: tuple[float, float]) -> Rotation:
 
 
 def compose(outer: Transform, inner: Transform) -> Transform:
-    """`inner` first, then `outer`; both affine.
+    """The matrix product: first `inner`, then `outer`; both affine.
 
     Each entry is summed from left to right in float64, so that it is the same everywhere.
     """
@@ -79,7 +82,7 @@ def compose(outer: Transform, inner: Transform) -> Transform:
 
 
 def placed(rotation: Sequence[float], origin: Sequence[float]) -> Transform:
-    """Turned, then moved to `origin`."""
+    """The placement that rotates, then translates to `origin`."""
     return (
         *(*rotation[0:3], origin[0]),
         *(*rotation[3:6], origin[1]),

@@ -1,9 +1,9 @@
 """Child processes for code that may hang, abort or use all memory.
 
-`run_isolated("some.module", request, ...)` runs that module's `serve(request: bytes) -> bytes` in
-a fresh interpreter and returns the reply; a `Worker` keeps the interpreter for further requests. A
-fresh interpreter rather than a fork: it works on Windows, inherits no threads and no locks of ours,
-and a native library that corrupts its memory takes only the child with it.
+`run_isolated("some.module", request, ...)` runs `serve(request: bytes) -> bytes` of that module in
+a fresh interpreter and returns the reply. A `Worker` keeps the interpreter for further requests. A
+fresh interpreter works on Windows, unlike a fork, and inherits no threads and no locks. If a native
+library corrupts its memory, only the child dies.
 """
 
 from __future__ import annotations
@@ -50,10 +50,10 @@ __all__ = [
 T = TypeVar("T")
 
 _BYTES_PER_MEGABYTE = 1 << 20
-_STDERR_TAIL_BYTES = 1 << 13  # of a child's talk, kept for the error message
+_STDERR_TAIL_BYTES = 1 << 13  # of a child's standard error, kept for the error message
 _STDERR_TAIL_LINES = 6
-_POLL_SECONDS = 0.1  # between looks for Ctrl-C, where a blocked wait would not notice it
-_REAP_SECONDS = 5.0  # for a child that closed its replies, and for its pipes, to be gone
+_POLL_SECONDS = 0.1  # interval of checks for Ctrl-C, which a blocked wait would not notice
+_REAP_SECONDS = 5.0  # time for a child that closed its replies to end
 _WINDOWS_NO_MEMORY_EXIT_CODE = 0xC0000017  # STATUS_NO_MEMORY
 
 
@@ -67,17 +67,19 @@ def run_isolated(module: str, request: bytes, *, seconds: float, megabytes: int)
 
 
 class Worker:
-    """A child process that answers one request after another; to be closed, or used in a `with`.
+    """A child process that answers one request after another. Close it, or use it in a `with`
+    statement.
 
     module: importable name, under the same interpreter and environment; the working directory is
         not on the child's path.
     megabytes: limit of the child's address space in MiB. Systems that refuse such a limit (macOS,
         Windows) still have the time limit. A reply larger than this is refused everywhere.
 
-    The child is started by the first request, and again by the next one after it was lost. It runs
-    with one OpenMP thread. Threads may share a worker: they take turns.
+    The first request starts the child.
 
-    answered: number of requests that the present child has answered.
+    If the child dies, the next request starts a new one. It runs with one OpenMP thread. Threads
+    may share a worker; their requests run one after another. answered: the number of requests that
+    the current child has answered.
     """
 
     def __init__(self, module: str, *, megabytes: int) -> None:
@@ -88,10 +90,11 @@ class Worker:
         self._turn = threading.Lock()
 
     def ask(self, request: bytes, *, seconds: float) -> bytes:
-        """The reply. seconds: wall-clock limit, start of the child included; then it is killed.
+        """The reply. seconds: wall-clock limit, including the start of the child; the child is then
+        killed.
 
-        Raises WorkerNotStarted, WorkerTimeout, WorkerOutOfMemory, WorkerCrashed, or WorkerFailed
-        when serve() itself raises, which the child survives.
+        Raises WorkerNotStarted, WorkerTimeout, WorkerOutOfMemory or WorkerCrashed. Raises
+        WorkerFailed if serve() itself raises; the child survives that.
         """
         with self._turn:
             deadline = time.monotonic() + seconds
@@ -135,7 +138,7 @@ class Worker:
         raise WorkerFailed(self._module, exception_type, exception_message)
 
     def _lost(self, seconds: float) -> WorkerError:
-        """Why there is no reply, once the child is gone."""
+        """The reason why there is no reply, after the child has ended."""
         child = self._end()
         assert child is not None
         if child.reply_too_large:
@@ -151,7 +154,7 @@ class Worker:
 
 
 class _Child:
-    """A process and its three pipes, each served by a thread so that none can block the others.
+    """A process and its three pipes. A thread serves each pipe, so that no pipe blocks another.
 
     Raises WorkerNotStarted. exit_code: after end().
     """
@@ -179,7 +182,7 @@ class _Child:
         self._reply = bytearray()
         self._reply_limit = megabytes * _BYTES_PER_MEGABYTE + HEADER.size
         self._answered = threading.Event()
-        self._closed = False  # it gave its replies up by itself
+        self._closed = False  # the child closed its replies
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         assert self._process.stderr is not None
@@ -189,7 +192,7 @@ class _Child:
         self._threads.append(self._start(self._listen, self._process.stderr))
 
     def answer(self, request: bytes, deadline: float) -> tuple[bytes, bytes] | None:
-        """(status, payload) of its answer; None when there is none in time, or none at all."""
+        """(status, payload) of its answer; None: there is no answer, or not in time."""
         self._reply.clear()
         self._answered.clear()
         if self._closed:
@@ -204,7 +207,7 @@ class _Child:
         return None if self.reply_too_large else parse_frame(bytes(self._reply))
 
     def end(self) -> None:
-        """Kill it; one that is on its way out by itself gets the time to say why."""
+        """Kills the child. A child that is already ending gets time to report the reason."""
         import subprocess
 
         with self._process:
@@ -232,8 +235,8 @@ class _Child:
                 while view:
                     view = view[self._requests.write(view) :]
         except OSError:
-            return  # the child is gone; its exit code tells the story
-        # The pipe stays open: to the child, its end is the end of its parent.
+            return  # the child has ended; its exit code gives the reason
+        # The pipe stays open, because the child ends when it closes.
 
     def _receive(self, pipe: IO[bytes]) -> None:
         while chunk := pipe.read(CHUNK_BYTES):

@@ -1,8 +1,9 @@
 """The child's side of `core.worker`: `python -P -m satcheck.core.worker_child MODULE MEGABYTES`.
 
-Standard output moves to standard error before the module is imported, so whatever a native library
-prints never reaches the replies nor the parent's output. Requests are answered one after another;
-when their pipe closes (the parent is done, or was killed), the child ends itself, even at work.
+Standard output is redirected to standard error before the module is imported, so that prints of a
+native library reach neither the replies nor the parent's output. Requests are answered one after
+another. When their pipe closes (the parent is done, or was killed), the child ends itself, even
+during work.
 """
 
 from __future__ import annotations
@@ -106,7 +107,7 @@ def _limit_resources(megabytes: int) -> None:
         try:
             resource.setrlimit(kind, (ceiling, ceiling))
         except (ValueError, OSError):
-            # macOS refuses address-space limits: said in core.worker, the time limit holds.
+            # macOS refuses address-space limits. The time limit still holds, see core.worker.
             continue
 
 

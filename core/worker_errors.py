@@ -9,7 +9,7 @@ class WorkerError(SatcheckError):
     """A child process gave no answer."""
 
     def __reduce__(self) -> tuple[object, ...]:
-        return type(self), self.args  # each subclass keeps what it was made from in args
+        return type(self), self.args  # args holds the constructor arguments of each subclass
 
 
 class WorkerNotStarted(WorkerError):
@@ -33,7 +33,7 @@ class WorkerTimeout(WorkerError):
 
 
 class WorkerOutOfMemory(WorkerError):
-    """The child needed more memory than it was allowed."""
+    """The child needed more memory than its limit."""
 
     def __init__(self, module: str, megabytes: int) -> None:
         super().__init__("worker-out-of-memory", f"{module} needed more than {megabytes} MiB")

@@ -1,6 +1,6 @@
-"""What goes through the pipes between `core.worker` and its child.
+"""Frames of the pipes between `core.worker` and its child.
 
-One frame a message: magic, status, length, CRC-32, payload.
+Each message is one frame: magic, status, length, CRC-32, payload.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ def frame_header(status: bytes, payload: bytes) -> bytes:
 
 
 def frame_length(data: bytes | bytearray) -> int | None:
-    """How long the frame is that starts here; None while its header is not complete."""
+    """The length of the frame that starts here; None: its header is not complete yet."""
     if len(data) < HEADER.size:
         return None
     return HEADER.size + int(HEADER.unpack_from(data)[2])
 
 
 def parse_frame(data: bytes) -> tuple[bytes, bytes] | None:
-    """(status, payload), or None when the frame is truncated or damaged."""
+    """(status, payload); None: the frame is truncated or damaged."""
     if len(data) < HEADER.size:
         return None
     magic, status, length, checksum = HEADER.unpack_from(data)

@@ -1,4 +1,4 @@
-"""Concave mesh -> convex parts with a measured error, cached on disk."""
+"""Splits concave meshes into convex parts with a measured error, and caches them on disk."""
 
 from satcheck.decompose.cache import Cache, CacheInfo
 from satcheck.decompose.decomposition import decompose

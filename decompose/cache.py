@@ -1,12 +1,12 @@
-"""Convex parts on disk, addressed by the content they were computed from.
+"""A cache of convex parts on disk. The key of an entry is the content it was computed from.
 
-An entry is one file, `<key>.parts`: magic, the key, the SHA-256 of the payload, the payload. It is
-published by renaming a complete file over the name, so a reader sees all of it or nothing; one that
-is damaged anyway counts as missing and is replaced by the next writer. Two processes that need the
-same entry at once compute it once: the second waits for the first one's file lock.
+An entry is one file, `<key>.parts`: magic, the key, the SHA-256 of the payload, the payload. A
+complete file is renamed to this name, so a reader sees all of it or nothing. A damaged entry counts
+as missing, and the next writer replaces it. If two processes need the same entry, it is computed
+once: the second process waits for the file lock of the first.
 
-A cache that cannot be read or written never stops the work: it only costs the time it would have
-saved. What happened is in the notes of the result.
+If the cache cannot be read or written, the parts are computed without it, and a note of the result
+says so.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from typing import Final
 from msgspec import Struct
 
 DIRECTORY_VARIABLE: Final = "SATCHECK_CACHE_DIR"
-_SUBDIRECTORY: Final = "decompositions"  # the user's directory may hold other things: never touched
+_SUBDIRECTORY: Final = "decompositions"  # other files in the user's directory are never touched
 _ENTRY_SUFFIX: Final = ".parts"
 _LOCK_SUFFIX: Final = ".lock"
 _TEMPORARY_SUFFIX: Final = ".tmp"
@@ -31,7 +31,7 @@ _MAGIC: Final = b"SATPARTS"
 
 
 class CacheInfo(Struct, frozen=True):
-    """path: where the entries are; bytes: their total size."""
+    """path: the directory of the entries; bytes: their total size."""
 
     path: Path
     entries: int
@@ -39,31 +39,31 @@ class CacheInfo(Struct, frozen=True):
 
 
 class Cache:
-    """A directory of entries. Makes no directory before the first entry is stored."""
+    """A directory of entries. It is created when the first entry is stored."""
 
     def __init__(self, directory: Path | None = None) -> None:
-        """directory: None is $SATCHECK_CACHE_DIR or else the user's cache directory."""
+        """directory: None: $SATCHECK_CACHE_DIR, or else the user's cache directory."""
         self.path = (_default_directory() if directory is None else directory) / _SUBDIRECTORY
 
     def info(self) -> CacheInfo:
         sizes = []
         for entry in self._files(_ENTRY_SUFFIX):
-            with suppress(OSError):  # removed by somebody else meanwhile
+            with suppress(OSError):  # another process has removed it
                 sizes.append(entry.stat().st_size)
         return CacheInfo(self.path, len(sizes), sum(sizes))
 
     def clear(self) -> int:
-        """Removes every entry; returns how many. Raises OSError when one cannot be removed."""
+        """Removes all entries and returns their number. Raises OSError if one cannot be removed."""
         entries = self._files(_ENTRY_SUFFIX)
         for file in entries:
             file.unlink(missing_ok=True)
         for file in self._files(_TEMPORARY_SUFFIX) + self._files(_LOCK_SUFFIX):
-            with suppress(OSError):  # in use by somebody else; it does no harm
+            with suppress(OSError):  # another process uses it; harmless
                 file.unlink(missing_ok=True)
         return len(entries)
 
     def load(self, key: bytes) -> bytes | None:
-        """The payload stored under a key of 32 bytes; None where there is none or a damaged one."""
+        """The payload of a key of 32 bytes; None: missing or damaged."""
         try:
             data = self._entry(key).read_bytes()
         except OSError:
@@ -77,7 +77,7 @@ class Cache:
         return payload
 
     def store(self, key: bytes, payload: bytes) -> None:
-        """Publishes a payload, replacing what is there. Raises OSError where it cannot."""
+        """Stores a payload and replaces an old one. Raises OSError on failure."""
         import tempfile
 
         self.path.mkdir(parents=True, exist_ok=True)
@@ -99,7 +99,7 @@ class Cache:
     def single_flight(self, key: bytes, seconds: float) -> Iterator[None]:
         """Holds the lock of one key, so that one process at a time computes its payload.
 
-        Raises OSError where there can be no lock, TimeoutError after `seconds` of waiting.
+        Raises OSError if locks are not supported, TimeoutError after `seconds` of waiting.
         """
         from filelock import FileLock, Timeout
 

@@ -1,4 +1,4 @@
-"""CoACD behind core.worker: the only module that imports coacd, and only ever in a child process.
+"""The CoACD server for core.worker: the only module that imports coacd, only in a child process.
 
 Xinyue Wei, Minghua Liu, Zhan Ling, Hao Su, "Approximate Convex Decomposition for 3D Meshes with
 Collision-Aware Concavity and Tree Search" (2022), in the authors' implementation.
@@ -24,8 +24,8 @@ from satcheck.decompose.settings import DecompositionSettings
 
 
 class _Piece(Struct, frozen=True):
-    """manifold: closed, and each edge has two triangles. CoACD crashes on other meshes, and
-    rebuilds them from voxels first."""
+    """manifold: closed, and each edge has two triangles. CoACD would crash on other meshes, so they
+    are rebuilt from voxels first."""
 
     mesh: MeshBytes
     manifold: bool
@@ -73,8 +73,8 @@ def serve(message: bytes) -> bytes:
 
 
 def _unit_frame(vertices: NDArray[np.float64]) -> tuple[NDArray[Any], int]:
-    """(centre, e): (vertices - centre) / 2^e has its largest coordinate in [1/2, 1]."""
-    # Halves first, so that no coordinate can overflow.
+    """(centre, e): the largest coordinate of (vertices - centre) / 2^e is in [1/2, 1]."""
+    # Halved first, so that no coordinate can overflow.
     low, high = vertices.min(axis=0) / 2.0, vertices.max(axis=0) / 2.0
     exponent = int(np.frexp((high - low).max())[1])
     return high + low, exponent

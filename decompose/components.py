@@ -1,4 +1,4 @@
-"""A mesh cut into pieces that can be decomposed one by one, without changing the solid."""
+"""Cuts a mesh into pieces that can be decomposed separately, without changing the solid."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ Bounds = tuple[tuple[float, float, float], tuple[float, float, float]]
 def independent_pieces(mesh: Mesh) -> list[Mesh]:
     """Pieces of a solid mesh whose union, as solids, is that solid.
 
-    Each outward shell is a piece of its own, together with the cavities that may lie in it: a
-    cavity decomposed alone would be filled. By bounding boxes, so that two shells may stay together
-    without need, but a cavity is never parted from its shell.
+    Each outward shell is a piece, together with the cavities that may lie in it, because a cavity
+    alone would be filled. Bounding boxes decide this. Two shells may therefore stay together
+    needlessly, but a cavity is never separated from its shell.
     """
     components = mesh.components()
     if len(components) < 2:
@@ -46,13 +46,13 @@ def merged(meshes: Sequence[Mesh]) -> Mesh:
 
 
 def diagonal(mesh: Mesh) -> float:
-    """Of the bounding box."""
+    """The diagonal of the bounding box."""
     low, high = mesh.bounds
     return math.dist(low, high)
 
 
 def _encloses(outer: Mesh, inner: Mesh) -> bool:
-    """By bounding boxes: False only where `inner` cannot lie in `outer`."""
+    """Compares bounding boxes. False: `inner` certainly does not lie in `outer`."""
     (outer_low, outer_high), (inner_low, inner_high) = outer.bounds, inner.bounds
     return all(
         low <= inner_low[axis] and inner_high[axis] <= high

@@ -1,4 +1,4 @@
-"""Parts, inner parts and errors, computed: the slow way, never taken for a cache hit."""
+"""Computes parts, inner parts and errors. A cache hit does not need this module."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ from satcheck.decompose.settings import DecompositionSettings
 
 _SERVER: Final = "satcheck.decompose.coacd_server"
 # A piece this close to its hull, in diagonals of its bounding box, is one part. CoACD at the same
-# threshold leaves about 0.3 * threshold, and moves its cuts by up to 1e-4 to keep off vertices.
+# threshold leaves an error of about 0.3 * threshold, and moves its cuts by up to 1e-4 to avoid
+# vertices.
 _CONVEX_ENOUGH_PER_THRESHOLD: Final = 0.05
 _CONVEX_ENOUGH: Final = 1e-4
 
@@ -33,7 +34,7 @@ _CONVEX_ENOUGH: Final = 1e-4
 def compute(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
 ) -> Decomposition:
-    """mesh: welded. Raises DecompositionError."""
+    """Computes the parts of a welded mesh. Raises DecompositionError."""
     started, deadline = time.monotonic(), Deadline(seconds)
     solid = mesh.topology().solid
     convex, concave = _sorted_pieces(mesh, settings.threshold) if solid else ([], [mesh])
@@ -68,11 +69,11 @@ def _notes(solid: bool, concave: list[Mesh], *, dropped: int) -> Iterator[Note]:
             "and thickens it",
         )
     if dropped:
-        yield Note(FLAT_PARTS_DROPPED, f"{dropped} flat parts of CoACD's were dropped")
+        yield Note(FLAT_PARTS_DROPPED, f"{dropped} flat parts of CoACD were dropped")
 
 
 def _sorted_pieces(mesh: Mesh, threshold: float) -> tuple[list[Polytope], list[Mesh]]:
-    """(the pieces that are convex enough, as hulls; the others)."""
+    """(the pieces that are nearly convex, as hulls; the other pieces)."""
     enough = max(_CONVEX_ENOUGH, _CONVEX_ENOUGH_PER_THRESHOLD * threshold)
     convex, concave = [], []
     for piece in independent_pieces(mesh):
@@ -102,12 +103,12 @@ def _run_coacd(
         return [Mesh.from_bytes(*part).convex_hull() for part in decode_reply(reply)]
     except ValueError as error:
         raise DecompositionError(
-            errors.BAD_OUTPUT, f"CoACD returned parts that are no meshes: {error}"
+            errors.BAD_OUTPUT, f"CoACD returned parts that are not meshes: {error}"
         ) from error
 
 
 def _explained(error: WorkerError) -> DecompositionError:
-    """What became of the child, as a failure of the decomposition."""
+    """The error of the child as a DecompositionError."""
     if isinstance(error, WorkerOutOfMemory):
         return DecompositionError(
             errors.OUT_OF_MEMORY,

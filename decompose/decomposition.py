@@ -1,4 +1,4 @@
-"""A concave mesh as convex parts: short cuts first, CoACD in a child process for the rest."""
+"""Splits a mesh into convex parts: convex meshes directly, others with CoACD in a child process."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from satcheck.decompose.errors import DecompositionError
 from satcheck.decompose.result import CACHE_UNAVAILABLE, Decomposition, Note, decode, encode
 from satcheck.decompose.settings import DecompositionSettings
 
-# Counted up when anything that decides the content of a cache entry changes, its layout included.
+# Increase it if the content or the layout of cache entries changes.
 _SCHEMA: Final = b"satcheck-parts-3"
 
 
@@ -29,16 +29,16 @@ def decompose(
     megabytes: int = 4096,
     cache: Cache | None = None,
 ) -> Decomposition:
-    """Splits a mesh into convex parts and measures by how much the two differ.
+    """Splits a mesh into convex parts and measures their error.
 
-    mesh: is welded, and oriented where it is a closed manifold. Others are rebuilt from voxels by
-        CoACD first, which is slow and thickens them; the notes say so.
+    mesh: it is welded; a closed manifold is also oriented. CoACD rebuilds other meshes from voxels
+        first, which is slow and thickens them; a note says so.
     threshold, seed: see DecompositionSettings.
-    seconds: limit of all that, CoACD and the measuring of its parts, and of the wait for another
-        process that is computing the same parts. megabytes: of the child process that runs CoACD.
-    cache: None computes.
+    seconds: limit for CoACD and the measurement of its parts together, and for the wait for another
+        process that computes the same parts. megabytes: limit of the child process of CoACD.
+    cache: None: always compute.
 
-    Exactly convex meshes and components never reach CoACD nor the cache. The same mesh, settings
+    Exactly convex meshes and components use neither CoACD nor the cache. The same mesh, settings
     and version of CoACD give the same bits. Raises DecompositionError.
     """
     settings = DecompositionSettings(threshold=threshold, seed=seed)
@@ -59,11 +59,11 @@ def decompose(
 
 
 def cache_key(mesh: Mesh, settings: DecompositionSettings) -> bytes:
-    """SHA-256 over everything that decides the parts: 32 bytes.
+    """SHA-256 of everything that the parts depend on: 32 bytes.
 
     The order of vertices and triangles counts, because CoACD's result depends on it.
     """
-    from importlib.metadata import version  # not on the path of convex meshes
+    from importlib.metadata import version  # slow import, which convex meshes do not need
 
     digest = hashlib.sha256()
     for block in (
@@ -100,13 +100,13 @@ def _cached(
     result = None
     try:
         with cache.single_flight(key, seconds):
-            cached = _load(cache, key, settings)  # from the process we waited for
+            cached = _load(cache, key, settings)  # written by the process that held the lock
             if cached is not None:
                 return cached
             result = _compute(mesh, settings, seconds, megabytes)
             cache.store(key, encode(result))
             return result
-    except OSError as error:  # TimeoutError included
+    except OSError as error:  # includes TimeoutError
         note = Note(CACHE_UNAVAILABLE, f"the parts were not cached: {error}")
     if result is None:
         result = _compute(mesh, settings, seconds, megabytes)
@@ -119,13 +119,13 @@ def _load(cache: Cache, key: bytes, settings: DecompositionSettings) -> Decompos
         return None
     try:
         return decode(payload, settings)
-    except ValueError:  # written by something else under our key: a miss, replaced by the result
+    except ValueError:  # not written by satcheck: counts as missing and is replaced
         return None
 
 
 def _compute(
     mesh: Mesh, settings: DecompositionSettings, seconds: float, megabytes: int
 ) -> Decomposition:
-    from satcheck.decompose.computation import compute  # numpy, not on the path of a cache hit
+    from satcheck.decompose.computation import compute  # needs numpy; not for cache hits
 
     return compute(mesh, settings, seconds, megabytes)

@@ -41,10 +41,10 @@ _SLACK_GROWTH: Final = 1.5
 # Roundings of a distance and of a cut point, in units of the largest coordinate.
 _ROUNDINGS: Final = 64.0 * 2.0**-53
 # Slack of the bound, in diagonals of the mesh's bounding box for a threshold of 1. Parts stick out
-# by about 0.3 * threshold, so the first slack keeps the bound meaningful; the second is for parts
-# that stick out by next to nothing.
+# by about 0.3 * threshold. The first slack is small against that. The second is for parts that
+# hardly stick out.
 _SLACKS: Final = (0.02, 0.005)
-_WIDE: Final = 1.25  # upper over lower bound that is not worth the finer slack
+_WIDE: Final = 1.25  # the finer slack is used only above this ratio of upper to lower bound
 
 
 def outside_error(parts: Sequence[Polytope], surface: Surface, threshold: float) -> float:
@@ -105,22 +105,22 @@ class _Bodies:
         self._low, self._high = bounds[:, 0], bounds[:, 1]
 
     def heights(self, points: Floats) -> Floats:
-        """(points, parts): above the highest plane of each part; at most 0 inside."""
+        """(points, parts): the height above the highest plane of each part; at most 0 inside."""
         return np.stack([space.heights(points) for space in self._spaces], axis=1)
 
     def distance(self, point: Point, part: int) -> float:
-        """To the solid part; 0.0 inside, by exact signs."""
+        """The distance to the solid part; 0.0 inside, decided by exact signs."""
         surface = self._surfaces[part]
         distance = surface.nearest(point)[0]
         return 0.0 if distance == 0.0 or surface.winding_number(point) != 0 else distance
 
     def largest_distance(self, polygon: Polygon, part: int) -> float:
-        """Of a point of the polygon to one part."""
+        """The largest distance of a point of the polygon to one part."""
         return max((self.distance(point, part) for point in polygon), default=0.0)
 
     def cover(self, polygon: Polygon, slack: float) -> float | None:
         """The largest distance of a piece of the polygon to the part that contains it; None: the
-        parts widened by `slack` do not contain all of the polygon."""
+        widened parts do not contain the whole polygon."""
         corners = np.array(polygon)
         near = (corners.max(axis=0) >= self._low - slack).all(axis=1)
         near &= (corners.min(axis=0) <= self._high + slack).all(axis=1)
@@ -142,7 +142,8 @@ class _Bodies:
         return None
 
     def _crossing(self, polygon: Polygon, part: int, slack: float) -> list[Plane] | None:
-        """The planes of the widened part that cut the polygon; None where one has all above it."""
+        """The planes of the widened part that cut the polygon; None: the polygon is completely
+        above a plane."""
         space = self._spaces[part]
         above = -space.slack(np.array(polygon)) - slack
         if above.min(axis=0).max() >= 0.0:

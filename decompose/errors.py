@@ -1,4 +1,4 @@
-"""Why a mesh has no convex parts: the codes of failures, and the deadline."""
+"""The codes of failures of a decomposition, and its deadline."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class DecompositionError(SatcheckError):
 
 
 class Deadline:
-    """CoACD ends by it, and so does what is done with its parts. seconds: from now, wall clock."""
+    """The time limit for CoACD and for the work on its parts. seconds: from now, wall clock."""
 
     def __init__(self, seconds: float) -> None:
         self.seconds = seconds
@@ -38,7 +38,7 @@ class Deadline:
         return max(0.0, self._end - time.monotonic())
 
     def check(self) -> None:
-        """Raises DecompositionError once it is over. To be asked in every long loop."""
+        """Raises DecompositionError after the deadline. Call it in every long loop."""
         if time.monotonic() > self._end:
             raise self.error()
 

@@ -1,11 +1,11 @@
-"""A large convex region inside a convex part that the mesh's surface does not enter.
+"""Finds a large convex region inside a convex part that the mesh's surface does not enter.
 
 Robin Deits, Russ Tedrake, "Computing Large Convex Regions of Obstacle-Free Space Through
-Semidefinite Programming" (2015): grow an ellipsoid about a seed until it meets an obstacle, cut
-along its tangent plane there, go on with the obstacles that the cut has left; then take the shape
-of the region for the ellipsoid and repeat. We take the ellipsoid from the covariance of the
-region's vertices instead of solving for the largest one: it only has to be a good guess, because
-what comes out is proven or rejected by the exact mesh relation afterwards.
+Semidefinite Programming" (2015): grow an ellipsoid about a seed until it meets an obstacle. Cut
+along the tangent plane there, and continue with the remaining obstacles. Then take an ellipsoid of
+the shape of the region and repeat. Where we deviate: the ellipsoid comes from the covariance of the
+region's vertices and is not the largest one. A good guess is enough, because the exact mesh
+relation proves or rejects the region afterwards.
 """
 
 from __future__ import annotations
@@ -30,15 +30,16 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-_SEEDS: Final = 64  # points of the part that are tried as the first centre
-_PAIRS_AT_ONCE: Final = 1 << 15  # of seed and triangle: bounds the memory at some 20 MiB
+_SEEDS: Final = 64  # points of the part that are tried as first centre
+_PAIRS_AT_ONCE: Final = 1 << 15  # pairs of seed and triangle; limits the memory to about 20 MiB
 _ROUNDS: Final = 3
 _WORTHWHILE_GAIN: Final = 1.02  # in volume, for one more round
 _FLATTEST: Final = 1e-9  # least over largest variance of an ellipsoid
 
 
 def free_region(part: Polytope, solid: Surface, deadline: Deadline = NEVER) -> Polytope:
-    """A convex region in the part, inside the solid mesh but for rounding; the part where none is.
+    """A convex region in the part, inside the solid mesh up to rounding; if there is none, the
+    part.
 
     Deterministic. Nothing is proven here. Raises DecompositionError at the deadline.
     """
@@ -76,7 +77,7 @@ def _triangles_near(mesh: Mesh, corners: Floats) -> Floats:
 
 
 def _ellipsoid(points: Floats) -> Floats:
-    """Matrix (3, 3) that makes the spread of the points a unit ball."""
+    """Matrix (3, 3) that maps the covariance of the points to that of a unit ball."""
     variances, axes = np.linalg.eigh(np.cov(points.T))
     scale = 1.0 / np.sqrt(np.maximum(variances, _FLATTEST * variances.max()))
     matrix: Floats = scale[:, None] * axes.T
@@ -91,7 +92,7 @@ def _deepest_seed(
     solid: Surface,
     deadline: Deadline,
 ) -> Floats | None:
-    """The point (3,) inside the mesh with the largest free ellipsoid about it, of some tried."""
+    """Among the tried points inside the mesh, the one (3,) with the largest free ellipsoid."""
     random = np.random.default_rng(0)
     shares = random.dirichlet(np.full(len(corners), 0.5), _SEEDS)
     seeds = np.concatenate([corners.mean(axis=0)[None], shares @ corners])
@@ -108,7 +109,7 @@ def _deepest_seed(
 
 
 def _distances(points: Floats, triangles: Floats, deadline: Deadline) -> Floats:
-    """From each point (n, 3) to the nearest of the triangles (m, 3, 3)."""
+    """The distance from each point (n, 3) to the nearest triangle of (m, 3, 3)."""
     at_once = max(1, _PAIRS_AT_ONCE // len(triangles))
     distances = []
     for first in range(0, len(points), at_once):
@@ -121,7 +122,8 @@ def _distances(points: Floats, triangles: Floats, deadline: Deadline) -> Floats:
 
 
 def _grown(body: HalfSpaces, obstacles: Floats, seed: Floats, shape: Floats) -> Polytope | None:
-    """The body cut by one plane between the seed and each obstacle that earlier cuts left."""
+    """The body, cut by a plane between the seed and each obstacle that remains after earlier
+    cuts."""
     local = (obstacles - seed) @ shape.T
     nearest = nearest_points(local)
     distance = np.linalg.norm(nearest, axis=1)

@@ -1,4 +1,4 @@
-"""Convex bodies as intersections of half-spaces normal . x <= offset, and back to vertices."""
+"""Converts convex bodies to intersections of half-spaces normal . x <= offset, and back."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-NOISE: Final = 1e-9  # of a body's size: closer to a plane counts as on it
-# Of points against planes, and a limit of the points alone: at most 32 MiB.
+NOISE: Final = 1e-9  # of a body's size: points closer to a plane count as on it
+# Limit on points times planes, and on points: at most 32 MiB.
 _ENTRIES_AT_ONCE: Final = 1 << 22
 _POINTS_AT_ONCE: Final = 1 << 12
 _CENTRE_STEPS: Final = 200
-_CENTRE_STEP_RATIO: Final = 0.95  # of one step to the one before: the last is 4e-5 of the size
+_CENTRE_STEP_RATIO: Final = 0.95  # ratio of successive steps; the last is 4e-5 of the size
 
 
 class HalfSpaces(Struct, frozen=True):
@@ -31,16 +31,16 @@ class HalfSpaces(Struct, frozen=True):
 
     @property
     def points_at_once(self) -> int:
-        """So many against all planes take little memory."""
+        """The number of points that can be compared with all planes in little memory."""
         return max(1, min(_POINTS_AT_ONCE, _ENTRIES_AT_ONCE // len(self.offsets)))
 
     def slack(self, points: Floats) -> Floats:
-        """(n, f): how far each point (n, 3) is below each plane; negative outside."""
+        """(n, f): the distance of each point (n, 3) below each plane; negative outside."""
         slack: Floats = self.offsets - points @ self.normals.T
         return slack
 
     def heights(self, points: Floats) -> Floats:
-        """(n,): how far each point (n, 3) is above the highest plane; at most 0 inside."""
+        """(n,): the height of each point (n, 3) above the highest plane; at most 0 inside."""
         chunks = [
             -self.slack(points[first : first + self.points_at_once]).min(axis=1)
             for first in range(0, len(points), self.points_at_once)
@@ -56,7 +56,7 @@ class HalfSpaces(Struct, frozen=True):
 
 
 def around(corners: Floats, triangles: NDArray[np.integer]) -> HalfSpaces:
-    """Of a convex body: its vertices (n, 3) and outward triangles (m, 3)."""
+    """The half-spaces of a convex body with vertices (n, 3) and outward triangles (m, 3)."""
     a, b, c = np.moveaxis(corners[triangles], 1, 0)
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
@@ -66,7 +66,7 @@ def around(corners: Floats, triangles: NDArray[np.integer]) -> HalfSpaces:
 
 
 def vertices_of(body: HalfSpaces, start: Floats) -> Floats:
-    """Vertices (n, 3) of the intersection, rounded; none where it has no inner point.
+    """Vertices (n, 3) of the intersection, rounded; none if it has no inner point.
 
     start: (3,), near an inner point. The vertices are the faces of the convex hull of the dual
     points normal / slack about an inner point.
@@ -82,7 +82,7 @@ def vertices_of(body: HalfSpaces, start: Floats) -> Floats:
     a, b, c = np.moveaxis(np.asarray(dual.vertices)[np.asarray(dual.triangles)], 1, 0)
     faces = np.cross(b - a, c - a)
     heights = (faces * a).sum(axis=1)
-    # Slivers of the dual hull give points far off: the half-spaces themselves sort them out.
+    # Slivers of the dual hull give wrong points. The half-spaces reject them.
     usable = heights > 0.0
     points = centre + faces[usable] / heights[usable, None]
     fits = (body.slack(points) >= -NOISE * body.size).all(axis=1)
@@ -91,13 +91,13 @@ def vertices_of(body: HalfSpaces, start: Floats) -> Floats:
 
 
 def points_as_mesh(points: Floats) -> Mesh:
-    """A mesh that refers to every point (n >= 3, 3), for its convex hull alone."""
+    """A mesh that refers to every point (n >= 3, 3). Only its convex hull is used."""
     first = np.arange(len(points) - 2, dtype=np.uint32)
     return Mesh(np.ascontiguousarray(points), np.column_stack([first, first + 1, first + 2]))
 
 
 def _deep_point(body: HalfSpaces, start: Floats) -> Floats:
-    """Near the point of largest least slack, by subgradient steps of falling length."""
+    """A point near the maximum of the least slack, by subgradient steps of decreasing length."""
     best = point = start
     best_slack = -np.inf
     step = body.size

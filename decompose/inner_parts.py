@@ -1,8 +1,8 @@
-"""Convex bodies that are proven to lie inside a solid mesh, one for each of its convex parts.
+"""Finds convex bodies proven to lie inside a solid mesh, one for each of its convex parts.
 
-A part sticks out of the mesh a little. It, or a region of it that the mesh's surface does not enter
-but for rounding, is scaled about its centre until it is strictly inside; where a factor fits, every
-smaller one does. Only the exact mesh relation of the scaled copy, vertices rounded, decides.
+A part sticks out of the mesh a little. The part, or a region of it that the mesh's surface does not
+enter (up to rounding), is scaled about its centre until it is strictly inside. If a factor fits,
+every smaller factor fits. The exact mesh relation of the scaled copy with rounded vertices decides.
 """
 
 from __future__ import annotations
@@ -15,16 +15,17 @@ from satcheck.core import Mesh, Polytope, Surface, mesh_relation
 from satcheck.decompose.errors import NEVER, Deadline
 from satcheck.decompose.free_region import free_region
 
-# Tried in this order: contact from inside, rounding far from the origin, shallow dents, deep ones.
+# Tried in this order. The factors are for contact from inside, rounding far from the origin,
+# shallow dents, and deep dents.
 _FACTORS: Final = (1.0 - 1e-6, 1.0 - 1e-4, 0.999, 0.99, 0.97, 0.9, 0.8, 0.6, 0.4, 0.2)
-_NEGLIGIBLE_VOLUME: Final = 1e-6  # of the largest part: too small to matter for any depth
+_NEGLIGIBLE_VOLUME: Final = 1e-6  # of the largest part; smaller parts do not affect a depth
 
 
 def inner_parts(
     parts: Sequence[Polytope], solid: Surface, deadline: Deadline = NEVER
 ) -> tuple[Polytope | None, ...]:
-    """For each part a shrunken copy strictly inside the solid mesh, None where none was found.
-    Raises DecompositionError at the deadline."""
+    """For each part a shrunken copy strictly inside the solid mesh; None: not found. Raises
+    DecompositionError at the deadline."""
     volumes = [part.to_mesh().topology().volume for part in parts]
     negligible = _NEGLIGIBLE_VOLUME * max(volumes)
     return tuple(
@@ -34,8 +35,8 @@ def inner_parts(
 
 
 def _inner_part(part: Polytope, solid: Surface, deadline: Deadline) -> Polytope | None:
-    """Shrinking the part itself is better where it has many shallow dents, and cutting it to the
-    free region where it has few deep ones."""
+    """The larger of two candidates: the shrunken part, which is better for many shallow dents, and
+    the shrunken free region, which is better for few deep dents."""
     deadline.check()
     bodies = [_largest_inside(part.to_mesh(), solid)]
     region = free_region(part, solid, deadline)
@@ -59,7 +60,7 @@ def _is_inside(copy: Polytope, solid: Surface) -> bool:
 
 
 def _scaled(region: Mesh, centre: tuple[float, float, float], factor: float) -> Polytope:
-    """Vertices rounded, hence rebuilt as the exact hull of the rounded ones."""
+    """The scaled copy. Its vertices are rounded, so it is rebuilt as their exact hull."""
     x, y, z = ((1.0 - factor) * coordinate for coordinate in centre)
     matrix = (factor, 0.0, 0.0, x, 0.0, factor, 0.0, y, 0.0, 0.0, factor, z, 0.0, 0.0, 0.0, 1.0)
     return region.transformed(matrix).convex_hull()

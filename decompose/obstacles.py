@@ -1,4 +1,4 @@
-"""The pieces of a mesh's surface inside a convex body, and their points nearest to a place."""
+"""The pieces of a mesh's surface inside a convex body, and their points nearest to the origin."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 def surface_inside(triangles: Floats, body: HalfSpaces, deadline: Deadline = NEVER) -> Floats:
     """Triangles (m, 3, 3) clipped to the inside of the body, as triangles (k, 3, 3).
 
-    What only lies on the body's boundary, within rounding, is left out. Raises DecompositionError
-    at the deadline.
+    Pieces on the body's boundary, up to rounding, are left out. Raises DecompositionError at the
+    deadline.
     """
     noise = NOISE * body.size
     planes = list(zip(body.normals.tolist(), body.offsets.tolist(), strict=True))
@@ -55,7 +55,7 @@ def nearest_points(triangles: Floats) -> Floats:
 
 
 def _nearest_on_segment(tail: Floats, head: Floats) -> Floats:
-    """Of each segment (n, 3)-(n, 3) the point nearest to the origin."""
+    """The point of each segment (n, 3)-(n, 3) that is nearest to the origin."""
     along = head - tail
     square = (along * along).sum(axis=1)
     share = -(tail * along).sum(axis=1) / np.where(square > 0.0, square, 1.0)

@@ -1,7 +1,7 @@
-"""Convex polygons in space cut by planes: a few corners each, so in plain Python.
+"""Cuts convex polygons in space by planes.
 
-Ivan Sutherland, Gary Hodgman, "Reentrant Polygon Clipping" (1974), for both sides of a plane. For
-so few corners lists are several times faster than array operations.
+Ivan Sutherland, Gary Hodgman, "Reentrant Polygon Clipping" (1974), for both sides of a plane. A
+polygon has few corners, so lists are several times faster than array operations.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from collections.abc import Iterable
 
 Point = tuple[float, float, float]
 Polygon = list[Point]
-Plane = tuple[Point, float]  # unit normal, offset: below is normal . x <= offset
+Plane = tuple[Point, float]  # (unit normal, offset); below: normal . x <= offset
 
 
 def heights(polygon: Polygon, plane: Plane) -> list[float]:
-    """Of each corner above the plane."""
+    """The height of each corner above the plane."""
     (nx, ny, nz), offset = plane
     return [nx * x + ny * y + nz * z - offset for x, y, z in polygon]
 
@@ -37,7 +37,7 @@ def halves(polygon: Polygon, above: list[float]) -> tuple[Polygon, Polygon]:
 
 
 def common_part(polygon: Polygon, planes: Iterable[Plane], depth: float) -> Polygon:
-    """Below all planes; empty where nothing is more than `depth` below each of them."""
+    """The part below all planes; empty if no point is more than `depth` below all of them."""
     for plane in planes:
         above = heights(polygon, plane)
         if min(above) >= -depth:
@@ -50,9 +50,9 @@ def common_part(polygon: Polygon, planes: Iterable[Plane], depth: float) -> Poly
 def without(
     polygon: Polygon, planes: Iterable[Plane], slack: float
 ) -> tuple[Polygon, list[Polygon]]:
-    """(what is at most `slack` above every plane, the rest in convex pieces).
+    """(the part at most `slack` above every plane, the rest in convex pieces).
 
-    The first is empty, and the rest the polygon itself, where all is above some plane.
+    If the whole polygon is above some plane, the first is empty and the rest is the polygon.
     """
     rest = []
     inside = polygon

@@ -1,4 +1,4 @@
-"""What a decomposition is, and how it is written to a cache entry."""
+"""The result of a decomposition, and its encoding in a cache entry."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ REMESHED: Final = "decomposition-remeshed"
 FLAT_PARTS_DROPPED: Final = "decomposition-flat-parts-dropped"
 CACHE_UNAVAILABLE: Final = "decomposition-cache-unavailable"
 
-MeshBytes = tuple[bytes, bytes]  # as of Mesh.to_bytes()
+MeshBytes = tuple[bytes, bytes]  # as from Mesh.to_bytes()
 
 
 class Note(Struct, frozen=True):
-    """Something a reader of the result should know; `code` is stable."""
+    """A remark about the result; `code` is stable."""
 
     code: str
     message: str
@@ -28,15 +28,15 @@ class Note(Struct, frozen=True):
 class Decomposition(Struct, frozen=True):
     """A mesh as convex parts, in the mesh's frame and units, with their measured error.
 
-    parts: solid convex polytopes. They over- and under-cover the mesh: nothing about the mesh
-        follows from them without the two errors.
-    inner: for each part a copy shrunk until it is proven to lie inside the solid mesh, or None
-        where none was found. What overlaps an inner part overlaps the mesh.
-    outside: max over points of the parts' surfaces of the distance to the mesh (0 inside a solid
-        one; to its surface where it is not solid); a proven upper bound.
-    missing: max over points of the mesh's surface of the distance to the union of the parts (0
-        inside); a proven upper bound.
-    seconds: wall clock of the computation, also when the result came from the cache.
+    parts: solid convex polytopes. They cover both too much and too little of the mesh, so a
+        statement about the mesh needs the two errors.
+    inner: for each part a shrunken copy that is proven to lie inside the solid mesh; None: not
+        found. A body that overlaps an inner part overlaps the mesh.
+    outside: a proven upper bound of the largest distance of a point of the parts' surfaces from the
+        mesh (0 inside a solid mesh; for other meshes, from the surface).
+    missing: a proven upper bound of the largest distance of a point of the mesh's surface from the
+        union of the parts (0 inside).
+    seconds: wall clock of the computation, even if the result came from the cache.
     """
 
     parts: tuple[Polytope, ...]
@@ -50,7 +50,8 @@ class Decomposition(Struct, frozen=True):
 
 
 class _Entry(Struct, frozen=True):
-    """What a cache entry holds: all but `from_cache` and `settings`, which the reader knows."""
+    """The content of a cache entry: everything except `from_cache` and `settings`, which the reader
+    knows."""
 
     parts: tuple[MeshBytes, ...]
     inner: tuple[MeshBytes | None, ...]
@@ -73,10 +74,10 @@ def encode(result: Decomposition) -> bytes:
 
 
 def decode(data: bytes, settings: DecompositionSettings) -> Decomposition:
-    """Raises ValueError unless `data` is what encode() makes."""
+    """The inverse of encode(). Raises ValueError for other data."""
     entry = msgspec.msgpack.decode(data, type=_Entry)
     if len(entry.inner) != len(entry.parts) or any(not vertices for vertices, _ in entry.parts):
-        raise ValueError("a part is empty, or has no inner part beside it")
+        raise ValueError("a part is empty, or its inner part is missing")
     return Decomposition(
         parts=tuple(Mesh.from_bytes(*part).convex_hull() for part in entry.parts),
         inner=tuple(part and Mesh.from_bytes(*part).convex_hull() for part in entry.inner),

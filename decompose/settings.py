@@ -1,4 +1,4 @@
-"""What a decomposition depends on besides the mesh."""
+"""The settings of a decomposition."""
 
 from __future__ import annotations
 

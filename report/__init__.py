@@ -1,1 +1,1 @@
-"""What a report holds: frozen structs, of which each is an object of the JSON document."""
+"""The structs of reports. Each is frozen and is an object of the JSON document."""

@@ -10,13 +10,13 @@ from satcheck.report.report import Issue, Report
 from satcheck.report.values import Count, Tool, Value
 
 SCHEMA: Literal["satcheck.assets/1"] = "satcheck.assets/1"
-# error: the file could not be read, or some body in it could not.
+# error: the file or a body in it could not be read.
 AssetVerdict = Literal["error", "fail", "incomplete", "pass"]
 ASSET_VERDICTS: tuple[AssetVerdict, ...] = get_args(AssetVerdict)
 
 
 class Asset(Value, frozen=True):
-    """file: as given. report: of its bodies; of one body alone it has no findings."""
+    """file: as given. report: of its bodies; a single body has no findings."""
 
     file: str
     verdict: AssetVerdict
@@ -29,7 +29,7 @@ def asset(file: str, report: Report) -> Asset:
 
 
 class AssetCounts(Value, frozen=True, kw_only=True):
-    """How many assets have each verdict. total = error + fail + incomplete + passed."""
+    """Number of assets with each verdict. total = error + fail + incomplete + passed."""
 
     total: Count
     error: Count
@@ -53,7 +53,7 @@ class AssetsReport(Value, frozen=True, kw_only=True):
 def assets_report(
     tool: Tool, assets: Iterable[Asset], issues: tuple[Issue, ...] = ()
 ) -> AssetsReport:
-    """Without any asset it passes."""
+    """The report of these assets. Without assets it passes."""
     listed = tuple(assets)
     counts = Counter(each.verdict for each in listed)
     return AssetsReport(

@@ -1,4 +1,4 @@
-"""A baseline: the findings that a team knows and accepts for now. `satcheck.baseline/1`."""
+"""A baseline: the known findings that a team accepts for now. `satcheck.baseline/1`."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Literal
 from satcheck.report.values import Length, Value
 
 SCHEMA: Literal["satcheck.baseline/1"] = "satcheck.baseline/1"
-# Of a finding beside a baseline. unchanged: known, and proven to be no worse. undecided: known, but
-# whether it is worse is not known.
+# The state of a finding compared with a baseline. unchanged: known, and proven to be no worse.
+# undecided: known, but it is unknown whether it is worse.
 BaselineState = Literal["new", "unchanged", "worse", "undecided"]
 KnownRelation = Literal[
     "separated", "near", "touching", "penetrating", "contains", "inside", "coincident"
@@ -17,11 +17,11 @@ Figure = Literal["depth", "thickness", "volume", "distance", "motion_depth", "mo
 
 
 class KnownFinding(Value, frozen=True, kw_only=True):
-    """asset: of `satcheck each`, relative to the folder of the baseline; "" of other checks. a, b:
-    ids of bodies. severity, relation and figures: as accepted. units: of the figures; None:
-    unknown. depth, thickness, volume: upper ends. distance: the lower end. motion_depth,
-    motion_distance: of the worst pose of a motion. reason: why the finding is accepted, for
-    people."""
+    """asset: for `satcheck each`, the asset relative to the folder of the baseline; "" for other
+    checks. a, b: ids of bodies. severity, relation and figures: as accepted. units: of the figures;
+    None: unknown. depth, thickness, volume: upper ends. distance: the lower end. motion_depth,
+    motion_distance: of the worst pose of a motion. reason: a text that says why the finding is
+    accepted."""
 
     asset: str = ""
     a: str
@@ -57,8 +57,8 @@ class Baseline(Value, frozen=True, kw_only=True):
 
 
 class StatedBaseline(Value, frozen=True):
-    """What a report says of the baseline that it was held against. absent: known findings of pairs
-    that were checked again and pass now."""
+    """The baseline that a report was compared with. absent: known findings of pairs that were
+    checked again and pass now."""
 
     file: str
     absent: tuple[KnownFinding, ...]

@@ -1,4 +1,4 @@
-"""The bodies of a report: where each comes from, what was found in its mesh, where it stands."""
+"""The bodies of a report: their origin, the health of their meshes, and their placement."""
 
 from __future__ import annotations
 
@@ -40,15 +40,15 @@ StatedShape = Box | Sphere | Capsule | Cylinder | Cone | Ellipsoid
 
 
 class Health(Value, frozen=True, kw_only=True):
-    """What was found when the mesh was inspected; edges are counted where triangles meet.
+    """The result of the inspection of a mesh. Edges are counted where triangles meet.
 
-    cracks: places where faces miss each other by the precision of the file; they are closed. holes:
-    loops of the boundary that are left. largest_hole: from corner to corner of the box around it,
+    cracks: gaps between faces no wider than the precision of the file; they are closed. holes:
+    loops of the boundary that remain. largest_hole: diagonal of the box around the largest hole,
     file units; 0 without holes. closed: every edge has an even number of triangles, once cracks are
     closed. manifold: exactly two. oriented: all triangles agree on which side is outside. volume:
-    signed, file units cubed; None: out of range. inside_out: parts faced inward and were turned.
-    double_sided: each face exists in both orientations. flat: all vertices in one plane. solid:
-    after repair, inside and outside are defined, and some of it is inside.
+    signed, file units cubed; None: out of range. inside_out: some parts faced inward and were
+    turned. double_sided: each face exists in both orientations. flat: all vertices in one plane.
+    solid: after the repair, inside and outside are defined, and the inside is not empty.
     """
 
     vertices: Count
@@ -73,7 +73,8 @@ class Health(Value, frozen=True, kw_only=True):
 
 
 class PartError(Value, frozen=True):
-    """Proven upper bounds, world units: how far parts stick out of the mesh, and it out of them."""
+    """Proven upper bounds, world units. outside: how far the parts stick out of the mesh. missing:
+    how far the mesh sticks out of the parts."""
 
     outside: Length
     missing: Length
@@ -89,15 +90,15 @@ class Place(Value, frozen=True):
 class BodyReport(Value, frozen=True, kw_only=True):
     """One body. `file` is the path as given; `path` names a node within it (None: the whole file).
 
-    An unreadable body has None everywhere but id, name and file. `sha256` is None, too, where the
-    scene was loaded without. `convex` is None where no pair had to know; `parts` is None where
-    nothing was decomposed. `resolution` is the precision of the input, and `surface_tolerance` how
-    far its surface may be off, in world units. `transform` places it, row-major 4x4, world =
-    transform * (x, y, z, 1); None: as in the file. `groups`, `static`: as the scene says. `shape`:
-    the primitive that the file states, in its own frame, as a scene file does; None: a mesh file.
-    `units`: of its lengths here; None: no input states any. `unit_scale`: what `transform` converts
-    lengths of the file by; None: nothing. `stated_at`: the line of the scene file or the robot that
-    states the body, where a finding about it is an error, a warning or a note; None otherwise.
+    An unreadable body has None everywhere but id, name and file. `sha256` is also None if the files
+    were not hashed. `convex` is None if no pair needed it; `parts` is None if the body was not
+    decomposed. `resolution` is the precision of the world coordinates, and `surface_tolerance` how
+    far the surface may be off, both in world units. `transform` places it, row-major 4x4, world =
+    transform * (x, y, z, 1); None: as in the file. `groups`, `static`: from the scene. `shape`: the
+    primitive that the file states, in its own frame; None: a mesh file. `units`: of its lengths
+    here; None: no input states any. `unit_scale`: the factor of unit conversion in `transform`;
+    None: no conversion. `stated_at`: the line of the scene file or the robot that states the body,
+    if a finding about it is an error, a warning or a note; else None.
     """
 
     id: str

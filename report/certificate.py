@@ -1,6 +1,6 @@
 """The certificate of a finding: evidence that `satcheck verify` checks.
 
-Exact numbers are JSON numbers, or "numerator/denominator" where no float64 is exact. Vertices and
+Exact numbers are JSON numbers, or "numerator/denominator" if no float64 is exact. Vertices and
 triangles of a mesh are numbered from 0. A key that is not needed is left out.
 """
 
@@ -18,8 +18,8 @@ Indices = tuple[Count, Count]
 
 
 class OnBody(Value, frozen=True):
-    """A point of a body. Of a mesh: weights, of sum 1, on corners of one triangle, or on any
-    vertices of a convex body. Of a curved shape: a point in world coordinates."""
+    """A point of a body. For a mesh: weights of sum 1 on the corners of one triangle, or on any
+    vertices of a convex body. For a curved shape: a point in world coordinates."""
 
     vertices: tuple[Count, ...] | UnsetType = UNSET
     weights: tuple[Exact, ...] | UnsetType = UNSET
@@ -33,7 +33,7 @@ class Ends(Value, frozen=True):
     b: OnBody
 
 
-# Coordinates, or, where one body is an open surface, a point of that.
+# Coordinates; if one body is an open surface, a point of that surface.
 Point = ExactVector | OnBody
 
 
@@ -45,23 +45,23 @@ class Polytope(Value, frozen=True):
 
 
 class AxisProof(Value, frozen=True, tag_field="kind", tag="axis"):
-    """The axis, from A to B, separates the bodies. contact: a point that both have."""
+    """The axis, from A to B, separates the bodies. contact: a common point."""
 
     axis: ExactVector
     contact: Ends | UnsetType = UNSET
 
 
 class SurfacesProof(Value, frozen=True, tag_field="kind", tag="surfaces"):
-    """All close pairs of triangles are decided again. contact: a point that both boundaries have.
-    both: a point inside both bodies."""
+    """The checker decides all close pairs of triangles again. contact: a common point of both
+    boundaries. both: a point inside both bodies."""
 
     contact: Ends | UnsetType = UNSET
     both: Point | UnsetType = UNSET
 
 
 class OverlapProof(Value, frozen=True, tag_field="kind", tag="overlap"):
-    """A point inside both bodies, and one inside each alone; or one inside one of them alone, and
-    one where both end."""
+    """A point inside both bodies, and a point inside each body only; or a point inside one body
+    only, and a common boundary point."""
 
     both: Point
     a_alone: Point | UnsetType = UNSET
@@ -70,8 +70,9 @@ class OverlapProof(Value, frozen=True, tag_field="kind", tag="overlap"):
 
 
 class PointProof(Value, frozen=True, tag_field="kind", tag="point"):
-    """Of a curved shape: a point inside one body and of the other, and axes along which A, and B,
-    reaches at least as far as the other."""
+    """For a pair with a curved shape: a point inside one body that belongs to the other, an axis
+    along which A reaches at least as far as B, and an axis along which B reaches at least as far as
+    A."""
 
     both: Ends
     a_reaches: ExactVector
@@ -79,8 +80,8 @@ class PointProof(Value, frozen=True, tag_field="kind", tag="point"):
 
 
 class PolytopeProof(Value, frozen=True, tag_field="kind", tag="polytope"):
-    """Of convex bodies: vertex differences around the origin, and axes along which A, and B,
-    reaches at least as far as the other."""
+    """For convex bodies: vertex differences around the origin, an axis along which A reaches at
+    least as far as B, and an axis along which B reaches at least as far as A."""
 
     vertices: tuple[Indices, ...]
     faces: tuple[tuple[Count, Count, Count], ...]
@@ -89,19 +90,20 @@ class PolytopeProof(Value, frozen=True, tag_field="kind", tag="polytope"):
 
 
 class CrossingProof(Value, frozen=True, tag_field="kind", tag="crossing"):
-    """Of open surfaces: a triangle of A and one of B that pass through each other."""
+    """For open surfaces: a triangle of A and one of B that pass through each other."""
 
     triangles: Indices
 
 
 class SameProof(Value, frozen=True, tag_field="kind", tag="same"):
-    """The surfaces are compared. both: a point inside both bodies."""
+    """The checker compares the surfaces. both: a point inside both bodies."""
 
     both: Point | UnsetType = UNSET
 
 
 class NestedProof(Value, frozen=True, tag_field="kind", tag="nested"):
-    """Of a curved shape and a convex body: one lies inside the other, which is computed again."""
+    """For a curved shape and a convex body, one inside the other. The checker computes this
+    again."""
 
 
 Proof = (
@@ -117,19 +119,20 @@ Proof = (
 
 
 class DepthProof(Value, frozen=True):
-    """Of convex bodies: a polytope that holds a ball of the lower bound, and an axis along which A
-    leaves B within the upper one."""
+    """For convex bodies: a polytope that contains a ball of the lower bound, and an axis along
+    which a translation of the upper bound frees A."""
 
     lower: Polytope
     upper: ExactVector
 
 
 class Cover(Value, frozen=True):
-    """Of solids of which one is not convex: cubes that cover the translations of A shorter than the
-    lower bound of the depth, an octree from its root on. Cubes outside of the ball are left out.
+    """For solids of which one is not convex: an octree of cubes, from its root on. The cubes cover
+    all translations of A that are shorter than the lower bound of the depth. Cubes outside of this
+    ball are left out.
 
     cubes: -1: eight children, x changing first; else the number of a pair of triangles, one of A
-    and one of B, that cross for every translation of the cube.
+    and one of B, that cross for every translation in the cube.
     """
 
     pairs: tuple[Indices, ...]
@@ -137,15 +140,16 @@ class Cover(Value, frozen=True):
 
 
 class Face(Value, frozen=True, tag_field="kind", tag="face"):
-    """A triangle, or more that lie in one plane, about, and together are a convex polygon."""
+    """A triangle, or several triangles that lie nearly in one plane and together form a convex
+    polygon."""
 
     body: Literal["a", "b"]
     triangles: tuple[Count, ...]
 
 
 class Plane(Value, frozen=True, tag_field="kind", tag="plane"):
-    """normal . x = height: within `reach` of each cell that it bounds, nothing of the body lies
-    beyond it; where there is no reach, nowhere. Coordinates are those of the cells."""
+    """The plane normal . x = height. No point of the body within `reach` of a cell that the plane
+    bounds lies beyond it; without a reach, no point at all. Coordinates are those of the cells."""
 
     body: Literal["a", "b"]
     normal: Vector
@@ -153,17 +157,17 @@ class Plane(Value, frozen=True, tag_field="kind", tag="plane"):
     reach: Length | UnsetType = UNSET
 
 
-# Numbers of patches, each with its weight; the weights stand for their shares.
+# Numbers of patches, each with its weight. Only the ratios of the weights count.
 Weighted = tuple[tuple[Count, Length], ...]
 
 
 class Cells(Value, frozen=True):
-    """Of solids: a partition of the box that holds all that they can share, a tree from its root
-    on. Coordinates are those of the world less the origin.
+    """For solids: a partition of a box that contains their whole overlap, as a tree from its root
+    on. Coordinates are world coordinates minus the origin.
 
-    cells: 0, 1, 2: halved across that axis, at the next number of `at`. 3: cut by the next of
-    `cuts`, a normal and a height; the side with normal . x <= height comes first. 4: outside of A.
-    5: outside of B. 6: bounded by the next of `sums`: a weighted sum of distances from patches.
+    cells: 0, 1, 2: cut across that axis at the next number of `at`. 3: cut by the next of `cuts`, a
+    normal and a height; the side with normal . x <= height comes first. 4: outside of A. 5: outside
+    of B. 6: bounded by the next of `sums`: a weighted sum of distances from patches.
     """
 
     origin: Vector
@@ -177,16 +181,16 @@ class Cells(Value, frozen=True):
 
 
 class InnerBall(Value, frozen=True):
-    """World: it lies within a body."""
+    """A ball in the world that lies within a body."""
 
     centre: Vector
     radius: Length
 
 
 class Excuse(Value, frozen=True):
-    """Of solids: why surfaces that may be off explain their overlap. a, b: each is thicker than its
-    surface may be off. cells: no point lies deeper than that in both. That neither passes through
-    the other is decided again."""
+    """For solids: the proof that surfaces that may be off explain their overlap. a, b: balls that
+    prove that each body is thicker than its surface may be off. cells: prove that no point lies
+    deeper than that in both. The checker decides again that no body passes through the other."""
 
     a: InnerBall
     b: InnerBall
@@ -194,8 +198,8 @@ class Excuse(Value, frozen=True):
 
 
 class Band(Value, frozen=True):
-    """Why an overlap is within the touch band: an axis across it; a move that frees A, and the
-    proof of that; or surfaces that may be off."""
+    """The proof that an overlap is within the touch band: an axis across it; a translation that
+    frees A, with its proof; or surfaces that may be off."""
 
     axis: ExactVector | UnsetType = UNSET
     move: ExactVector | UnsetType = UNSET
@@ -204,14 +208,14 @@ class Band(Value, frozen=True):
 
 
 class Certificate(Value, frozen=True):
-    """One part for each thing that the finding says.
+    """The evidence for a finding. Each part proves one statement.
 
     relation: proves exact_relation. mtv: proves that A, moved by mtv, has no common interior with
-    B. depth: of convex bodies. distance: of meshes of which one is not convex, a point of either
-    boundary, as far apart as the bodies; all triangles that could be nearer are looked at again.
-    cover: of the lower end of a concave depth. thickness: of its upper end; a ball shows the lower
-    one. gap: points that show how close separated bodies
-    are, where that makes them touching or near. band: of an overlap that is called touching.
+    B. depth: for convex bodies. distance: for meshes of which one is not convex: a point of each
+    boundary, as far apart as the bodies. The checker looks again at all triangles that could be
+    nearer. cover: proves the lower end of a concave depth. thickness: proves the upper end of the
+    thickness; a ball proves the lower end. gap: points that prove that separated bodies are close
+    enough to be touching or near. band: proves that an overlap counts as touching.
     """
 
     relation: Proof

@@ -1,4 +1,4 @@
-"""The connected components of an overlap, as data of the report."""
+"""The connected components of an overlap in a report."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ Passing = Literal["a-through-b", "b-through-a", "both", "none"]
 
 
 class Component(Value, frozen=True, kw_only=True):
-    """A connected component of what both bodies have in common.
+    """A connected component of the overlap of both bodies.
 
     bounds: the least and the greatest corner, world frame. thickness_bounds: contain the diameter
-    of the largest ball in it; None: not resolved. point: the centre of a ball as thick as their
-    lower end; where that is 0, a point of its boundary. curves: along which the surfaces cross
-    there, curve_length in all. volume, volume_error: as those of a finding; None: not asked for.
-    passes: which body enters the other and leaves it there; None: undecided, where faces lie in
-    each other for instance. resolved: false where a surface meets itself, so that this may be
-    several, or a part of one.
+    of the largest ball in it; None: not resolved. point: the centre of a ball with the diameter of
+    their lower end; if that is 0, a point of the boundary. curves: the curves along which the
+    surfaces cross there; curve_length: their total length. volume, volume_error: as in a finding;
+    None: not requested. passes: the body that enters the other and leaves it again; None:
+    undecided, for example if faces coincide. resolved: false: a surface meets itself, so that this
+    may be several components, or a part of one.
     """
 
     bounds: tuple[Vector, Vector]
@@ -33,8 +33,8 @@ class Component(Value, frozen=True, kw_only=True):
 
 
 class Components(Value, frozen=True):
-    """items: the thickest first, by the upper end of their bounds. resolved: false where there may
-    be others, or fewer: a surface meets itself, or is not closed."""
+    """items: the thickest first, by the upper end of their bounds. resolved: false: the number of
+    components may differ, because a surface meets itself or is not closed."""
 
     items: tuple[Component, ...] = ()
     resolved: bool = True

@@ -1,4 +1,4 @@
-"""Where two surfaces meet, as data of the report."""
+"""The contacts of two surfaces in a report."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from satcheck.report.values import Count, Length, Value, Vector
 
 
 class Curve(Value, frozen=True):
-    """A polyline along which the surfaces cross or touch; a closed one does not repeat its start.
+    """A polyline along which the surfaces cross or touch.
 
-    It does not branch: curves that meet end there.
+    A closed one does not repeat its start. Curves do not branch. Where several meet, each of them
+    ends.
     """
 
     points: Annotated[tuple[Vector, ...], Meta(min_length=2)]
@@ -24,7 +25,7 @@ class Patch(Value, frozen=True):
     """A flat polygon in which faces of both surfaces lie.
 
     outlines: the outer one first, then its holes; counter-clockwise about `normal`, the unit normal
-    of A's face. opposed: the surfaces face each other, as two bodies do that stand on each other;
+    of A's face. opposed: the surfaces face each other, as if one body stands on the other;
     otherwise both bodies lie on the same side of the patch.
     """
 
@@ -37,7 +38,7 @@ class Patch(Value, frozen=True):
 
 
 class ContactTotals(Value, frozen=True):
-    """Everything there is, listed or not."""
+    """Totals of all contacts, including those that are not listed."""
 
     curves: Count = 0
     length: Length = 0.0
@@ -48,13 +49,13 @@ class ContactTotals(Value, frozen=True):
 
 
 class Contacts(Value, frozen=True):
-    """The common points of two surfaces: curves by falling length, patches by falling area, points.
-    Points are exact intersections, each coordinate rounded once. Nothing is in two lists.
+    """The common points of two surfaces: curves by decreasing length, patches by decreasing area,
+    points. Points are exact intersections, each coordinate rounded once.
 
-    triangle_pairs: a triangle of A and one of B that have a common point, numbered from 0 in the
-    order of their corners in the file: each triangle from its least corner on, by x, y, z.
-    truncated: the smallest curves and patches, or the last points and pairs, were left out of the
-    lists, which hold no more than settings.contact_points points; totals count them all.
+    No contact is in two lists. triangle_pairs: a triangle of A and one of B with a common point.
+    Triangles are numbered from 0, sorted by their corners (x, y, z), each starting at its least
+    corner. truncated: the smallest curves and patches, or the last points and pairs, are not
+    listed, because the lists hold at most settings.contact_points points. The totals count all.
     """
 
     curves: tuple[Curve, ...] = ()

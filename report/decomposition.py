@@ -1,4 +1,4 @@
-"""The convex parts of bodies, with their measured error: what `satcheck decompose` did."""
+"""The report of `satcheck decompose`: the convex parts of bodies, with their measured error."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ class Part(Value, frozen=True):
 
 
 class Remark(Value, frozen=True):
-    """Why a body has no parts, or what a reader of its parts should know."""
+    """The reason why a body has no parts, or a remark about its parts."""
 
     code: Code
     message: str
 
 
 class DecomposedBody(Value, frozen=True, kw_only=True):
-    """A body, and its parts or why there are none.
+    """A body with its parts, or with the reason why it has none.
 
     triangles: of the body. outside: the parts stick out of the mesh by at most this. missing: the
     mesh sticks out of the union of the parts by at most this. failure: why there are no parts;
-    None: there are. seconds: wall clock of the computation, also if the parts came from the cache.
+    None: there are parts. seconds: wall clock of the computation, even if the parts came from the
+    cache.
     """
 
     id: str
@@ -47,7 +48,7 @@ class DecomposedBody(Value, frozen=True, kw_only=True):
 
 class DecompositionOptions(Value, frozen=True, kw_only=True):
     """threshold: the concavity at which CoACD stops splitting, in its own measure. seed: of its
-    random search. seconds: the time limit of one body."""
+    random search. seconds: the time limit for one body."""
 
     threshold: Annotated[float, Meta(gt=0, le=1)]
     seed: Count
@@ -55,12 +56,13 @@ class DecompositionOptions(Value, frozen=True, kw_only=True):
 
 
 class DecompositionReport(Value, frozen=True, kw_only=True):
-    """Bodies as convex parts, with their measured error. World frame, lengths in the units of the
-    files.
+    """The convex parts of bodies, with their measured error. World frame, lengths in the units of
+    the files.
 
     units: as the inputs declare them. output: the file the parts were written to; None: no file.
-    rounding: how far a vertex in that file is at most from the vertex of its part: GLB and STL hold
-    32-bit floats; None: no file. bodies: in the order of the inputs. issues: about the inputs.
+    rounding: the largest distance between a vertex in the file and the vertex of its part, because
+    GLB and STL hold 32-bit floats; None: no file. bodies: in the order of the inputs. issues: about
+    the inputs.
     """
 
     schema: Literal["satcheck.decomposition/1"] = "satcheck.decomposition/1"

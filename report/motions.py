@@ -1,4 +1,4 @@
-"""How bodies move, as a report states it: t runs from 0 to 1."""
+"""The motions of bodies in a report. t runs from 0 to 1."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Translation(Value, frozen=True, tag_field="kind", tag="translation"):
 
 
 class Rotation(Value, frozen=True, tag_field="kind", tag="rotation"):
-    """Bodies that turn by t * degrees about an axis through a point."""
+    """Bodies that rotate by t * degrees about an axis through a point."""
 
     bodies: Bodies
     point: Vector
@@ -36,7 +36,8 @@ class Waypoint(Value, frozen=True):
 
 
 class PosePath(Value, frozen=True, tag_field="kind", tag="path"):
-    """Bodies in rigid poses at times, in between along lines and shortest arcs."""
+    """Bodies that pass rigid poses at given times. In between, positions follow lines and rotations
+    shortest arcs."""
 
     bodies: Bodies
     waypoints: Annotated[tuple[Waypoint, ...], Meta(min_length=2)]

@@ -1,9 +1,9 @@
 """The report: plain frozen data, `satcheck.report/1`.
 
-World frame, right-handed, lengths in the units of the files. `normal` is a unit vector from A to
-B; `distance` is a gap >= 0; `depth` is how far A has to move, without rotation, until A and B have
-no common interior; `mtv` is the translation to add to A. A figure that was not computed
-is None, never 0.
+World frame, right-handed, lengths in the units of the files. `normal` is a unit vector from A to B.
+`distance` is a gap >= 0. `depth` is the length of the shortest translation of A after which A and B
+have no common interior. `mtv` is the translation to add to A. A figure that was not computed is
+None, never 0.
 """
 
 from __future__ import annotations
@@ -35,13 +35,13 @@ from satcheck.report.values import Verdict as Verdict
 
 SCHEMA: Literal["satcheck.report/1"] = "satcheck.report/1"
 
-# How grave a finding is, from the worst. silenced: an error that a rule calls `none`. none: nothing
-# was found.
+# The severity of a finding, worst first. silenced: an error whose severity a rule sets to `none`.
+# none: no problem.
 Severity = Literal["error", "warning", "note", "silenced", "none"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
-# What was asked of a pair and could not be decided: how the bodies relate, whether one lies in the
-# other, whether an overlap is within its limits or a gap keeps its clearance, whether they hit on
-# the way; cross-check: another library contradicts what was decided.
+# The undecided question about a pair. relation: how the bodies relate. inside: whether one lies in
+# the other. limit: whether an overlap is within its limits, or a gap keeps its clearance. motion:
+# whether the bodies hit while they move. cross-check: another library contradicts the answer.
 Undecided = Literal["relation", "inside", "limit", "motion", "cross-check"]
 Effect = Literal[
     "overlap",
@@ -57,15 +57,15 @@ Effect = Literal[
 ]
 EFFECTS: tuple[Effect, ...] = get_args(Effect)
 RELATIONS: tuple[Relation, ...] = get_args(Relation)
-# The stage of a trace in which other libraries say "agrees", "disagrees" or "no answer".
+# The stage of a trace with the result of other libraries: "agrees", "disagrees" or "no answer".
 CROSS_CHECK = "cross-check"
 NO_ANSWER = "no answer"
-# The result of an effect that is found on triangles, of a pair with a curved shape.
+# The result of an effect that needs triangles, for a pair with a curved shape.
 NOT_AVAILABLE = "not available"
 ON_TRIANGLES: tuple[Effect, ...] = ("volume", "contacts", "components", "cross-check")
-# The code of an issue about a pair that failed by a fault of satcheck itself.
+# The code of an issue about a pair that failed because of a bug in satcheck.
 INTERNAL_ERROR = "internal-error"
-# No pair is asked about: within one link, allowed, or exempt.
+# No pair is checked: all are within one link, allowed, or exempt.
 NOTHING_TO_CHECK = "nothing-to-check"
 # Codes of warnings about sizes that make an answer doubtful.
 TOLERANCE_LARGE = "tolerance-large"
@@ -77,8 +77,8 @@ OVERLAPS: frozenset[str] = frozenset({"penetrating", "contains", "inside", "coin
 class PairCounts(Value, frozen=True):
     """total = pruned + decided + allowed + indeterminate.
 
-    Pruned: the world boxes are apart by more than was asked about. Allowed: the scene permits
-    contact, nothing was computed. Exempt: pairs within one ignored group, and pairs of static
+    Pruned: the world boxes are so far apart that no figure is needed. Allowed: the scene permits
+    contact, and nothing was computed. Exempt: pairs within an ignored group, and pairs of static
     bodies; they are not part of the total.
     """
 
@@ -91,20 +91,20 @@ class PairCounts(Value, frozen=True):
 
     @property
     def asked(self) -> int:
-        """The pairs that are checked: with none, nothing is."""
+        """The number of pairs that are checked."""
         return self.total - self.allowed
 
 
 class Summary(Value, frozen=True):
     """by_relation counts every pair that is not allowed; pruned pairs count as separated.
 
-    surfaces_only: the pairs of which one body may come to lie in the other while they move, as what
-    fills the holes of a mesh is not swept (none with Settings.allow_open). limits_undecided: those
-    of which it could not be decided whether an overlap is within the limits of its rules, or a gap
-    keeps its clearance, at rest or on the way.
-    sweeps_undecided: the pairs of which it could not be decided whether they hit while they move.
-    disputed: the pairs on which another library contradicts the answer (Settings.cross_check).
-    accepted: failing findings that the baseline holds, unchanged: they do not make the check fail.
+    surfaces_only: the number of pairs of which one body may enter the other during the motion,
+    because the fills of holes are not swept (0 with Settings.allow_open). limits_undecided: the
+    number of pairs for which it is undecided whether an overlap is within the limits of its rules,
+    or a gap keeps its clearance, at rest or in motion. sweeps_undecided: the number of pairs for
+    which it is undecided whether they hit while they move. disputed: the number of pairs for which
+    another library contradicts the answer (Settings.cross_check). accepted: the number of failing
+    findings that the baseline contains, unchanged. They do not make the check fail.
     """
 
     verdict: Verdict
@@ -118,14 +118,14 @@ class Summary(Value, frozen=True):
 
 
 class Truncated(Value, frozen=True):
-    """What `findings` leaves out: how many pairs, and why."""
+    """The number of pairs that `findings` leaves out, and the reason."""
 
     pairs: Annotated[int, Meta(ge=1)]
     reason: str
 
 
 class Stage(Value, frozen=True):
-    """One step of the trace of a pair: what ran, its result, its cost, why it settled nothing.
+    """One step of the trace of a pair: its name, its result, its cost, and why it settled nothing.
 
     microseconds: left out of a document without timings.
     """
@@ -137,46 +137,45 @@ class Stage(Value, frozen=True):
 
 
 class Witness(Value, frozen=True):
-    """World points, one per body: where the gap is smallest, or a common point."""
+    """World points, one for each body: the nearest points, or a common point."""
 
     a: Vector
     b: Vector
 
 
 class Ball(Value, frozen=True):
-    """World: proven to lie in both bodies."""
+    """A ball in the world that is proven to lie in both bodies."""
 
     centre: Vector
     radius: Length
 
 
 class Finding(Value, frozen=True, kw_only=True):
-    """One pair.
+    """The result for one pair.
 
-    relation: with the touch band, as the bodies are placed, and at the worst of their way where
-    they move. placed_relation: as they are placed, of bodies that move. exact_relation: as they
-    are placed, without the band (None where a capped ladder left it open, or where polygons do not
-    show it of the curves that they stand for). tolerance: the touch band of this pair.
-    quality: of the weakest of relation, depth and gap. exact: proven, numbers to rounding; bounded:
-    the relation is proven, the depth or the gap is a proven interval; estimate: not proven.
-    rule: what decided the severity, where it was no matter of course: "clearance", or the name of a
-    rule. undecided: what was asked and could not be decided; the severity is then a warning at
-    least.
-    distance: the gap, of bodies without a common interior; None, too, where nobody asked for it,
-    and where it need not be measured to be more than the clearance. distance_bounds: contains the
-    true gap, where polygons stand for curves in a check in a plane; the distance is then that of
-    the polygons.
+    relation: with the touch band, as the bodies are placed; for moving bodies, the worst relation
+    of the motion. placed_relation: for moving bodies, the relation as placed. exact_relation: as
+    placed, without the band; None: --accuracy left it open, or it is unknown for curves that
+    polygons replace. tolerance: half width of the touch band of this pair.
+    quality: the weakest quality of relation, depth and gap. exact: proven, numbers up to rounding.
+    bounded: the relation is proven, and the depth or the gap is a proven interval. estimate: not
+    proven.
+    rule: what decided the severity, if it is not the default: "clearance", or the name of a rule.
+    undecided: the question that could not be decided; the severity is then at least a warning.
+    distance: the gap of bodies without a common interior; also None if it was not requested, or if
+    it is known to exceed the clearance without being measured. distance_bounds: contain the true
+    gap if polygons replace curves in a check in a plane; distance is then the gap of the polygons.
     thickness: of an overlap, the diameter of the largest ball that lies in both bodies: the upper
     end of thickness_bounds, which contain it. ball: as thick as their lower end; None where that is
     0. None, too, where nobody asked, and where a body is not closed. volume: what both have in
     common; volume_error: about how far off that is, not proven (0.0: the volume is exactly 0.0).
     None of these weakens the quality.
-    depth_bounds: contains the true depth. depth: its upper end. mtv: about -depth * normal, as long
-    as it had to be for the moved mesh to be verified free. motion: None where neither body moves
-    against the other, or their boxes stay apart; relation, severity and undecided count it, figures
-    are as placed. certificate: what `satcheck verify` checks; None: not asked for, or nothing is
-    proven, and the last stage of the plan says why. baseline_state: of a failing finding, in a
-    check that has a baseline.
+    depth_bounds: contain the true depth. depth: their upper end. mtv: about -depth * normal; it may
+    be a little longer, so that the moved mesh is verified free. motion: the sweep; None: the bodies
+    do not move relative to each other, or their boxes stay apart. relation, severity and undecided
+    include it; figures are as placed. certificate: what `satcheck verify` checks; None: not
+    requested, or nothing is proven, and the last stage of the plan says why. baseline_state: for a
+    failing finding, if the check has a baseline.
     """
 
     id: str
@@ -223,15 +222,16 @@ class Finding(Value, frozen=True, kw_only=True):
 
     @property
     def at_rest(self) -> Relation:
-        """As the bodies are placed."""
+        """The relation of the bodies as placed."""
         return self.placed_relation or self.relation
 
 
 class EffectReport(Value, frozen=True):
-    """What a check computes beyond reading files, over all pairs.
+    """An effect (a kind of computation) of a check, over all pairs.
 
-    asked_by: the flags and rules that need it; empty: none does. pairs: on how many it ran.
-    not_run: why -> on how many it did not; together all pairs. microseconds: of its stages.
+    asked_by: the flags and rules that request it; empty: none does. pairs: the number of pairs on
+    which it ran. not_run: reason -> number of pairs on which it did not run; with `pairs` the sum
+    is all pairs. microseconds: of its stages.
     """
 
     effect: Effect
@@ -242,7 +242,7 @@ class EffectReport(Value, frozen=True):
 
 
 class Issue(Value, frozen=True):
-    """Something about the input or the run, with a stable code. line: of the file, from 1."""
+    """A message about the input or the run, with a stable code. line: of the file, from 1."""
 
     code: Code
     severity: Literal["error", "warning", "note"]
@@ -253,14 +253,14 @@ class Issue(Value, frozen=True):
 
 
 class Exempt(Value, frozen=True):
-    """What the scene does not ask about, and does not count: pairs within these groups, and pairs
-    of static bodies."""
+    """The pairs that the scene neither checks nor counts: pairs within these groups, and pairs of
+    static bodies."""
 
     groups: tuple[str, ...] = ()
     static_pairs: bool = False
 
 
-# Of a planar or a floating joint.
+# The value of a planar or a floating joint.
 JointValues = Annotated[list[float], Meta(min_length=3, max_length=6)]
 
 
@@ -269,12 +269,13 @@ SelectorText = Annotated[str, Meta(min_length=1, pattern="^(?!group:$)")]
 
 
 class RuleReport(Value, frozen=True):
-    """What the scene asks of the pairs with one body in each selector. None: the rule does not say.
+    """A rule of the scene for the pairs with one body in each selector. None: the rule does not set
+    the key.
 
-    a, b: a glob of ids, or "group:" and a glob of groups; an id or group that is exactly the text
-    comes first. allowed: True: nothing is computed. max_depth, max_thickness, max_volume: an
-    overlap of no more is within its limit. clearance, tolerance: in the place of the global ones.
-    severity: of the errors of these pairs. where: it is written.
+    a, b: a glob of ids, or "group:" and a glob of groups. An id or group that is exactly the text
+    overrides the glob. allowed: True: nothing is computed. max_depth, max_thickness, max_volume:
+    limits of an overlap. clearance, tolerance: override the global ones. severity: of the errors of
+    these pairs. where: the place of the rule.
     """
 
     a: SelectorText
@@ -298,14 +299,14 @@ class Report(Value, frozen=True, kw_only=True):
     """World frame, right-handed; lengths in the units of the files. A figure that was not computed
     is None, never 0. Numbers are finite.
 
-    units: of all lengths; None: one is unknown. pose: of the robots, joint -> radians, metres of a
-    prismatic joint, [x, y, angle] of a planar one, [x, y, z, roll, pitch, yaw] of a floating one,
-    without joints that mimic others; None without robots. rules: in the order in which they count:
-    of several about a pair, the last one that sets a key decides it. findings: every pair that is
-    asked about, but for those that `truncated` counts, in the order of the bodies. truncated: pairs
-    that are asked about and apart by their boxes, where there are more than 60 pairs; None: none.
-    baseline: which the check was held against; None: none. config: the options that a config file
-    set; None: no config file took effect.
+    units: of all lengths; None: the unit of a body is unknown. pose: of the robots: joint ->
+    radians, metres for a prismatic joint, [x, y, angle] for a planar one, [x, y, z, roll, pitch,
+    yaw] for a floating one, without joints that mimic others; None without robots. rules: if
+    several rules for a pair set the same key, the last one counts. findings: one for every checked
+    pair, except those that `truncated` counts, in the order of the bodies. truncated: the pairs
+    with separate boxes that are not listed, if there are more than 60 pairs; None: all pairs are
+    listed. baseline: that the check was compared with; None: none. config: the options that a
+    config file set; None: no config file took effect.
     """
 
     schema: Literal["satcheck.report/1"] = SCHEMA
@@ -337,7 +338,7 @@ def plain(value: object) -> Any:
 
 
 def without_timings(values: Any) -> Any:
-    """JSON values of a report, or of a part of it, without the times that stages took."""
+    """JSON values of a report, or of a part of it, without the times of stages."""
     if isinstance(values, list | tuple):
         return [without_timings(value) for value in values]
     if isinstance(values, dict):

@@ -1,4 +1,4 @@
-"""What `satcheck resolve` did: translations that end the overlaps of a scene."""
+"""The report of `satcheck resolve`: translations that end the overlaps of a scene."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ ResolutionVerdict = Literal["resolved", "unresolved", "incomplete"]
 
 
 class Move(Value, frozen=True):
-    """A body that was moved. translation: in the world. length: of the translation."""
+    """A moved body. translation: in the world. length: of the translation."""
 
     body: str
     translation: Vector
@@ -20,8 +20,8 @@ class Move(Value, frozen=True):
 
 
 class Left(Value, frozen=True):
-    """A pair that remains, and why nothing was done about it. relation: of the bodies as they are
-    placed, or the worst on their way if that is what is wrong."""
+    """An unresolved pair, and the reason. relation: of the bodies as placed, or the worst of the
+    motion if the motion is the problem."""
 
     a: str
     b: str

@@ -1,4 +1,4 @@
-"""The same bodies in many poses of their robots: a verdict for each pose, and counts for pairs."""
+"""The report of a check in many poses of robots: a verdict for each pose, and counts for pairs."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from satcheck.report.report import Exempt, Finding, Issue, JointValues, RuleRepo
 from satcheck.report.settings import StatedSettings
 from satcheck.report.values import Count, Sha256, Tool, Value, Verdict
 
-# From 1.
+# Numbers of samples start at 1.
 Number = Annotated[int, Meta(ge=1)]
 
 
 class SampledBody(Value, frozen=True):
-    """A body as in a report of one pose, without what depends on the pose."""
+    """A body as in a report of one pose, without the fields that depend on the pose."""
 
     id: str
     file: str
@@ -37,11 +37,11 @@ class SampledPose(Value, frozen=True):
 
 
 class SampledPair(Value, frozen=True):
-    """In how many samples the pair is what, at rest or while it moves; in the others it is
-    separated.
+    """The number of samples with each relation of the pair, at rest or in motion. In all other
+    samples the pair is separated.
 
-    undecided: how they relate, or whether they hit on the way. first_overlap: number of the first
-    sample in which the two overlap.
+    undecided: how the bodies relate, or whether they hit in motion. first_overlap: the number of
+    the first sample with an overlap.
     """
 
     a: str
@@ -54,9 +54,10 @@ class SampledPair(Value, frozen=True):
 
 
 class SampledPairCounts(Value, frozen=True):
-    """total: as in a report of one pose, with the allowed ones. allowed: by rules, an SRDF, or
-    because both bodies are of one link: not checked. exempt: pairs of static bodies, and pairs
-    within an ignored group: not checked, and not in total. separated: in all samples."""
+    """total: as in a report of one pose, including allowed pairs. allowed: pairs that are not
+    checked, because of rules, an SRDF, or because both bodies belong to one link. exempt: pairs of
+    static bodies, and pairs within an ignored group; they are not checked and not in total.
+    separated: in all samples."""
 
     total: Count
     allowed: Count
@@ -65,7 +66,7 @@ class SampledPairCounts(Value, frozen=True):
 
 
 class SamplesSummary(Value, frozen=True):
-    """verdict: the worst of the samples. by_verdict: how many samples."""
+    """verdict: the worst of the samples. by_verdict: number of samples with each verdict."""
 
     verdict: Verdict
     samples: Number

@@ -14,7 +14,8 @@ TIMING = "microseconds"
 
 
 def schema_of(name: str, document: type[Struct]) -> dict[str, Any]:
-    """Keys are required, but for timings and those that a struct may leave unset."""
+    """The schema of a document. All keys are required, except timings and those that a struct may
+    leave unset."""
     _, parts = schema_components([document], ref_template="#/$defs/{name}")
     for part in parts.values():
         _complete(part)
@@ -24,7 +25,8 @@ def schema_of(name: str, document: type[Struct]) -> dict[str, Any]:
 
 
 def _complete(part: dict[str, Any]) -> None:
-    """A field with a default is written too; one without default and not required may be unset."""
+    """Makes fields with a default required, because they are always written. Fields that may be
+    unset stay optional."""
     if "description" in part:
         words = cleandoc(part["description"])
         for python, json in (("None", "null"), ("True", "true"), ("False", "false")):

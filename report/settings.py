@@ -1,4 +1,4 @@
-"""The settings of a check, as a report states them."""
+"""The settings of a check in a report."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Plane = Literal["xy", "yz", "xz"]
 
 
 class StatedSettings(Value, frozen=True, kw_only=True):
-    """Everything that can change an answer."""
+    """The settings that can change an answer."""
 
     depth: bool
     thickness: bool

@@ -1,4 +1,4 @@
-"""What `satcheck stability` found: one question, asked in ways that must not change the answer."""
+"""The report of `satcheck stability`: a pair in variants that must not change the answer."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class StatedAnswer(Value, frozen=True):
 
 
 class StatedVariant(Value, frozen=True):
-    """how: what was done, in words. beyond: what changed and must not have. change: of the signed
-    distance, at least. bound: how much of that change the variant may cause."""
+    """how: the variant, in words. beyond: what changed although it must not. change: a lower bound
+    of the change of the signed distance. bound: the change that the variant may cause."""
 
     how: str
     judgement: Judgement
@@ -37,7 +37,7 @@ class StatedVariant(Value, frozen=True):
 
 
 class StatedFamily(Value, frozen=True):
-    """judgement: the worst of the samples; None: there are none. skipped: why there are none.
+    """judgement: the worst of the samples; None: no samples. skipped: why there are no samples.
     change, bound: the largest of the samples."""
 
     family: Family
@@ -49,11 +49,11 @@ class StatedFamily(Value, frozen=True):
 
 
 class StabilityReport(Value, frozen=True, kw_only=True):
-    """The same question asked in other ways. Every answer is taken back to the frame, the scale and
-    the order of the question as asked; lengths in the units of the files.
+    """A pair and its variants. Every answer is converted back to the frame, the scale and the order
+    of the original pair; lengths in the units of the files.
 
-    a, b: the files as given. verdict: changed: something changed beyond its bound. undecided: not
-    changed, but something could not be compared.
+    a, b: the files as given. verdict: changed: an answer changed beyond its bound. undecided: no
+    answer changed, but some could not be compared.
     """
 
     schema: Literal["satcheck.stability/1"] = "satcheck.stability/1"

@@ -1,4 +1,4 @@
-"""What `satcheck suggest` proposes: pairs that a scene may want to allow, with the evidence."""
+"""The report of `satcheck suggest`: pairs that a scene may allow, with the evidence."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ Names = tuple[str, str]
 
 
 class Suggestion(Value, frozen=True):
-    """One pair that no rule allows, ids in the order of the bodies.
+    """A pair that no rule allows, ids in the order of the bodies.
 
-    why: adjacent: a joint connects their links. contact: as placed. always, never: in contact in
-    all of the poses, or in none and separated as placed; never proves nothing about other poses.
-    links: that carry them; None: not of the only robot. relation: as placed; None: separated in the
-    poses too. depth_bounds: contains the depth of an overlap as placed. contacts: in how many of
-    the poses they overlap or touch; None: no other poses.
+    why: adjacent: a joint connects their links. contact: they touch or overlap as placed. always:
+    in contact in all poses. never: in contact in no pose, and separated as placed; this proves
+    nothing about other poses. links: of the bodies; None: they do not belong to the only robot.
+    relation: as placed; None: separated in the poses too. depth_bounds: contain the depth of an
+    overlap as placed. contacts: the number of poses in which they overlap or touch; None: no other
+    poses.
     """
 
     a: str
@@ -30,8 +31,8 @@ class Suggestion(Value, frozen=True):
 
 
 class Unchecked(Value, frozen=True):
-    """One pair that no rule allows, and of which the check as placed could not say how it relates:
-    it is not suggested. adjacent: a joint connects the links. reason: why it could not."""
+    """A pair that no rule allows and that is not suggested, because its relation as placed is
+    undecided. adjacent: a joint connects the links. reason: why it is undecided."""
 
     a: str
     b: str
@@ -41,13 +42,11 @@ class Unchecked(Value, frozen=True):
 
 
 class SuggestionsReport(Value, frozen=True, kw_only=True):
-    """Pairs that a scene may want to allow, each with its evidence. Lengths in the units of the
-    scene.
+    """Pairs that a scene may allow, each with its evidence. Lengths in the units of the scene.
 
-    poses: how many were checked besides the placement. seed: of the poses; None: they are not
+    poses: the number of poses checked besides the placement. seed: of the poses; None: they are not
     random, or there are none. held: joints that do not move among the poses. undecided: the number
-    of pairs of which something could not be decided. unchecked: those of them that could not be
-    checked as placed.
+    of undecided pairs. unchecked: those of them that are undecided as placed.
     """
 
     schema: Literal["satcheck.suggestions/1"] = "satcheck.suggestions/1"

@@ -1,5 +1,5 @@
-"""What `satcheck suggest --surface-tolerance` proposes: how far facets are off the curved surfaces
-that they stand for, with the evidence."""
+"""The report of `satcheck suggest --surface-tolerance`: the distance between facets and the curved
+surfaces that they approximate, with the evidence."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ class FacetedCurves(Value, frozen=True):
     """Chains of facets with the same radius and sagitta, to a few per cent.
 
     concave: the facets lie outside of the material of the curved body, or the mesh is not solid;
-    else inside. chains: how many. facets: of all of them. sagitta: the largest distance of a facet
-    from the curve. Of that facet, degrees: the angle by which the surface turns over it; radius: of
-    curvature; place: a point of it, world.
+    else inside. chains: number of chains. facets: number of their facets. sagitta: the largest
+    distance of a facet from the curve. For that facet: degrees: the angle by which the surface
+    turns over it; radius: of curvature; place: a point of it, world.
     """
 
     concave: bool
@@ -27,10 +27,11 @@ class FacetedCurves(Value, frozen=True):
 
 
 class BodyTolerance(Value, frozen=True):
-    """surface_tolerance: the largest sagitta of a concave curve, rounded up: so far the mesh has
-    more material than the curved body. None: no such curve is seen. stated: the body is a shape
-    stated by its sizes, which has no facets. left_out: chains that turn by more than `most_degrees`
-    from facet to facet, and may be prisms. Concave ones first, then the largest sagitta.
+    """surface_tolerance: the largest sagitta of a concave curve, rounded up. The mesh has up to
+    this much more material than the curved body. None: there is no such curve. stated: the body is
+    a shape stated by its sizes, which has no facets. left_out: chains that turn by more than
+    `most_degrees` from facet to facet, and may be prisms. Concave curves come first, then by
+    decreasing sagitta.
     """
 
     body: str
@@ -43,9 +44,8 @@ class BodyTolerance(Value, frozen=True):
 class SurfaceTolerancesReport(Value, frozen=True, kw_only=True):
     """Surface tolerances, measured on the meshes alone. Lengths in the units of the scene.
 
-    surface_tolerance: that covers all bodies; None: no body needs one, or they have different units
-    of length. most_degrees: the largest angle between two facets that is read as
-    that of a curve. least_facets: in a chain.
+    surface_tolerance: covers all bodies; None: no body needs one, or they have different units of
+    length. most_degrees: the largest angle between two facets of a curve. least_facets: of a chain.
     """
 
     schema: Literal["satcheck.surface-tolerances/1"] = "satcheck.surface-tolerances/1"

@@ -1,4 +1,4 @@
-"""What is reported about two bodies while they move: plain data.
+"""The result of a sweep of two moving bodies: plain data.
 
 t runs from 0 to 1; lengths are in the units of the files.
 """
@@ -13,8 +13,8 @@ SweptRelation = Literal["separated", "near", "touching", "penetrating", "indeter
 
 
 class Place(Value, frozen=True):
-    """How far a body has come, in its motion's own terms: degrees turned, the length moved, or t on
-    a path of poses."""
+    """The progress of a body along its motion: degrees of a rotation, length of a translation, or t
+    on a path of poses."""
 
     body: str
     term: Literal["degrees", "length", "t"]
@@ -22,9 +22,9 @@ class Place(Value, frozen=True):
 
 
 class WorstPose(Value, frozen=True):
-    """The deepest pose of bodies that overlap, else the nearest. distance, depth: proven bounds of
-    the least distance, or the greatest depth, over the whole motion; the end that is worse is
-    bounded, the other is reached at `time`. One of the two is None."""
+    """The deepest pose of bodies that overlap, else the nearest pose. distance, depth: proven
+    bounds of the least distance, or the greatest depth, over the whole motion. The worse end is a
+    bound; the other is reached at `time`. One of the two is None."""
 
     time: Share
     at: tuple[Place, ...]
@@ -35,15 +35,14 @@ class WorstPose(Value, frozen=True):
 class Sweep(Value, frozen=True, kw_only=True):
     """A pair over its whole motion.
 
-    relation: the worst of it. `separated`: no common point at any t; `near`: closer than the
-    clearance at some; `touching`: they come as close as the tolerance, or could not be proven not
-    to, and overlap by no more than it at any t; `penetrating`: they overlap by more at some t.
-    tolerance: the touch band of the sweep. time_of_impact: before its lower end there is no such
-    overlap; at its upper end a check of the bodies, posed and rounded to float64, finds one. at:
-    the pose there. contact: a t before which they have no common point. reached: up to there
-    no overlap is proven. reason: of `indeterminate`, or what
-    surfaces alone left open. steps: what it took. proven: False of a hit that boxes or hulls alone
-    show, at an accuracy below exact.
+    relation: the worst relation of the motion. `separated`: no common point at any t. `near`:
+    closer than the clearance at some t. `touching`: they come as close as the tolerance, or this
+    could not be excluded, and at no t they overlap by more than it. `penetrating`: they overlap by
+    more at some t. tolerance: the touch band of the sweep. time_of_impact: no such overlap before
+    its lower end; at its upper end, a check of the bodies, posed and rounded to float64, finds one.
+    at: the pose there. contact: no common point before this t. reached: no such overlap up to this
+    t. reason: why the answer is `indeterminate`, or what the sweep of surfaces left open. steps:
+    the cost. proven: False: only boxes or hulls show the hit, at an accuracy below exact.
     """
 
     relation: SweptRelation

@@ -1,4 +1,4 @@
-"""What the parts of a document are made of: its structs, and the numbers and words in them."""
+"""The base of all structs of documents, and the types of numbers and words in them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from msgspec import Meta, Struct
 
 
 class Value(Struct, frozen=True, forbid_unknown_fields=True):
-    """A JSON object. Every key is always there; what does not apply is None."""
+    """A JSON object. Every key is always present; values that do not apply are None."""
 
 
 Count = Annotated[int, Meta(ge=0)]
@@ -17,10 +17,10 @@ Size = Annotated[float, Meta(gt=0)]
 Share = Annotated[float, Meta(ge=0, le=1)]
 Vector = tuple[float, float, float]
 Sizes = tuple[Size, Size, Size]
-# Both ends of a proven interval.
+# The lower and upper end of a proven interval.
 Interval = tuple[Length, Length]
 Sha256 = Annotated[str, Meta(pattern="^[0-9a-f]{64}$")]
-# Stable, kebab-case.
+# A stable code in kebab-case.
 Code = Annotated[str, Meta(pattern="^[a-z0-9]+(-[a-z0-9]+)*$")]
 
 Relation = Literal[

@@ -1,4 +1,4 @@
-"""What `satcheck verify` proves of a report by its certificates, checked again from the files."""
+"""The report of `satcheck verify`: what its certificates prove about a report and its files."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from msgspec import Meta
 from satcheck.report.values import Count, Tool, Value
 
 Outcome = Literal["accepted", "rejected", "not certified", "open", "no file"]
-# proven: from the mesh files and the certificates. follows: checked against what is proven.
-# stated: what was asked, taken as it stands. certified: proven where the certificate of a finding
-# says so, else not covered. not covered: only its type is checked.
+# proven: from the mesh files and the certificates. follows: checked against proven values. stated:
+# a request, taken as stated. certified: proven if the finding has a certificate for it, else not
+# covered. not covered: only its type is checked.
 Kind = Literal["proven", "follows", "stated", "certified", "not covered"]
 
 
 class Checked(Value, frozen=True):
     """One finding of the report.
 
-    outcome: open: the report says that the pair is indeterminate, which claims nothing. no file:
-    that of a body is missing, so nothing is known. reason: why it is not accepted. depth, mtv,
-    thickness: that figure is proven too. left: fields of the finding that say something which is
+    outcome: open: the report states that the pair is indeterminate, which claims nothing. no file:
+    the file of a body is missing, so nothing is known. reason: why it is not accepted. depth, mtv,
+    thickness: whether that figure is proven too. left: fields of the finding with a value that is
     not proven.
     """
 
@@ -38,9 +38,10 @@ class Checked(Value, frozen=True):
 class Uncovered(Value, frozen=True):
     """A field of the report with a value that is not proven.
 
-    field: its path; [] stands for each member of a list. kind: stated: taken as the report states
-    it. not covered: only its type is checked. certified: it can be proven, and was not in these
-    findings. called: what it is about, in words. findings: in how many; None: it is of the report.
+    field: its path; [] means each member of a list. kind: stated: taken as the report states it.
+    not covered: only its type is checked. certified: it can be proven, but was not in these
+    findings. called: its meaning, in words. findings: number of findings with it; None: it belongs
+    to the whole report.
     """
 
     field: str
@@ -50,14 +51,14 @@ class Uncovered(Value, frozen=True):
 
 
 class VerificationReport(Value, frozen=True, kw_only=True):
-    """What is proven of a report by its certificates, checked again from the mesh files.
+    """The result of checking a report and its certificates against the mesh files.
 
-    tool: that verified, not that of the report. accepted: every verdict of the report is proven or
-    said to be open, and all else follows from them. findings: those of the report, in their order.
-    faults: what is wrong with the report as a whole. not_certified: what no certificate speaks of,
-    so that the report is not accepted. pruned: pairs that the report does not list, whose boxes are
-    apart. exempt: pairs that it does not list, and that its scene exempts or allows. missing: files
-    that are not there: what rests on them is not checked.
+    tool: the program that verified, and not the one of the report. accepted: every verdict of the
+    report is proven or stated to be open, and everything else follows from the verdicts. findings:
+    of the report, in its order. faults: errors of the report as a whole. not_certified: claims
+    without a certificate, because of which the report is not accepted. pruned: unlisted pairs whose
+    boxes are apart. exempt: unlisted pairs that the scene exempts or allows. missing: missing
+    files; claims about their bodies are not checked.
     """
 
     schema: Literal["satcheck.verification/1"] = "satcheck.verification/1"

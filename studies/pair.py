@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import BodyCache
-from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.planner import request_for
 from satcheck.audit.request.settings import Settings
 from satcheck.scene import Body
 
@@ -19,4 +19,4 @@ Bodies = tuple[Body, Body]
 def pair_of(bodies: Bodies, settings: Settings, meter: VolumeMeter | None = None) -> Pair:
     cache = BodyCache()
     a, b = (cache.place(body, settings, None) for body in bodies)
-    return Pair(a, b, settings, asked_by(settings), meter)
+    return Pair(a, b, settings, request_for(settings), meter)

@@ -24,14 +24,14 @@ _RANK = {rung: place for place, rung in enumerate(ACCURACIES)}
 
 
 class Paths(Struct, frozen=True):
-    """How the bodies of a pair move; None: not at all. Not both."""
+    """The motions of the two bodies; None: at rest. At least one moves."""
 
     a: Path | None
     b: Path | None
 
 
 class Pair(Struct, frozen=True):
-    """tolerance: half width of the touch band, world units. asked_gap: a larger gap needs no
+    """tolerance: half width of the touch band, world units. gap_limit: a larger gap needs no
     figure, because it is neither near nor in the touch band.
 
     By default the tolerance is the sum of the input precisions of both bodies. It is limited, so
@@ -52,7 +52,7 @@ class Pair(Struct, frozen=True):
     paths: Paths | None = None
     alone: bool = False
     tolerance: float = 0.0  # __post_init__ sets it
-    asked_gap: float = 0.0  # __post_init__ sets it
+    gap_limit: float = 0.0  # __post_init__ sets it
     off: tuple[float, float] = (0.0, 0.0)  # __post_init__ sets it
     closer: float = 0.0  # __post_init__ sets it
     farther: float = 0.0  # __post_init__ sets it
@@ -68,8 +68,8 @@ class Pair(Struct, frozen=True):
         files = (self.a.body.file, self.b.body.file) if self.settings.planar else ()
         closer = sum((file.deviation for file in files), 0.0)
         farther = sum((file.deviation for file in files if not file.inscribed), 0.0)
-        asked_gap = max((self.request.clearance or 0.0) + closer, tolerance)
-        force_setattr(self, "asked_gap", asked_gap)
+        gap_limit = max((self.request.clearance or 0.0) + closer, tolerance)
+        force_setattr(self, "gap_limit", gap_limit)
         force_setattr(self, "closer", closer)
         force_setattr(self, "farther", farther)
 

@@ -67,7 +67,7 @@ class PlacedBodies(Struct, frozen=True):
             for other in range(len(self.ids)):
                 if other in self.unusable and other >= k:
                     continue
-                if self.book.is_asked(k, other):
+                if self.book.is_checked(k, other):
                     yield min(k, other), max(k, other), body.reason
 
     def pairs_of_several_units(self) -> Iterator[tuple[int, int, str]]:
@@ -77,7 +77,7 @@ class PlacedBodies(Struct, frozen=True):
             alike.setdefault(self.units.get(k), []).append(k)
         for some, others in combinations(alike.values(), 2):
             for i, j in map(sorted, product(some, others)):
-                if self.book.is_asked(i, j):
+                if self.book.is_checked(i, j):
                     yield i, j, f"{self._in_units(i)}, and {self._in_units(j)}"
 
     def _in_units(self, k: int) -> str:

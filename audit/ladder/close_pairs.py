@@ -40,7 +40,7 @@ def close_pairs(
         pairs = [pair for pair in pairs if bodies.is_comparable(*pair)]
     if not book.rules:
         return pairs
-    requested = [pair for pair in pairs if book.is_asked(*pair)]
+    requested = [pair for pair in pairs if book.is_checked(*pair)]
     return (
         _within_own_gaps(bodies, boxes, planner, requested) if planner.lengths_differ else requested
     )
@@ -59,5 +59,5 @@ def _within_own_gaps(
         (i, j)
         for i, j in pairs
         if core.box_gap(boxes[i], boxes[j])
-        <= planner.asked_gap(i, j, placed[i].resolution + placed[j].resolution)
+        <= planner.gap_limit(i, j, placed[i].resolution + placed[j].resolution)
     ]

@@ -24,7 +24,7 @@ LAST: dict[Accuracy, Rung] = {
     "parts": "hull",
     "exact": "triangles",
 }
-# What is computed after the ladder, whatever the verdict.
+# Effects that are computed after the ladder for every verdict.
 _EXTRAS: frozenset[Effect] = frozenset(
     ("volume", "contacts", "components", "cross-check", "certificate", "sweep")
 )
@@ -37,7 +37,7 @@ def climb_pair(pair: Pair, first: Rung = "aabb", last: Rung | None = None) -> co
     if pair.curved:
         last = "aabb"
     elif pair.outlined and first == "aabb" and last != "aabb":
-        last = "obb"  # between the boxes and the hulls come the outlines
+        last = "obb"  # the outlines come between the boxes and the hulls
     return core.climb(_request(pair), first, last, pair.settings.method)
 
 
@@ -77,4 +77,4 @@ def leaves_work(pair: Pair, climb: core.Climb | None) -> bool:
 
 def _request(pair: Pair) -> Request:
     a, b = pair.a.geometry, pair.b.geometry
-    return a, b, pair.asked_gap, pair.tolerance, *pair.off, pair.wants_distance
+    return a, b, pair.gap_limit, pair.tolerance, *pair.off, pair.wants_distance

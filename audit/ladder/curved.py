@@ -78,11 +78,11 @@ def _nested(pair: Pair, signed: Signed, trace: Trace) -> Verdict:
 
 def _settle_mesh(pair: Pair, trace: Trace) -> Verdict:
     curved, mesh, sign = sides(pair.a, pair.b)
-    seen = against_triangles(curved, mesh.mesh, pair.asked_gap)
+    seen = against_triangles(curved, mesh.mesh, pair.gap_limit)
     if seen.refined:
         detail = f"{seen.refined} triangles that bounds leave open"
         trace.record(PROOF, seen.nearest.outcome if seen.nearest else "undecided", detail)
-    result = relate(curved, mesh, seen, pair.asked_gap)
+    result = relate(curved, mesh, seen, pair.gap_limit)
     if result.relation == "undecided":
         reason = _open(result, pair.b if sign > 0 else pair.a, seen)
         trace.record(STAGE, "undecided", reason)
@@ -124,4 +124,4 @@ def _open(result: InMesh, mesh: PlacedBody, seen: Nearest) -> str:
         return _OPEN_TRIANGLES if seen.undecided else _NO_POINT
     number, count = result.hole
     which = "the hole" if count == 1 else f"hole {number + 1} of {count}"
-    return f"{which} of {mesh.id} meets the curved shape: what fills it decides"
+    return f"{which} of {mesh.id} meets the curved shape: its fill decides"

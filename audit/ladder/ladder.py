@@ -2,7 +2,7 @@
 rung.
 
 aabb -> obb -> hull -> triangles, or hull -> parts at --accuracy parts. The climb ends at a rung
-that proves a gap beyond `asked_gap`. The highest allowed rung always answers. An answer that it
+that proves a gap beyond `gap_limit`. The highest allowed rung always answers. An answer that it
 cannot prove is an estimate, and can only err towards "penetrating".
 
 The core climbs and derives the verdict (`core/native/scene/verdict.hpp`). This module adds the
@@ -45,7 +45,7 @@ def _settled(pair: Pair, trace: Trace, climb: core.Climb) -> Verdict:
         return settle_curved(pair, trace)
     if pair.outlined and climb.hulls is None:
         if _outlines_apart(pair, trace):
-            return Verdict("separated", True, math.nextafter(pair.asked_gap, math.inf))
+            return Verdict("separated", True, math.nextafter(pair.gap_limit, math.inf))
         return _settled(pair, trace, climb_pair(pair, "hull"))
     if pair.may("parts"):
         from satcheck.audit.ladder.parts_only import settle_by_parts
@@ -68,7 +68,7 @@ def _verdict_of(pair: Pair, climb: core.Climb) -> Verdict:
 
 
 def boxes_verdict(pair: Pair, trace: Trace) -> Verdict | None:
-    """The verdict by the world boxes alone; None: their gap does not exceed `asked_gap`."""
+    """The verdict by the world boxes alone; None: their gap does not exceed `gap_limit`."""
     climb = climb_pair(pair, last="aabb")
     trace.climbed(climb)
     return _verdict_of(pair, climb) if climb.settled else None
@@ -85,7 +85,7 @@ def _outlines_apart(pair: Pair, trace: Trace) -> bool:
     # The widest gap along an edge normal, less its rounding error.
     gap = -result.penetration - rounding_pad(pair.largest_coordinate)
     trace.record("sat", result.outcome, _edge_of(result))
-    return result.outcome == "separated" and gap > pair.asked_gap
+    return result.outcome == "separated" and gap > pair.gap_limit
 
 
 def _edge_of(result: core.PolygonResult) -> str:
@@ -98,4 +98,4 @@ def _open(pair: Pair, hole: core.OpenHole) -> str:
     at = ", ".join(f"{c:.4g}" for c in hole.centre)
     which = "the hole" if hole.count == 1 else f"hole {hole.number + 1} of {hole.count}"
     where = f"in a box {hole.diameter:.3g} from corner to corner at ({at})"
-    return f"{which} of {body.id}, {where}, meets {other.id}: what fills it decides the relation"
+    return f"{which} of {body.id}, {where}, meets {other.id}: its fill decides the relation"

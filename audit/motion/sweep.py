@@ -147,7 +147,7 @@ class _Answer:
         holed = self._holed()
         if not holed or self._pair.hulls_apart:
             return None
-        return f"what fills the holes of {' and '.join(holed)} was not swept"
+        return f"the fills of the holes of {' and '.join(holed)} were not swept"
 
     def _pose(self, worst: Worst) -> WorstPose | None:
         if math.isinf(worst.upper):

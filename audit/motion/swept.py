@@ -28,14 +28,13 @@ def swept_box(bounds: Box, track: Track) -> Box:
 
 
 def _boxes(bounds: Box, piece: Piece) -> list[Box]:
-    """Between two poses a point runs along an arc about the centre. It leaves the chord, run along
-    at a steady pace as the centre moves, by angle squared / 8 of its radius at most: the error of
-    linear interpolation."""
+    """Between two poses a point moves along an arc about the moving centre. Its distance from the
+    linear interpolation is at most angle squared / 8 of its radius."""
     turned = math.radians(abs(piece.degrees))
     count = min(max(math.ceil(turned / STEP), 1), MOST_POSES)
     length = piece.end - piece.start
     radius = max(math.dist(corner, piece.pivot) for corner in corners(bounds))
-    angle = min(turned / count, 4.0)  # radians; no point is farther off than twice the radius
+    angle = min(turned / count, 4.0)  # radians; the error is never more than twice the radius
     grown = radius * angle * angle / 8.0
     times = [piece.start + length * k / count for k in range(count + 1)]
     return [_box(bounds, piece, t, grown) for t in times]

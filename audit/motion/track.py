@@ -34,24 +34,27 @@ Frame = tuple[Matrix, Vector]
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 WORLD: Frame = (STILL, ORIGIN)
 
-# Roundings, in roundoffs of the reach of a body (its largest distance from the pivot, the pivot's
-# and the centre's from the origin, added up). A pose: the sine and cosine 4, the axis 4, the nine
-# products of a turn 8 each, twice on a leg of a path, the centre 8, applied to a point 16: below
-# 128, and the angle itself, which carries its relative error of 4 into the turn. The arithmetic of
-# a gap along an axis, again on three coordinates, below 128.
+# Rounding errors, in roundoffs of the reach of a body. The reach is the sum of three distances: of
+# its farthest point from the pivot, of the pivot from the origin, and of the centre from the
+# origin. A pose: the sine and cosine have an error of 4, the axis 4, each of the nine products of a
+# rotation 8 (twice on a leg of a path), the centre 8, the product with a point 16: below 128 in
+# sum. The relative error 4 of the angle is also an error of the rotation. The arithmetic of a gap
+# along an axis, on three coordinates, adds less than 128.
 POSE_ROUNDOFFS = 256
-# A pose after a placement, as one matrix: each entry is a sum of up to four products, rounded, then
-# rounded itself, below 8 roundoffs of the lengths that go into it; applied to a point of the file,
-# on three coordinates, that is below 16 of what the placement makes of it before its parts add up.
+# A pose and a placement, multiplied into one matrix. Each entry is a rounded sum of up to four
+# rounded products: its error is below 8 roundoffs of the lengths in it. Applied to the three
+# coordinates of a point of the file, the error is below 16 roundoffs of the terms that the
+# placement adds up.
 PLACING_ROUNDOFFS = 16
-# A rate of closing: the axis 4, the angular velocity 8, products and sums of three coordinates 16
-# each, and what bends, relative to the rate, as much again.
-# Where the body that stands is seen to turn instead (core/native/motion/moving.hpp, Views), its
-# rate is off by 8 roundoffs of spin times reach, and its own speed, 0, has no share in the slack.
-# The pads cover it. A gap is at least gap - rate s - bend s^2 / 2, and gap - steady s; bend = spin
-# * steady. The first is the greater only where bend s / 2 < steady - rate <= 2 steady, within 4
-# radians: below 32 roundoffs of the reach, of which a body that needs no pose has 128 to spare. The
-# second takes no difference of large terms: it is off by some roundoffs of what the gap loses.
+# The rate at which a gap closes: the axis has an error of 4, the angular velocity 8, products and
+# sums of three coordinates 16 each. The change of the rate by rotation adds as much again.
+# A body at rest may be seen as turning, relative to the other body (core/native/motion/moving.hpp,
+# Views). Its rate then has an error of 8 roundoffs of spin times reach, and its own speed is 0 and
+# adds nothing to the slack. The pads cover this error. With bend = spin * steady, a gap is at least
+# gap - rate s - bend s^2 / 2, and at least gap - steady s. The first bound is greater only if
+# bend s / 2 < steady - rate <= 2 steady, within 4 radians. The error is then below 32 roundoffs of
+# the reach, and a body without a pose has 128 to spare. The second bound has no difference of large
+# terms: its error is some roundoffs of the decrease of the gap.
 RATE_ROUNDOFFS = 128
 # The turn between two orientations has this error in roundoffs, however small it is.
 LEG_ROUNDOFFS = 16
@@ -102,7 +105,7 @@ class Track(Struct, frozen=True):
         return [piece.start for piece in self.pieces] + [1.0]
 
     def piece_at(self, t: float) -> Piece:
-        """The piece that starts at t rather than the one that ends there."""
+        """The piece that contains t. If two pieces meet at t, the later one."""
         starts = [piece.start for piece in self.pieces]
         return self.pieces[bisect_right(starts, t) - 1]
 

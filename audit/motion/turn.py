@@ -1,7 +1,7 @@
 """Rotations: about an axis by degrees, and between two orientations.
 
-Rotations are 3x3 matrices in rows, right-handed; quaternions are (x, y, z, w) of any length but 0.
-Quarter turns about a coordinate axis are exact.
+Rotations are 3x3 matrices in rows, right-handed; quaternions are (x, y, z, w) of any length except
+0. Quarter turns about a coordinate axis are exact.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _X: Vector = (1.0, 0.0, 0.0)
 
 
 def rotation(axis: Vector, degrees: float) -> Matrix:
-    """About a unit axis."""
+    """The rotation about a unit axis."""
     return _rows(about(axis, cos_sin(degrees)))
 
 
@@ -41,7 +41,7 @@ def applied(m: Matrix, v: Vector) -> Vector:
 
 
 def product(m: Matrix, n: Matrix) -> Matrix:
-    """m after n."""
+    """The product m n: first n, then m."""
     columns = tuple(zip(*n, strict=True))
     return tuple(  # type: ignore[return-value]
         tuple(math.fsum(a * b for a, b in zip(row, column, strict=True)) for column in columns)

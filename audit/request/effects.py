@@ -15,7 +15,7 @@ from satcheck.report.report import (
     PairCounts,
 )
 
-# Stages that belong to an effect which not every pair asks for; the others find the overlap.
+# Stages of effects that are not requested for every pair. All other stages decide the overlap.
 _EFFECT_OF_STAGE: dict[str, Effect] = {
     "depth": "depth",
     "search": "depth",
@@ -42,7 +42,7 @@ NO_ANSWER = "no answer"
 
 
 class _Alike:
-    """Findings that differ in nothing that counts here; most are like many others."""
+    """Findings that are equal in everything that counts here. Most findings have many equals."""
 
     __slots__ = ("findings", "request")
 
@@ -56,7 +56,7 @@ class _Alike:
         return self.findings[0]
 
     def stages(self) -> Iterator[tuple[Effect, float]]:
-        """The effect that each belongs to, and its microseconds."""
+        """The effect of each stage, and its microseconds."""
         for place, stage in enumerate(self.finding.plan):
             time = sum([finding.plan[place].microseconds for finding in self.findings])
             effect = _EFFECT_OF_STAGE.get(stage.stage, "overlap")
@@ -65,7 +65,7 @@ class _Alike:
 
     @property
     def unanswered(self) -> set[Effect]:
-        """What has nothing to show for its stage, because it was refused, for instance."""
+        """Effects whose stage ran without a result, for example because it was refused."""
         answers: dict[Effect, object] = {
             "thickness": self.finding.thickness,
             "volume": self.finding.volume,
@@ -81,9 +81,9 @@ def effects_of(
     counts: PairCounts,
     units_unknown: int = 0,
 ) -> tuple[EffectReport, ...]:
-    """close: the pairs that the broad phase left over. The pairs of each effect, and those on which
-    it did not run, are together all pairs. A sweep is left out where nothing moves. units_unknown:
-    how many pairs have no common unit."""
+    """A report for each effect. close: the pairs that the broad phase kept. For each effect, the
+    pairs on which it ran and those on which it did not add up to all pairs. Without motions there
+    is no sweep. units_unknown: the number of pairs without a common unit."""
     effects = [effect for effect in EFFECTS if effect != "sweep" or planner.moving]
     groups = _grouped(close)
     time: dict[Effect, float] = dict.fromkeys(EFFECTS, 0.0)
@@ -94,7 +94,7 @@ def effects_of(
         for effect, microseconds in group.stages():
             time[effect] += microseconds
             done.add(effect)
-        if group.finding.depth is not None:  # also where the touch band found it
+        if group.finding.depth is not None:  # also if the touch band computed it
             done.add("depth")
         unanswered = done & group.unanswered
         for effect in effects:
@@ -113,7 +113,7 @@ def effects_of(
     return tuple(
         EffectReport(
             effect,
-            planner.who_asks(effect),
+            planner.requested_by(effect),
             ran[effect],
             _reasons(planner, effect, spared[effect], beforehand, counts.allowed),
             time[effect],
@@ -150,7 +150,7 @@ def _reasons(
     beforehand: Mapping[str, int],
     allowed: int,
 ) -> dict[str, int]:
-    is_requested = bool(planner.who_asks(effect))
+    is_requested = bool(planner.requested_by(effect))
     reasons = Counter(spared)
     for reason, count in beforehand.items():
         reasons[reason if is_requested else NOT_ASKED] += count

@@ -1,6 +1,6 @@
-"""The matrix of pairs by rows: a row is a number, its bits are those of the pairs of one body.
+"""The matrix of pairs by rows. A row is an integer; its bits are the pairs of one body.
 
-Bit operations on such rows count what rules say about fifty million pairs.
+Bit operations on such rows evaluate the rules for fifty million pairs.
 """
 
 from __future__ import annotations
@@ -11,12 +11,13 @@ from msgspec import Struct
 
 from satcheck.scene.rules import Rule
 
-# Which side of a rule a body is on; it may be on both.
+# The side of a rule that a body is on, as bits. A body may be on both.
 A, B = 1, 2
 
 
 class Kind(Struct, frozen=True):
-    """sides: number of a rule -> on which sides of it the bodies are, in the order of the rules."""
+    """A class of bodies that all rules treat alike. sides: (number of a rule, sides of the bodies)
+    in the order of the rules. fixed: their pairs with each other are not checked."""
 
     sides: tuple[tuple[int, int], ...]
     ignored_groups: frozenset[str]
@@ -24,9 +25,10 @@ class Kind(Struct, frozen=True):
 
 
 class PairRows:
-    """Rows of the matrix of pairs of members, bodies or kinds, as the bits of a number each.
+    """Rows of the matrix of pairs of members.
 
-    sides: the members on either side of each rule. of_kinds: those of each kind.
+    Members are bodies or kinds. Each row is an integer. sides: the members on either side of each
+    rule. of_kinds: the members of each kind.
     """
 
     def __init__(
@@ -63,7 +65,7 @@ class PairRows:
         return row
 
     def _side(self, number: int, side: int) -> int:
-        """Remembered where it is long to make; those of single members would fill the memory."""
+        """Rows are cached, except those of single members, which would fill the memory."""
         members = self._sides[number][side]
         if len(members) == 1:
             return _row(members)
@@ -73,7 +75,7 @@ class PairRows:
 
 
 def _row(members: Iterable[int]) -> int:
-    """The number with these bits."""
+    """The integer with these bits set."""
     members = tuple(members)
     if len(members) == 1:
         return 1 << members[0]
@@ -84,5 +86,6 @@ def _row(members: Iterable[int]) -> int:
 
 
 def ones(row: int, bodies: Sequence[int]) -> int:
-    """Over all these bodies, the ones in the row but for the body itself."""
+    """The number of ones in the row, summed over these bodies; for each body without its own
+    bit."""
     return len(bodies) * row.bit_count() - (row & _row(bodies)).bit_count()

@@ -1,4 +1,5 @@
-"""The planner: from the flags of a check and the rules of its scene to the `Request` of each pair.
+"""The planner makes the `Request` of each pair from the flags of a check and the rules of its
+scene.
 
 It alone decides which stages run.
 """
@@ -17,14 +18,14 @@ from satcheck.report.report import Effect
 from satcheck.report.settings import StatedSettings
 from satcheck.scene.rules import Rule, Severity
 
-# The key by which a rule asks for an effect.
-ASKING_KEYS: dict[Effect, str] = {
+# The key of a rule that requests an effect.
+KEY_OF_EFFECT: dict[Effect, str] = {
     "depth": "max_depth",
     "thickness": "max_thickness",
     "distance": "clearance",
     "volume": "max_volume",
 }
-# The keys of what an overlap may have.
+# The keys that limit an overlap.
 LIMITS = ("max_depth", "max_thickness", "max_volume")
 ALWAYS = "always"
 MOTIONS = "the motions of the scene"
@@ -32,12 +33,12 @@ FOR_MESHES = "by default, for mesh files alone"
 
 
 class Request(Struct, frozen=True):
-    """What is asked about one pair. Lengths and volumes in the units of the scene.
+    """The request for one pair. Lengths and volumes are in units of the scene.
 
-    by: effect -> the flags and rules that need it; no entry: none does.
-    clearance: None where there is none to keep. tolerance: None: the input precision.
-    max_depth, max_thickness, max_volume: what an overlap is allowed; severity: of the errors of the
-    pair; None: as ever. rules: key -> the name of the rule that set it.
+    by: effect -> the flag or rule that requests it; no entry: it is not requested. clearance: None:
+    no clearance is required. tolerance: None: the input precision. max_depth, max_thickness,
+    max_volume: limits of an overlap. severity: of the errors of the pair; None: the default. rules:
+    key -> the name of the rule that set it.
     """
 
     by: Mapping[Effect, str]
@@ -53,12 +54,12 @@ class Request(Struct, frozen=True):
         return effect in self.by
 
     def swept(self) -> Request:
-        """The same of a pair of which one body moves against the other."""
+        """The same request for a pair whose bodies move relative to each other."""
         return replace(self, by={**self.by, "sweep": MOTIONS})
 
     @property
     def limited(self) -> bool:
-        """The pair may overlap, within limits."""
+        """Whether the pair may overlap within limits."""
         return not (self.max_depth is self.max_thickness is self.max_volume is None)
 
     def rule(self, key: str) -> str | None:
@@ -67,10 +68,10 @@ class Request(Struct, frozen=True):
 
 
 class Planner:
-    """What is asked about the pairs of a scene.
+    """Makes the requests for all pairs of a scene.
 
-    composed: the scene places its bodies, in a file of its own. Depth is then no default: a scene
-    has many pairs, and rules to ask for the depth of some. moving: some of its bodies move.
+    composed: a scene file places the bodies. Depth is then not computed by default: a scene has
+    many pairs, and its rules can request the depth of some. moving: some bodies move.
     """
 
     def __init__(
@@ -80,46 +81,48 @@ class Planner:
         self.moving = moving
         self._book = book
         self._composed = composed
-        self._asked: dict[tuple[int, ...], Request] = {}
+        self._requests: dict[tuple[int, ...], Request] = {}
 
     def request(self, i: int, j: int) -> Request:
         key = self._book.key(i, j)
-        if key not in self._asked:
+        if key not in self._requests:
             terms = self._book.terms(i, j)
-            self._asked[key] = asked_by(self.settings, terms, composed=self._composed)
-        return self._asked[key]
+            self._requests[key] = request_for(self.settings, terms, composed=self._composed)
+        return self._requests[key]
 
-    def who_asks(self, effect: Effect) -> tuple[str, ...]:
-        """The flag and the rules that need the effect; empty: none does."""
+    def requested_by(self, effect: Effect) -> tuple[str, ...]:
+        """The flag and the rules that request the effect; empty: none does."""
         if effect == "sweep":
             return (MOTIONS,) if self.moving else ()
-        flag = asked_by(self.settings, composed=self._composed).by.get(effect)
-        key = ASKING_KEYS.get(effect)
-        rules = (rule.name for rule in self._book.rules if key and _asks(rule, key))
+        flag = request_for(self.settings, composed=self._composed).by.get(effect)
+        key = KEY_OF_EFFECT.get(effect)
+        rules = (rule.name for rule in self._book.rules if key and _requests_effect(rule, key))
         return tuple(dict.fromkeys(([flag] if flag else []) + list(rules)))
 
     def stated(self) -> StatedSettings:
         """The settings, and whether the depth and the thickness of every overlap are computed."""
-        asked = asked_by(self.settings, composed=self._composed)
-        return self.settings.stated(depth=asked.wants("depth"), thickness=asked.wants("thickness"))
+        request = request_for(self.settings, composed=self._composed)
+        return self.settings.stated(
+            depth=request.wants("depth"), thickness=request.wants("thickness")
+        )
 
     @property
     def lengths_differ(self) -> bool:
         """Whether rules give some pairs a clearance or a tolerance of their own."""
         return self._book.sets("clearance") or self._book.sets("tolerance")
 
-    def asked_gap(self, i: int, j: int, resolution: float) -> float:
-        """A gap of this pair beyond this is not asked about. resolution: of both together."""
+    def gap_limit(self, i: int, j: int, resolution: float) -> float:
+        """A larger gap of this pair needs no figure. resolution: the sum of both bodies."""
         request = self.request(i, j)
         band = resolution if request.tolerance is None else request.tolerance
         of_curves = 0.0 if self.settings.planar is None else resolution
         return max(band, (request.clearance or 0.0) + of_curves)
 
     def reach(self, resolutions: Mapping[int, float]) -> list[float]:
-        """Of each of these bodies a length, so that two of them are together no less than any gap
-        that is asked about."""
+        """A length for each of these bodies. The sum of two lengths is at least the gap limit of
+        the pair."""
         settings = self.settings
-        # In a plane the curves that polygons stand for may be closer by their resolution.
+        # In a plane, curves may be closer than their polygons by the resolution.
         flat = settings.planar is not None
         own = [self._book.longest(key) for key in ("clearance", "tolerance")]
         clearance = settings.clearance or 0.0
@@ -133,9 +136,9 @@ class Planner:
         ]
 
 
-def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Request:
-    """What flags and rules ask together. A rule that sets a key stands above the flag, and a pair
-    that may overlap within limits has no clearance to keep."""
+def request_for(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = False) -> Request:
+    """The request that follows from flags and rules. A key of a rule overrides the flag. A pair
+    that may overlap within limits has no clearance."""
     limits = {key: getattr(terms, key) for key in LIMITS}
     limited = any(limits.values())
     clearance = None if limited else settings.clearance
@@ -150,9 +153,9 @@ def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = Fa
     thickness = settings.depth if settings.thickness is None else settings.thickness
     by: dict[Effect, str | None] = {
         "overlap": ALWAYS,
-        "depth": _who_wants_figure(settings.depth, terms.max_depth, composed),
-        "thickness": _who_wants_figure(thickness, terms.max_thickness, composed)
-        or _who_excuses(settings),
+        "depth": _requester_of_figure(settings.depth, terms.max_depth, composed),
+        "thickness": _requester_of_figure(thickness, terms.max_thickness, composed)
+        or _requester_of_tolerance(settings),
         "distance": None if clearance is None else _name(terms.clearance) or "--clearance",
         "volume": "--volume" if settings.volume else _name(terms.max_volume),
         "contacts": "--contacts" if settings.contacts else None,
@@ -170,8 +173,8 @@ def asked_by(settings: Settings, terms: Terms = NO_TERMS, *, composed: bool = Fa
     )
 
 
-def _who_wants_figure(setting: bool | None, rule: Rule | None, composed: bool) -> str | None:
-    """The depth or the thickness. rule: the one that limits it."""
+def _requester_of_figure(setting: bool | None, rule: Rule | None, composed: bool) -> str | None:
+    """The flag or rule that requests the depth or the thickness. rule: the one that limits it."""
     if setting:
         return "--depth"
     if rule is not None:
@@ -179,14 +182,15 @@ def _who_wants_figure(setting: bool | None, rule: Rule | None, composed: bool) -
     return FOR_MESHES if setting is None and not composed else None
 
 
-def _who_excuses(settings: Settings) -> str | None:
+def _requester_of_tolerance(settings: Settings) -> str | None:
     if settings.surface_tolerance is None or settings.thickness is False:
         return None
     return "--surface-tolerance"
 
 
-def _asks(rule: Rule, key: str) -> bool:
-    """A clearance of 0 is none; a limit of 0 is one."""
+def _requests_effect(rule: Rule, key: str) -> bool:
+    """Whether the rule requests the effect of the key. A clearance of 0 requests nothing; a limit
+    of 0 does."""
     value = getattr(rule, key)
     return bool(value) if key == "clearance" else value is not None
 
@@ -197,4 +201,4 @@ def _name(rule: Rule | None) -> str | None:
 
 def _value(rule: Rule | None, key: str, default: float | None) -> float | None:
     value = default if rule is None else getattr(rule, key)
-    return None if value is None else float(value)  # a caller from Python may give an integer
+    return None if value is None else float(value)  # Python callers may give an integer

@@ -1,8 +1,8 @@
-"""The rules of a scene, looked up and counted without visiting every pair.
+"""Looks up and counts the rules of a scene without visiting every pair.
 
-Bodies are indices. A rule whose selectors each choose one body is kept under that pair. By all the
-others bodies are of one kind: what is said of a pair depends on the two kinds alone. Counts are
-those of bits in rows of the matrix of pairs, one row a kind.
+Bodies are indices. If each selector of a rule chooses one body, the rule is stored under this pair.
+All other rules sort the bodies into kinds, and their effect on a pair depends only on the two
+kinds. Pairs are counted as bits in rows of the matrix of pairs, one row for each kind.
 """
 
 from __future__ import annotations
@@ -15,12 +15,13 @@ from msgspec.structs import replace
 from satcheck.audit.request.pair_rows import A, B, Kind, PairRows, ones
 from satcheck.scene.rules import KEYS, Rule, Selector
 
-# More pairs of kinds than this are not listed.
+# At most this many exempt pairs of kinds are listed.
 _MOST_KINDS = 1_000_000
 
 
 class Terms(Struct, frozen=True):
-    """Of each key the rule that decides it for a pair, the last that sets it; None: none does."""
+    """For each key the rule that decides it for a pair: the last rule that sets it; None: no rule
+    does."""
 
     allowed: Rule | None = None
     max_depth: Rule | None = None
@@ -39,7 +40,7 @@ NO_TERMS = Terms()
 
 
 class Subject(Struct, frozen=True):
-    """A body, as rules see it."""
+    """The properties of a body that rules depend on."""
 
     id: str
     groups: tuple[str, ...] = ()
@@ -47,10 +48,10 @@ class Subject(Struct, frozen=True):
 
 
 class RuleBook:
-    """rules: in the order in which they count. Pairs within an ignored group are not asked about,
-    nor are pairs of static bodies unless check_static.
+    """rules: later ones override earlier ones. Pairs within an ignored group are not checked, nor
+    are pairs of static bodies unless check_static is set.
 
-    kind_of: the kind of each body, a number.
+    kind_of: the number of the kind of each body.
     """
 
     def __init__(
@@ -68,7 +69,7 @@ class RuleBook:
         self._kinds: list[Kind] = []
         self._bodies: list[list[int]] = []
         self.kind_of: list[int] = []
-        self._terms: dict[tuple[int, int], Terms] = {}  # of kinds
+        self._terms: dict[tuple[int, int], Terms] = {}  # by kinds
         self._named_terms: dict[tuple[int, int], Terms] = {}
         chosen_by, about = self._sort_rules()
         numbers: dict[tuple[object, ...], int] = {}
@@ -85,8 +86,8 @@ class RuleBook:
             self.kind_of.append(number)
 
     def _sort_rules(self) -> tuple[list[list[int]], list[list[tuple[int, int]]]]:
-        """Names the pairs of some rules. Of the others: for each body the numbers of the sets that
-        it is in, and for each of these sets the rules and the sides of which it is the members."""
+        """Stores rules for a single pair under this pair. Returns, for the other rules, the numbers
+        of the selected sets that each body is in, and for each set its rules and their sides."""
         chosen_by: list[list[int]] = [[] for _ in range(self._count)]
         about: list[list[tuple[int, int]]] = []
         numbers: dict[frozenset[int], int] = {}
@@ -106,23 +107,23 @@ class RuleBook:
         return chosen_by, about
 
     def key(self, i: int, j: int) -> tuple[int, ...]:
-        """The same for pairs of which the book says the same, as far as it knows at once."""
+        """A cache key: pairs with equal keys have the same terms."""
         pair = (i, j) if i < j else (j, i)
         return (*pair, 1) if pair in self._named else (self.kind_of[i], self.kind_of[j])
 
     def is_ignored(self, i: int, j: int) -> bool:
-        """Not asked about and not counted."""
+        """Whether the pair is exempt: neither checked nor counted."""
         a, b = (self._kinds[self.kind_of[k]] for k in (i, j))
         return (a.fixed and b.fixed) or not a.ignored_groups.isdisjoint(b.ignored_groups)
 
-    def is_asked(self, i: int, j: int) -> bool:
+    def is_checked(self, i: int, j: int) -> bool:
         return not self.is_ignored(i, j) and not self.terms(i, j).allows
 
-    def asked_pairs(self) -> Iterator[tuple[int, int]]:
-        """All of them, i < j, in the order of the second: quadratic, for few bodies."""
+    def checked_pairs(self) -> Iterator[tuple[int, int]]:
+        """All checked pairs, i < j, in the order of j. Quadratic, so only for few bodies."""
         for j in range(self._count):
             for i in range(j):
-                if self.is_asked(i, j):
+                if self.is_checked(i, j):
                     yield i, j
 
     def terms(self, i: int, j: int) -> Terms:
@@ -138,7 +139,7 @@ class RuleBook:
         return self._terms[key]
 
     def _about(self, i: int, j: int) -> list[int]:
-        """Numbers of the rules that are about the pair and name it not alone, in their order."""
+        """Numbers of the rules that apply to the pair and to other pairs too, in their order."""
         a, b = (self._kinds[self.kind_of[k]].sides for k in (i, j))
         if not a or not b:
             return []
@@ -162,8 +163,8 @@ class RuleBook:
         return any(getattr(rule, key) is not None for rule in self.rules)
 
     def longest(self, key: str) -> list[float]:
-        """Of each body the largest value that a rule about it gives the key, overruled or not; 0.0:
-        none."""
+        """For each body the largest value of the key in any rule that selects it, even if another
+        rule overrides it; 0.0: none."""
         values = [0.0] * self._count
         for rule, sides in zip(self.rules, self._sides, strict=True):
             value = getattr(rule, key) or 0.0
@@ -172,14 +173,14 @@ class RuleBook:
         return values
 
     def unused(self) -> Iterator[Rule]:
-        """Rules about no pair of bodies."""
+        """Rules that apply to no pair of bodies."""
         for rule, (a, b) in zip(self.rules, self._sides, strict=True):
             alone = len(a) <= 1 and len(b) <= 1 and a == b
             if not a or not b or alone:
                 yield rule
 
     def count(self) -> tuple[int, int]:
-        """How many pairs are not ignored, and how many of these are allowed."""
+        """The number of pairs that are not exempt, and the number of these that are allowed."""
         total = allowed = 0
         everyone = (1 << self._count) - 1
         rows = PairRows(self._kinds, self.rules, self._sides, self._bodies)
@@ -194,12 +195,12 @@ class RuleBook:
         return total, allowed
 
     def exempt_named(self) -> list[tuple[int, int]]:
-        """The pairs (i, j), i < j, that rules of their own take out."""
-        return [(i, j) for i, j in self._named if not self.is_asked(i, j)]
+        """The pairs (i, j), i < j, that are not checked and have a rule of their own."""
+        return [(i, j) for i, j in self._named if not self.is_checked(i, j)]
 
     def exempt_kinds(self) -> list[tuple[int, int]]:
-        """Pairs of kinds, the lower first, of which no pair of bodies is asked about. Where there
-        are very many, some of them."""
+        """Pairs of kinds, the lower first, without a checked pair of bodies. The list is cut off at
+        _MOST_KINDS."""
         alone = [frozenset((k,)) for k in range(len(self._kinds))]
         kinds_in = dict.fromkeys(members for pair in self._sides for members in pair)
         kind_sets = {
@@ -210,7 +211,7 @@ class RuleBook:
         taken_back = {
             tuple(sorted((self.kind_of[i], self.kind_of[j])))
             for i, j in self._named
-            if self.is_asked(i, j)
+            if self.is_checked(i, j)
         }
         exempt: list[tuple[int, int]] = []
         for number, kind in enumerate(self._kinds):
@@ -227,7 +228,7 @@ class RuleBook:
 def _sides_of(
     sets: Iterable[int], about: Sequence[Sequence[tuple[int, int]]]
 ) -> tuple[tuple[int, int], ...]:
-    """Of a body that is in these sets: number of a rule -> its sides, in the order of the rules."""
+    """For a body in these sets: (number of a rule, its sides), in the order of the rules."""
     sides: dict[int, int] = {}
     for number in sets:
         for rule, side in about[number]:
@@ -236,7 +237,7 @@ def _sides_of(
 
 
 class _Members:
-    """Bodies by selector."""
+    """Finds the bodies of a selector."""
 
     def __init__(self, subjects: Sequence[Subject]) -> None:
         self._found: dict[Selector, frozenset[int]] = {}

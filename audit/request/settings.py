@@ -1,4 +1,4 @@
-"""The settings of a check: every choice that can change an answer, and a few that cannot."""
+"""The settings of a check. Most can change an answer; a few cannot."""
 
 from __future__ import annotations
 
@@ -20,53 +20,54 @@ METHODS: tuple[Method, ...] = get_args(Method)
 FailOn = Literal["error", "warning", "note"]
 FAIL_ON: tuple[FailOn, ...] = ("error", "warning", "note")
 
-# The intervals of the depth of a concave pair, and of a thickness, are narrowed to this width,
-# relative to their upper ends.
+# A search narrows the interval of a concave depth, or of a thickness, to this width relative to its
+# upper end.
 DEPTH_WIDTH = 0.01
 THICKNESS_WIDTH = 0.01
-# Seconds, in work units of a slow machine, that narrowing one interval of a pair may take.
+# The budget for narrowing one interval of a pair, in seconds of a slow machine.
 DEPTH_BUDGET = 2.0
 MOST_BUDGET = 86400.0
-# Steps of a search in such a second: what a slow machine of today gets done, so that the budget is
-# not exceeded there. A number and not a clock: the same input, the same answer.
+# Steps of a search in such a second. A slow machine of today reaches this number. Steps are counted
+# instead of time, so that the same input gives the same answer.
 WORK_PER_SECOND = 400_000_000
-# Of the budget of the depth, what a search of the thickness may spend.
+# The share of the depth budget that a search of the thickness may use.
 THICKNESS_SHARE = 0.5
-# Up to this many pairs a report lists all, those that the broad phase settled too, and a table has
-# a row for each.
+# Up to this many pairs, a report lists all pairs, including those that the broad phase settled, and
+# a table has a row for each.
 LISTED_PAIRS = 60
-# Points that the contacts of a pair may list: some 5 MB of JSON.
+# Limit on the points in the contacts of a pair: about 5 MB of JSON.
 CONTACT_POINTS = 100_000
 
 
 class Settings(Struct, frozen=True):
     """Lengths are in the units of the files. None means "not computed" unless said otherwise.
 
-    depth: depth and MTV of overlapping pairs; None: of mesh files, and in a scene that places its
-    bodies only where a rule asks.
-    thickness: of overlapping pairs; None: wherever the depth is no matter of a rule.
-    volume: the volume that bodies have in common; volume_*: what a pair may cost.
-    contacts: where surfaces meet; contact_points: how many points a pair may list.
+    depth: depth and MTV of overlapping pairs; None: for mesh files always, in a scene only if a
+    rule requests it.
+    thickness: of overlapping pairs; None: whenever `depth` requests the depth.
+    volume: the volume that bodies have in common; volume_*: limits for one pair.
+    contacts: where surfaces meet; contact_points: the most points listed for a pair.
     components: the connected components of each overlap, with their thickness.
     clearance: the gap that bodies must keep; pairs closer than this are `near`.
     tolerance: half width of the touch band; None: the input precision of each pair.
-    surface_tolerance: how far the surfaces of bodies may be off where their scene does not say;
-    None: 0.
-    accuracy: the highest rung of the ladder that may be climbed.
-    method: of the convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster of them.
-    Changes no relation, and no depth beyond its last digits.
+    surface_tolerance: how far surfaces may be off, for bodies whose scene does not state it; None:
+    0.
+    accuracy: the highest rung of the ladder that is allowed.
+    method: for convex hulls, "sat" or "gjk" (portals, GJK and EPA); "auto": the faster one. It
+    changes no relation, and of a depth only the last digits.
     fail_on: the least severity that makes a check fail.
-    allow_open: open meshes are meant to be open. What has a rim is a sheet, and has no inside.
-    cross_check: other libraries are asked too; cross_check_*: what one question may cost.
-    planar: bodies are their outlines in this plane, and answers lie in it; None: as they are.
-    certificate: every proven finding carries evidence that `satcheck verify` checks.
-    list_pruned: findings for pairs that the broad phase settled; None: up to LISTED_PAIRS pairs.
-    depth_width, thickness_width: relative width of an interval that is narrow enough.
-    depth_budget: what may be spent on one interval of a depth, in seconds of a slow machine, and
-    half of it on one of a thickness: it buys a number of steps, not a time, so that the same
-    input gives the same answer everywhere.
-    part_*: how concave meshes are split into convex parts, and what that may cost.
-    jobs: threads over pairs, 0 for one per core. Changes no answer, nor does cache or timings.
+    allow_open: open meshes are intended. An open surface is then a sheet without an inside.
+    cross_check: also asks other libraries; cross_check_*: limits for one question.
+    planar: check the outlines of the bodies in this plane; None: check in space. certificate: every
+    proven finding carries evidence that `satcheck verify` checks.
+    list_pruned: findings for pairs that the broad phase settled; None: if there are at most
+    LISTED_PAIRS pairs. depth_width, thickness_width: a search ends when its interval has this
+    relative width.
+    depth_budget: for the interval of one depth, in seconds of a slow machine; one thickness gets
+    half of it. It limits the number of steps and not the time, so that the same input gives the
+    same answer on every machine.
+    part_*: how concave meshes are split into convex parts, and the limits for it.
+    jobs: threads over pairs; 0: one for each core. jobs, cache and timings change no answer.
     """
 
     depth: bool | None = None
@@ -117,10 +118,10 @@ class Settings(Struct, frozen=True):
             _require_kind(name, getattr(self, name), kind)
         for name in ("contacts", "components", "volume"):
             if getattr(self, name) and self.accuracy != "exact":
-                raise _refused(f"{name} is found on triangles: not at accuracy {self.accuracy}")
+                raise _refused(f"{name} needs triangles: not at accuracy {self.accuracy}")
         for name in ("volume", "contacts", "components", "cross_check"):
             if self.planar is not None and getattr(self, name):
-                raise _refused(f"{name} is about bodies in space: not with planar")
+                raise _refused(f"{name} needs bodies in space: not with planar")
         if self.contact_points < 0:
             raise _refused(f"contact_points must be 0 or more, not {self.contact_points!r}")
         for name in ("depth_width", "thickness_width"):
@@ -142,22 +143,22 @@ class Settings(Struct, frozen=True):
 
     @property
     def work(self) -> int:
-        """The steps of one search of a depth."""
+        """The most steps of one search of a depth."""
         return math.ceil(self.depth_budget * WORK_PER_SECOND)
 
     @property
     def thickness_work(self) -> int:
-        """Those of one search of a thickness."""
+        """The most steps of one search of a thickness."""
         return math.ceil(THICKNESS_SHARE * self.work)
 
     @property
     def across(self) -> int:
-        """The axis across the plane of the check; -1: it is in space."""
+        """The axis perpendicular to the plane of the check; -1: the check is in space."""
         return -1 if self.planar is None else axis_across(self.planar)
 
     def stated(self, *, depth: bool, thickness: bool) -> StatedSettings:
-        """Everything that can change an answer, and nothing that cannot. depth, thickness: whether
-        those of every overlap are computed."""
+        """The settings that can change an answer. depth, thickness: whether they are computed for
+        every overlap."""
         return StatedSettings(
             depth=depth,
             thickness=thickness,
@@ -190,7 +191,7 @@ class Settings(Struct, frozen=True):
 
 
 def require_settings(value: object) -> None:
-    """Raises SatcheckError for what is no Settings, such as a dict of them."""
+    """Raises SatcheckError if the value is not a Settings, for example a dict."""
     if not isinstance(value, Settings):
         raise _refused(f"settings should be a satcheck.Settings, not {value!r}")
 
@@ -202,7 +203,7 @@ def _kinds() -> dict[str, Any]:
 
 
 def _require_kind(name: str, value: Any, kind: Any) -> None:
-    plain = value.item() if hasattr(value, "item") else value  # a number of numpy
+    plain = value.item() if hasattr(value, "item") else value  # a numpy scalar
     try:
         convert(plain, kind)
     except ValidationError as error:

@@ -30,16 +30,16 @@ class Trace:
         self._since = now
 
     def add_since(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
-        """A stage of which so much ran elsewhere, before."""
+        """Records a stage of which this much time ran earlier, elsewhere."""
         self._since -= nanoseconds
         self.record(stage, result, detail)
 
     def climbed(self, climb: Climb) -> None:
-        """The rungs of the core, in its words."""
+        """Records the rungs of the core, with its texts."""
         self.stages += climb.stages(Stage)
 
     def add(self, stage: str, result: str, detail: str, nanoseconds: int) -> None:
-        """A stage that ran elsewhere."""
+        """Records a stage that ran elsewhere."""
         elapsed = nanoseconds / NANOSECONDS_PER_MICROSECOND
         self.stages.append(Stage(stage, result, elapsed, detail))
 

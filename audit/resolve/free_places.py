@@ -1,4 +1,4 @@
-"""A free place for one body among others that stay: where it goes when pushing does not help.
+"""Finds a free place for one body among others that stay, for when pushing does not help.
 
 Each body is taken as a discrete-orientation polytope: Klosowski et al., "Efficient Collision
 Detection Using Bounding Volume Hierarchies of k-DOPs" (1998), with 26 planes. Along every ray of
@@ -27,7 +27,8 @@ SPREAD_RAYS = 100
 
 
 def _unit_axes() -> Array:
-    """One of each opposite pair of the 26 directions to the faces, edges and corners of a cube."""
+    """13 of the 26 directions to the faces, edges and corners of a cube: one of each opposite
+    pair."""
     directions = [v for v in product((-1, 0, 1), repeat=3) if v > (0, 0, 0)]
     return np.array([np.array(v) / math.sqrt(sum(c * c for c in v)) for v in directions])
 
@@ -100,7 +101,7 @@ def _point(ray: Array, length: float) -> Vector:
 
 
 def _intervals(below: Array, above: Array) -> tuple[Array, Array]:
-    """(rays, bodies) each: from where to where along each ray the body is in the way."""
+    """(starts, ends), each (rays, bodies): the interval of each ray that a body blocks."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ends = below / RATES, above / RATES
     inside = (below < 0) & (above > 0)
@@ -110,7 +111,7 @@ def _intervals(below: Array, above: Array) -> tuple[Array, Array]:
 
 
 def _first_free(start: Array, stop: Array) -> float:
-    """The least s >= 0 outside all intervals; inf where the ray never leaves one."""
+    """The least s >= 0 outside all intervals; inf: an interval has no end."""
     blocked = (start < stop) & (stop > 0)
     at = 0.0
     for low, high in sorted(zip(start[blocked].tolist(), stop[blocked].tolist(), strict=True)):

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from satcheck.core.overlap_volume import VolumeMeter
     from satcheck.scene import Body, Scene
 
-# What a way out may cost among many: one that is a few percent too long is shortened with the
-# others.
+# The relative width of the depth interval if there are many overlaps. A way out that is a few per
+# cent too long is shortened later.
 WAY_OUT_WIDTH = 0.25
 WAY_OUT_BUDGET = 0.006
 # Seconds of a slow machine that the ways out of few overlaps may take together.
@@ -54,7 +54,7 @@ class Layout:
         meter: VolumeMeter | None = None,
     ) -> None:
         """meter: needed where rules limit the volume of overlaps."""
-        # The verdicts of a check, and with every overlap a way out.
+        # The verdicts of a check, and a way out for every overlap.
         self._own, self._meter = settings, meter
         self.settings = replace(
             settings,
@@ -124,7 +124,7 @@ class Layout:
         return Pair(self.placed[pair[0]], self.placed[pair[1]], self.settings, request, self._meter)
 
     def pair_after(self, pair: BodyPair, step: Vector) -> Pair:
-        """The same with the first body moved on by this."""
+        """The same pair with the first body moved further by `step`."""
         a, b = self.placed[pair[0]], self.placed[pair[1]]
         moved = PlacedBody(translated(a.body, step), a.shared)
         return Pair(moved, b, self.settings, self.pair(pair).request, self._meter)
@@ -136,8 +136,8 @@ class Layout:
         """Whether the bodies may overlap, within limits."""
         return self._planner.request(*self._members(pair)).limited
 
-    def is_asked(self, pair: BodyPair) -> bool:
-        return self._bodies.book.is_asked(*self._members(pair))
+    def is_checked(self, pair: BodyPair) -> bool:
+        return self._bodies.book.is_checked(*self._members(pair))
 
     def _members(self, pair: BodyPair) -> tuple[int, int]:
         """In the order of the scene."""
@@ -151,7 +151,7 @@ class Layout:
             {index: body.resolution for index, body in zip(self._index, self.placed, strict=True)}
         )
         close = core.close_pairs(around, reach, [0] * len(around))
-        return [pair for pair in close if self.is_asked(pair)]
+        return [pair for pair in close if self.is_checked(pair)]
 
     def states(self, pairs: Sequence[BodyPair]) -> dict[BodyPair, PairState]:
         """The states of pairs at the current places. Pairs that did not move are not checked

@@ -26,8 +26,8 @@ from satcheck.scene.rules import Selector
 
 ITERATIONS = 50
 
-# Up to so many overlaps both kinds of rounds are tried; an answer that is better by less than this
-# share is none.
+# Both kinds of rounds are tried for up to this many overlaps. The second result has to be better by
+# more than this share.
 FEW = 64
 TIE = 1e-9
 
@@ -123,7 +123,7 @@ def _limits_volume(scene: Scene) -> bool:
 
 
 def proof_of(settings: Settings) -> Settings:
-    """What the moved scene is checked with: the same questions, without figures for overlaps."""
+    """The settings for the check of the moved scene: the same, without figures for overlaps."""
     return replace(
         settings,
         depth=False,
@@ -136,7 +136,7 @@ def proof_of(settings: Settings) -> Settings:
 
 
 def _links(scene: Scene) -> frozenset[str]:
-    """What goes where the joints of a robot put it."""
+    """The bodies of robots, which are placed by joints."""
     return frozenset(part.id for robot in scene.robots for part in robot.bodies)
 
 

@@ -140,7 +140,7 @@ def _around(layout: Layout, i: int, longest: float) -> list[PlacedBody] | None:
     home = layout.home[i]
     near = []
     for j, other in enumerate(layout.placed):
-        if j == i or not layout.is_asked((i, j)):
+        if j == i or not layout.is_checked((i, j)):
             continue
         if core.box_gap(home.bounds, other.bounds) - layout.clearance((i, j)) > longest:
             continue

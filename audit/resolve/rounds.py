@@ -261,7 +261,7 @@ class Rounds:
         layout = self._layout
         if i not in layout.movable:
             return None
-        others = [j for j in range(len(layout.home)) if j != i and layout.is_asked((i, j))]
+        others = [j for j in range(len(layout.home)) if j != i and layout.is_checked((i, j))]
         gaps = [layout.clearance((i, j)) for j in others]
         return self._places.free(i, others, layout.offsets, gaps, self._longest)
 
@@ -296,7 +296,7 @@ def _is_free_after(pair: Pair, normal: Vector, length: float) -> bool:
 
 
 def _deepest(overlaps: dict[BodyPair, PairState]) -> dict[BodyPair, PairState]:
-    """Of each body the deepest of its overlaps, or none where that is a deeper one of the other."""
+    """Chooses overlaps from the deepest on, at most one for each body."""
     chosen: dict[BodyPair, PairState] = {}
     taken: set[int] = set()
     for pair in sorted(overlaps, key=lambda pair: -math.hypot(*(overlaps[pair].push or ()))):

@@ -1,4 +1,4 @@
-"""Translations that free a body from another one, of which one at least is a curved shape."""
+"""Translations that separate two bodies, of which at least one is a curved shape."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def frees(a: Body, b: Body, move: Vector) -> bool:
 
 
 def sides(a: Body, b: Body) -> tuple[CurvedShape, Body, float]:
-    """The curved one, the other one, and +1 where A is the curved one, -1 where B is."""
+    """(the curved body, the other body, +1 if A is the curved one, else -1)."""
     if a.curved is not None:
         return a.curved, b, 1.0
     assert b.curved is not None
@@ -32,9 +32,9 @@ def sides(a: Body, b: Body) -> tuple[CurvedShape, Body, float]:
 
 
 def move_off(a: Body, b: Body, most: float, pad: float) -> Vector | None:
-    """A translation of A, no longer than `most`, that provably frees it: off the triangle that the
-    shape is deepest in. pad: how much longer it may have to be, by rounding. None: no face does,
-    usually because the shape stands in several."""
+    """A translation of A, no longer than `most`, that provably frees it. It leads away from the
+    triangle with the deepest overlap. pad: an extra length that covers rounding. None: not found,
+    usually because the shape penetrates several faces."""
     curved, mesh, sign = sides(a, b)
     nearest = against_triangles(curved, mesh.mesh, 0.0).nearest
     if nearest is None or nearest.normal is None:
@@ -42,7 +42,7 @@ def move_off(a: Body, b: Body, most: float, pad: float) -> Vector | None:
     for longer in (0.0, pad):
         length = -sign * (longer - min(nearest.lower, 0.0))
         x, y, z = nearest.normal
-        move = length * x + 0.0, length * y + 0.0, length * z + 0.0  # no negative zero
+        move = length * x + 0.0, length * y + 0.0, length * z + 0.0  # + 0.0: no negative zero
         if 0 < math.hypot(*move) <= most and frees(a, b, move):
             return move
     return None

@@ -15,8 +15,9 @@ from satcheck.core.curved.placed import Body, CurvedShape
 from satcheck.core.curved.signed import Signed
 from satcheck.core.curved.triangles import Nearest, against_triangles
 
-Hole = tuple[int, int]  # its number, from 0 on, and how many the mesh has
-# Points of the unit ball, the middle first: where that lies on the surface another one may not.
+Hole = tuple[int, int]  # (number from 0, count of holes)
+# Points of the unit ball that are tried in order. If the centre lies on the surface, another point
+# may not.
 _TRIED: tuple[Vector, ...] = (
     (0.0, 0.0, 0.0),
     (0.37, 0.61, 0.53),
@@ -26,13 +27,13 @@ _TRIED: tuple[Vector, ...] = (
 
 
 class InMesh(Struct, frozen=True):
-    """relation: of the shape to the mesh. proven: else an overlap is proven and "contains" or
-    "inside" are open, or a contact is.
+    """relation: of the shape to the mesh. proven: False: either only an overlap is proven, and
+    containment is undecided, or a contact is undecided.
 
-    crossed: so many triangles meet the inside of the shape. touched: one that the shape touches
-    from within the mesh. hole: of an undecided relation, the one whose fill decides; None: bounds
-    did not close. signed: the signed distance, where it is known, the shape being A. gap_lower: a
-    lower bound of the distance.
+    crossed: the number of triangles that meet the inside of the shape. touched: a triangle that the
+    shape touches from within the mesh. hole: if the relation is undecided, the hole whose fill
+    decides; None: bounds did not close. signed: the signed distance, if known; the shape is A.
+    gap_lower: a lower bound of the distance.
     """
 
     relation: Literal["separated", "touching", "penetrating", "contains", "inside", "undecided"]
@@ -45,7 +46,7 @@ class InMesh(Struct, frozen=True):
 
 
 def relate(curved: CurvedShape, mesh: Body, seen: Nearest, reach: float) -> InMesh:
-    """seen: the shape against the triangles of the mesh within reach."""
+    """seen: the result of the shape against the triangles within reach."""
     ends = _ends(mesh, seen)
     if ends:
         return _crossing(curved, mesh, len(ends))
@@ -61,7 +62,7 @@ def relate(curved: CurvedShape, mesh: Body, seen: Nearest, reach: float) -> InMe
 
 
 def is_free(curved: CurvedShape, mesh: Body) -> bool:
-    """Whether they provably have no common interior."""
+    """Whether the shape and the mesh provably have no common interior."""
     seen = against_triangles(curved, mesh.mesh, 0.0)
     apart = seen.nearest is None or seen.nearest.outcome == "separated" or seen.nearest.lower >= 0
     if not apart or seen.undecided or hole_in_the_way(curved, mesh, _outcome(seen)) is not None:
@@ -70,15 +71,15 @@ def is_free(curved: CurvedShape, mesh: Body) -> bool:
 
 
 def _ends(mesh: Body, seen: Nearest) -> list[int]:
-    """Of the triangles that the inside of the shape meets those on which the body ends; of a body
-    with holes all count."""
+    """The triangles that meet the inside of the shape and bound the body. For a body with holes,
+    all triangles count."""
     crossed: list[int] = seen.crossed.tolist()
     closed, hulls = mesh.surface().closed()
     return crossed if hulls else [k for k in crossed if closed.is_boundary(k)]
 
 
 def _touched(seen: Nearest) -> tuple[int, ...]:
-    """The triangles that the shape provably touches, while it enters none."""
+    """The triangles that the shape provably touches, if it enters none; else empty."""
     if seen.undecided or seen.nearest is None or not seen.nearest.exact:
         return ()
     return seen.touched
@@ -105,7 +106,7 @@ def _holds_middle(hull: Surface, curved: CurvedShape) -> bool:
 
 
 def _within(mesh: Body, seen: Nearest) -> InMesh:
-    """A point inside the shape is known to lie within the mesh: they overlap."""
+    """The result if a point inside the shape lies within the mesh, so that they overlap."""
     surface = mesh.surface()
     touched = next((k for k in _touched(seen) if surface.is_boundary(k)), None)
     if touched is not None:
@@ -132,7 +133,7 @@ def _apart(curved: CurvedShape, mesh: Body, seen: Nearest, reach: float) -> InMe
 
 
 def _gap_of_holes(curved: CurvedShape, mesh: Body, reach: float) -> float:
-    """A lower bound of the distance of the shape from the fills of all holes; inf where no hole is
+    """A lower bound of the distance of the shape from the fills of all holes; inf: no hole is
     within reach."""
     _, hulls = mesh.surface().closed()
     seen = [against_triangles(curved, hull.mesh, reach) for hull in hulls]
@@ -143,8 +144,8 @@ def _gap_of_holes(curved: CurvedShape, mesh: Body, reach: float) -> float:
 
 
 def winding_within(curved: CurvedShape, mesh: Body) -> int | None:
-    """The winding number of the mesh, closed, about a point inside the shape. None where those that
-    were tried lie on its surface."""
+    """The winding number of the closed mesh about a point inside the shape. None: all tried points
+    lie on the surface."""
     closed, _ = mesh.surface().closed()
     x, y, z = curved.centre
     step = 0.5 * curved.inner_radius

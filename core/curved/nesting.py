@@ -1,4 +1,4 @@
-"""Whether one body holds another: it lies within, and does not reach the surface."""
+"""Decides whether one body contains another. An inner body must not reach the surface."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ Floats = npt.NDArray[np.float64]
 
 
 class Nesting(Struct, frozen=True):
-    """relation: of A to B, which overlap. known: else it may be another one of these. exact: exact
-    arithmetic was asked."""
+    """relation: of A to B, which overlap. known: False: the relation may be another one of these.
+    exact: exact arithmetic was used."""
 
     relation: Literal["contains", "inside", "penetrating"]
     known: bool
@@ -43,7 +43,7 @@ class Nesting(Struct, frozen=True):
 
 
 def nesting(a: Body, b: Body) -> Nesting:
-    """Of two convex bodies that overlap, of which one at least is curved."""
+    """The nesting of two overlapping convex bodies, of which at least one is curved."""
     forth, back = _holds(a, b), _holds(b, a)
     exact = forth is None or back is None
     if exact:
@@ -56,7 +56,7 @@ def nesting(a: Body, b: Body) -> Nesting:
 
 
 def _holds(outer: Body, inner: Body) -> bool | None:
-    """By float64 numbers and what they may be off by."""
+    """Decides in float64 with error bounds; None: too close."""
     if not box_holds(outer.bounds, inner.mesh.bounds):
         return False
     if outer.curved is not None:
@@ -66,14 +66,15 @@ def _holds(outer: Body, inner: Body) -> bool | None:
 
 
 def box_holds(outer: Bounds, inner: Bounds) -> bool:
-    """Whether the closed outer box contains the inner one: what containment of bodies needs."""
+    """Whether the closed outer box contains the inner one. Containment of bodies requires this."""
     return all(
         outer[0][axis] <= inner[0][axis] and inner[1][axis] <= outer[1][axis] for axis in range(3)
     )
 
 
 def shape_holds(curved: CurvedShape, other: Body) -> bool | None:
-    """Whether the body lies within the shape and does not reach its surface; None: too close."""
+    """Whether the body lies within the shape and does not reach its surface; None: too close to
+    tell."""
     inner = other.curved
     if inner is None:
         return _all_within(curved, np.asarray(other.mesh.vertices))
@@ -94,7 +95,7 @@ def _inverse(quaternion: Quaternion) -> Quaternion:
 
 
 def _all_within(curved: CurvedShape, points: Floats, slack: float = 0.0) -> bool | None:
-    """slack: how far the body that the points stand for may stick out of them, world units."""
+    """slack: how far a body may reach beyond these points, world units."""
     turned = _turned(points - np.array(curved.centre), _inverse(curved.turn))
     beyond = _beyond(curved.primitive, turned)
     size = float(np.abs(points).max()) + float(np.abs(curved.centre).max())
@@ -105,8 +106,8 @@ def _all_within(curved: CurvedShape, points: Floats, slack: float = 0.0) -> bool
 
 
 def _beyond(primitive: Primitive, points: Floats) -> Floats:
-    """Of points in the frame of the shape: > 0 outside, < 0 inside, and nowhere farther from 0 than
-    the point is from the surface."""
+    """A value for each point in the frame of the shape: > 0 outside, < 0 inside. Its absolute value
+    is at most the distance from the surface."""
     x, y, z = points.T
     across = np.hypot(x, y)
     beyond: Floats
@@ -130,8 +131,9 @@ def _beyond(primitive: Primitive, points: Floats) -> Floats:
 def is_within_hull(curved: CurvedShape, hull: Polytope) -> bool | None:
     """Whether the shape lies within a polytope and reaches no face; None: too close to tell.
 
-    The normal of a face, a cross product, is off by some roundoffs of the product of the lengths of
-    its edges: of a sliver that is more than of its own length, and the pad of its plane with it."""
+    The normal of a face is a cross product. Its error is some roundoffs of the product of two edge
+    lengths. For a sliver that product is much larger than the normal, so the pad of its plane grows
+    by the same factor."""
     vertices = np.asarray(hull.vertices)
     a, b, c = (vertices[np.asarray(hull.triangles)[:, k]] for k in range(3))
     normals, edges = np.cross(b - a, c - a), (np.linalg.norm(p - a, axis=1) for p in (b, c))
@@ -151,7 +153,8 @@ def is_within_hull(curved: CurvedShape, hull: Polytope) -> bool | None:
 
 
 def exact_nesting(a: Body, b: Body) -> tuple[bool | None, bool | None]:
-    """Whether A holds B, whether B holds A; None: not known, of two shapes that may be the same."""
+    """(whether A contains B, whether B contains A); None: unknown, for two shapes that may
+    coincide."""
     first, second, _ = on_lattice(a, b)
     if isinstance(first, CurvedBody) and isinstance(second, CurvedBody):
         return _of_shapes(first, second)
@@ -168,8 +171,8 @@ def _holds_exactly(outer: ExactBody, inner: ExactBody) -> bool:
 
 
 def _of_shapes(a: CurvedBody, b: CurvedBody) -> tuple[bool | None, bool | None]:
-    """One that reaches as far as the other somewhere does not lie within it. If that is all that is
-    known both ways, they may be the same."""
+    """A shape that reaches as far as the other along some axis does not lie within it. If both
+    reach equally far along all axes, they may coincide, and both answers are None."""
     signs = {sign_of_difference(a.reach(n), b.reach(n)) for n in _axes(a, b)}
     if signs <= {0}:
         return None, None

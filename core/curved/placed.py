@@ -1,4 +1,5 @@
-"""A curved shape in the world: a shape of the core, its pose, and what placing it rounds."""
+"""A curved shape in the world: a shape of the core, its pose, and the rounding error of placing
+it."""
 
 from __future__ import annotations
 
@@ -38,9 +39,9 @@ _UPRIGHT: dict[type, Callable[[float, float], native.Shape]] = {
 
 
 class CurvedShape(Struct, frozen=True):
-    """shape: in its own frame; pose: rigid. slack: no point of the body is farther from where the
-    pose puts it than this, world units. primitive: the shape's sizes, scaling folded in. image:
-    what the pose and the sizes are rounded from."""
+    """shape: in its own frame; pose: rigid. slack: no point of the placed shape is farther than
+    this from the true body, world units. primitive: the sizes, including the scale. image: the
+    exact values before pose and sizes were rounded."""
 
     primitive: Primitive
     shape: native.Shape
@@ -59,11 +60,13 @@ class CurvedShape(Struct, frozen=True):
 
     @property
     def inner_radius(self) -> float:
-        """No more than that of a ball about the centre within the shape, world units."""
+        """A lower bound of the radius of the largest ball about the centre in the shape, world
+        units."""
         return _inner_radius(self.primitive) - self.slack
 
     def moved(self, by: Vector) -> CurvedShape:
-        """Each coordinate of the centre is rounded once: the body is the image moved there."""
+        """The shape translated by `by`. Each coordinate of the centre is rounded once, and the
+        image moves to the rounded centre."""
         x, y, z = (c + d for c, d in zip(self.centre, by, strict=True))
         image = replace(self.image, origin=(x, y, z))
         return replace(self, pose=(x, y, z, *self.turn), image=image)
@@ -76,7 +79,7 @@ class CurvedShape(Struct, frozen=True):
             self.slack + CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * (abs(c) + r)
             for c, r in zip(self.centre, reach, strict=True)
         ]
-        # All of them but the cone are symmetric; the cone's base reaches as far on the other side.
+        # The reach in the opposite direction differs for a cone. All other shapes are symmetric.
         back = [support(self.primitive, (-x, -y, -z)) for x, y, z in rows]
         low = tuple(c - b - p for c, b, p in zip(self.centre, back, pads, strict=True))
         high = tuple(c + r + p for c, r, p in zip(self.centre, reach, pads, strict=True))
@@ -84,21 +87,21 @@ class CurvedShape(Struct, frozen=True):
 
 
 class Body(Protocol):
-    """A body in the world: a mesh, or a curved shape and the mesh inside of it."""
+    """A body in the world: a mesh, or a curved shape with its inscribed mesh."""
 
     @property
     def curved(self) -> CurvedShape | None: ...
 
     @property
     def bounds(self) -> Bounds:
-        """Of a curved shape around the shape."""
+        """The box of the body; for a curved shape, around the true shape."""
 
     @property
     def mesh(self) -> native.Mesh: ...
 
     @property
     def convex(self) -> bool:
-        """Of the mesh."""
+        """Whether the mesh is convex."""
 
     def surface(self) -> native.Surface: ...
 
@@ -112,7 +115,8 @@ def is_convex(body: Body) -> bool:
 
 
 def curved_shape(primitive: Primitive, transform: tuple[float, ...] | None) -> CurvedShape:
-    """The shape placed by a row-major 4x4; ValueError when its image is no such shape."""
+    """The shape placed by a row-major 4x4. Raises ValueError if its image is not a shape of this
+    kind."""
     image = image_of(primitive, transform)
     columns, centre = image.columns, image.origin
     if transform is None:
@@ -122,7 +126,7 @@ def curved_shape(primitive: Primitive, transform: tuple[float, ...] | None) -> C
     skew = max(abs(sum(p * q for p, q in zip(axes[i], axes[j], strict=True))) for i, j in _PAIRS)
     if skew > ORTHOGONALITY:
         raise ValueError("a curved shape cannot be skewed")
-    if _determinant(axes) < 0:  # every one of the shapes is its own image under x -> -x
+    if _determinant(axes) < 0:  # each shape is symmetric under x -> -x
         axes[0] = tuple(-c for c in axes[0])
     scaled = _scaled(primitive, stretch)
     turn = _quaternion_of(axes[0], axes[1], axes[2])
@@ -147,7 +151,7 @@ def _inner_radius(primitive: Primitive) -> float:
     match primitive:
         case Sphere() | Capsule():
             return a
-        case Cone(radius, height):  # half way up, by the slope of its side
+        case Cone(radius, height):  # distance from the centre to the side
             return min(half_height, radius / 2 * (height / math.hypot(radius, height)))
         case _:
             return min(a, b, half_height)
@@ -179,7 +183,7 @@ def _scaled(primitive: Primitive, by: list[float]) -> Primitive:
 
 
 def _same(a: float, b: float) -> bool:
-    """Up to the rounding of the lengths of two columns."""
+    """Whether two lengths of columns are equal up to rounding."""
     return abs(a - b) <= CHAIN_ROUNDOFFS * UNIT_ROUNDOFF * max(a, b)
 
 
@@ -193,7 +197,7 @@ def _determinant(columns: list[tuple[float, ...]]) -> float:
 
 
 def rows_of(quaternion: Quaternion) -> list[Vector]:
-    """The rows of the rotation: world axes in the shape's frame."""
+    """The rows of the rotation matrix: the world axes in the shape's frame."""
     x, y, z, w = quaternion
     return [
         (1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)),

@@ -1,8 +1,8 @@
-"""The signed distance of curved shapes and convex bodies, with bounds that hold for the bodies.
+"""The signed distance of curved shapes and convex bodies, with bounds for the true bodies.
 
-Bounds of a signed distance decide, widened by what placing a shape may have rounded: a gap above 0
-separates, a penetration above 0 is one. Between the two the bodies touch as far as float64 tells,
-and the answer says that it is not exact.
+The bounds of the signed distance, widened by the rounding error of the placement, decide: the
+bodies are separated if the lower bound is above 0, and penetrate if the upper bound is below 0.
+Otherwise they touch as far as float64 tells, and the answer is marked as not exact.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ Outcome = Literal["separated", "touching", "penetrating", "undecided"]
 
 
 class Signed(Struct, frozen=True):
-    """A signed distance with bounds that hold for the bodies; fields as of core.PairResult.
+    """A signed distance with bounds for the true bodies; fields as in core.PairResult.
 
-    exact: the outcome does not hang on the width of the bounds.
+    exact: the outcome does not depend on the width of the bounds.
     """
 
     distance: float
@@ -43,7 +43,8 @@ class Signed(Struct, frozen=True):
 
 
 def signed(result: PairResult, slack: float) -> Signed | None:
-    """None when the solver could not close its bounds."""
+    """result: of the solver. slack: rounding error of the placements. None: the solver could not
+    close its bounds."""
     if result.outcome == "undecided" or result.distance is None:
         return None
     lower = (result.distance if result.lower is None else result.lower) - slack
@@ -65,15 +66,16 @@ def signed(result: PairResult, slack: float) -> Signed | None:
 
 
 def convex_pair(a: Body, b: Body, move: Vector = ORIGIN) -> Signed | None:
-    """Two bodies of which each is a curved shape or a convex mesh, A moved by `move`."""
+    """The signed distance of two bodies, each a curved shape or a convex mesh; A is translated by
+    `move`."""
     (shape_a, pose_a, slack_a), (shape_b, pose_b, slack_b) = _placed(a, move), _placed(b, ORIGIN)
     result = check_pair(shape_a, shape_b, pose_a, pose_b, query="depth")
     return signed(result, slack_a + slack_b)
 
 
 def compare(a: Body, b: Body, length: float) -> int | None:
-    """The sign of (signed distance - length), exactly; None where a shape is not a ball around a
-    point or a segment, was rounded when it was placed, or a mesh is not convex."""
+    """The exact sign of (signed distance - length). None if a shape is not a sphere or a capsule,
+    if placing a shape was rounded, or if a mesh is not convex."""
     if not (is_convex(a) and is_convex(b)):
         return None
     (shape_a, pose_a, slack_a), (shape_b, pose_b, slack_b) = _placed(a, ORIGIN), _placed(b, ORIGIN)

@@ -16,18 +16,18 @@ from satcheck.core.curved.signed import AT_ORIGIN, Outcome, Signed, signed
 
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
-# The graver first.
+# The graver outcome comes first.
 _OUTCOMES: tuple[Outcome, ...] = ("penetrating", "touching", "separated")
 
 
 class Nearest(Struct, frozen=True):
-    """The triangles of a mesh against a curved shape.
+    """The result of a curved shape against the triangles of a mesh.
 
-    nearest: the signed distance from the shape to the triangles of which that is known, with the
-    witness points of the nearest as far as distances tell: its bounds and its outcome hold for all
-    of them; None where all triangles are out of reach. triangle: the nearest. crossed: triangles
-    that the inside of the shape meets; undecided: of some that is not known. refined: how many
-    were put to exact arithmetic.
+    nearest: the signed distance from the shape to the triangles with a known distance. Its bounds
+    and its outcome hold for all of them; its witness points are those of the nearest one by
+    estimated distance. None: all triangles are out of reach. triangle: the nearest. crossed:
+    triangles that meet the inside of the shape. undecided: for some triangles this is unknown.
+    refined: the number of triangles decided in exact arithmetic.
     """
 
     nearest: Signed | None
@@ -39,7 +39,7 @@ class Nearest(Struct, frozen=True):
 
 
 def against_triangles(curved: CurvedShape, mesh: Mesh, reach: float) -> Nearest:
-    """The shape and every triangle whose box is within reach of the shape's."""
+    """Compares the shape with every triangle whose box is within reach of the box of the shape."""
     corners = np.asarray(mesh.vertices)[np.asarray(mesh.triangles)]
     low, high = (np.array(end) for end in curved.bounds())
     gaps = np.maximum(low - corners.max(axis=1), corners.min(axis=1) - high)
@@ -72,7 +72,8 @@ def _solve(curved: CurvedShape, corners: Floats) -> PairResults:
 
 
 def _refine(curved: CurvedShape, corners: Floats, distances: list[Signed | None]) -> int:
-    """Puts in place what exact arithmetic proves where bounds do not; of how many it was asked."""
+    """Replaces distances that are not exact by results of exact arithmetic. Returns their
+    number."""
     left = {k: d for k, d in enumerate(distances) if d is not None and not d.exact}
     if left:
         exact = refined(curved.image, corners[list(left)], list(left.values()))
@@ -82,8 +83,8 @@ def _refine(curved: CurvedShape, corners: Floats, distances: list[Signed | None]
 
 
 def _of_all(nearest: Signed, known: Sequence[Signed]) -> Signed:
-    """The distance is an estimate: the bounds of another triangle may reach lower than those of the
-    one that looks nearest."""
+    """Bounds for all triangles. The distance itself is an estimate: another triangle may have a
+    smaller lower bound than the nearest one."""
     outcome = min((d.outcome for d in known), key=_OUTCOMES.index)
     return replace(
         nearest,
@@ -95,7 +96,8 @@ def _of_all(nearest: Signed, known: Sequence[Signed]) -> Signed:
 
 
 def _is_exact(outcome: Outcome, known: Sequence[Signed]) -> bool:
-    """A shape touches triangles when it does one of them, and its inside meets none."""
+    """Whether the outcome for all triangles is exact. A shape touches if it touches one triangle
+    and its inside meets none."""
     same = [d for d in known if d.outcome == outcome]
     if outcome != "touching":
         return all(d.exact for d in same)

@@ -11,7 +11,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_bodies import place
 from satcheck.audit.cross_check import DISAGREEMENT, say
 from satcheck.audit.ladder.ladder import settle
-from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.planner import request_for
 from satcheck.audit.request.trace import Trace
 from satcheck.cli.report.verdict import summary_line
 from satcheck.core import Mesh
@@ -49,7 +49,7 @@ def pair_of(folder: Path, *meshes: Mesh) -> Pair:
     scene = scene_of_meshes(folder, *meshes)
     settings = Settings()
     a, b = place(scene, settings).placed.values()
-    return Pair(a, b, settings, asked_by(settings))
+    return Pair(a, b, settings, request_for(settings))
 
 
 def standings(pair: Pair, peers: Peers) -> tuple[list[str], Trace]:

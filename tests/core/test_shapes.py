@@ -63,8 +63,8 @@ WRONG: dict[str, tuple[object, str]] = {
     "negative": ({"type": "box", "size": [1.0, -1.0, 1.0]}, "size should be positive and finite"),
     "infinite": ({"type": "cone", "radius": 1.0, "height": math.inf}, "height should be positive"),
     "nan": ({"type": "cone", "radius": math.nan, "height": 1.0}, "radius should be positive"),
-    "text": ({"type": "sphere", "radius": "1"}, "something else than numbers"),
-    "true": ({"type": "sphere", "radius": True}, "something else than numbers"),
+    "text": ({"type": "sphere", "radius": "1"}, "should contain only numbers"),
+    "true": ({"type": "sphere", "radius": True}, "should contain only numbers"),
 }
 
 

@@ -155,7 +155,7 @@ def test_the_same_as_the_rules_of_the_solver(seed: int) -> None:
     found = Rules(Exempt(("g", "h"), True), stated, placed)
     for i, j in combinations(range(len(bodies)), 2):
         a, b = placed[bodies[i].id], placed[bodies[j].id]
-        assert found.is_exempt(a, b) == (not book.is_asked(i, j))
+        assert found.is_exempt(a, b) == (not book.is_checked(i, j))
         clearance = book.terms(i, j).clearance
         assert found.terms(a, b).get("clearance") == (clearance and clearance.clearance)
     assert found.count() == book.count()
@@ -174,7 +174,7 @@ def test_brackets_read_the_same_as_by_the_solver(text: str) -> None:
     found = Rules(Exempt(), stated, placed)
     for i, j in combinations(range(len(bodies)), 2):
         exempt = found.is_exempt(placed[bodies[i].id], placed[bodies[j].id])
-        assert exempt == (not book.is_asked(i, j))
+        assert exempt == (not book.is_checked(i, j))
     assert book.count()[1] > 0
 
 

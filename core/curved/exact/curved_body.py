@@ -1,7 +1,8 @@
 """A curved shape: the exact image of a primitive under a matrix.
 
-x = M y + t for y in the primitive, whose support h gives h(M^T n) + t.n. M is any matrix that is
-not singular: a rotation of rounded numbers is taken as what it is.
+The points are x = M y + t for y in the primitive. If h is the support of the primitive, the support
+of the body is h(M^T n) + t.n. M is any regular matrix. A rounded rotation is used as it is, without
+an ideal rotation behind it.
 """
 
 from __future__ import annotations
@@ -23,11 +24,12 @@ from satcheck.core.curved.exact.lattice import (
 )
 from satcheck.core.shapes import Capsule, Cone, Cylinder, Ellipsoid, ShapeImage, Sphere, half_sizes
 
-Sizes = tuple[int, int, int]  # as of half_sizes
+Sizes = tuple[int, int, int]  # see half_sizes
 
 
 class CurvedBody:
-    """columns: of M times 2**matrix_bits; sizes times 2**(bits - matrix_bits), t times 2**bits."""
+    """Integer values. columns: of M, times 2**matrix_bits; sizes: times 2**(bits - matrix_bits);
+    origin: t times 2**bits."""
 
     flat = False
 
@@ -38,7 +40,7 @@ class CurvedBody:
         self.origin: IntVector = _integers(image.origin, bits)
         a, b, c = (integer(s, bits - matrix_bits) for s in half_sizes(image.primitive))
         self.sizes = a, b, c
-        # Rows of the inverse of M, times its determinant.
+        # Rows of the inverse of M times its determinant.
         self.inverse = cross(y, z), cross(z, x), cross(x, y)
         self.determinant = dot(x, self.inverse[0])
 
@@ -66,15 +68,15 @@ class CurvedBody:
         return dot(x, n), dot(y, n), dot(z, n)
 
     def _towards_tip(self, x: int, y: int, z: int) -> int:
-        """> 0 where the apex of a cone reaches further than its base, 0 where as far."""
+        """> 0: the apex of a cone reaches farther than its base; 0: equally far."""
         a, _, c = self.sizes
         if z <= 0:
             return -1
         return 4 * c * c * z * z - a * a * (x * x + y * y)
 
     def face(self, n: IntVector) -> Face:
-        """The points that reach farthest along n; points very close to them where they are
-        irrational."""
+        """The points that are farthest along n. If they are irrational, points very close to
+        them."""
         x, y, z = self._turned(n)
         a, b, c = self.sizes
         if self.kind is Ellipsoid:
@@ -94,7 +96,7 @@ class CurvedBody:
         return self._polygon([self._round((a, a, 0), (x, y, z), end) for end in ends])
 
     def _round(self, radii: Sizes, m: IntVector, lift: int = 0) -> Point:
-        """In the frame of the shape, of an ellipsoid about (0, 0, lift) the point farthest along m:
+        """The point farthest along m of an ellipsoid about (0, 0, lift), in the frame of the shape:
         (radii^2 m) / |radii m|."""
         square = sum((r * c) ** 2 for r, c in zip(radii, m, strict=True))
         root, bits = math.isqrt(square), 0
@@ -136,7 +138,7 @@ class CurvedBody:
         return _sign(a * a - across - beyond * beyond)
 
     def normals(self, toward: IntVector) -> list[IntVector]:
-        """Of the flat ends; of an ellipsoid across its axes."""
+        """Normals of the flat ends; for an ellipsoid, normals of the planes across its axes."""
         if self.kind is Ellipsoid:
             rows = list(self.inverse)
         elif self.kind is Cylinder or self.kind is Cone:
@@ -163,7 +165,8 @@ class CurvedBody:
 
 
 def _end(across: int, radius: int, half: int, z: int) -> int:
-    """On which side of a cone a point at the height of its apex or its base is, or beyond them."""
+    """The side of a cone (see `side`) for a point at the height of its apex or its base, or
+    beyond."""
     at_base = z == -half and across <= radius * radius
     return 0 if at_base or (z == half and across == 0) else -1
 

@@ -1,7 +1,8 @@
-"""Where a body meets the plane that it reaches along an axis: its face there, usually a point.
+"""The face of a body along an axis: its points that are farthest along the axis, usually one.
 
-Two bodies that an axis separates with no gap have a common point exactly where their faces do, and
-these lie in one plane. Candidates are made here; the caller tests each against both bodies.
+If an axis separates two bodies without a gap, their faces lie in one plane, and the common points
+of the faces are those of the bodies. This module proposes candidates, and the caller tests each
+against both bodies.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from satcheck.core.curved.exact.lattice import (
 )
 
 Flat = tuple[Fraction, Fraction]
-# How far a point on the border of a polygon is moved towards its middle, in turn.
+# Shares by which a point on the border of a polygon is moved towards its middle, tried in order.
 SHARES = tuple(Fraction(1, 4**k) for k in range(1, 12))
 
 
@@ -43,8 +44,8 @@ class Polygon(Struct, frozen=True):
 
 
 class Disc(Struct, frozen=True):
-    """The image of a disc. radius: about, in lattice units. inverse: rows that take a step from the
-    centre to its two coordinates in the frame of the shape, times some number."""
+    """The image of a disc. radius: approximate, in lattice units. inverse: rows that map an offset
+    from the centre to two coordinates in the frame of the shape, up to a common factor."""
 
     centre: Point
     radius: int
@@ -70,8 +71,8 @@ Face = Polygon | Disc
 def common_points(f: Face, g: Face, axis: IntVector) -> Iterator[Point]:
     """Candidates for a common point of two faces in one plane across the axis, cheap ones first.
 
-    One of them is, if there is a common point at all, for polygons, for a polygon and a disc, and
-    for discs that are circles.
+    If a common point exists, one candidate is common. This holds for two polygons, for a polygon
+    and a disc, and for two circular discs.
     """
     yield f.middle
     yield g.middle
@@ -86,7 +87,8 @@ def common_points(f: Face, g: Face, axis: IntVector) -> Iterator[Point]:
 
 
 def _of_disc(disc: Disc, polygon: Polygon) -> Iterator[Point]:
-    """The point of a polygon's border next to the middle of the disc, and some further inside."""
+    """The point of a polygon's border nearest to the middle of the disc, and points farther
+    inside."""
     flat = {disc.local(p): p for p in polygon.points}
     loop = outline(flat)
     if len(loop) < 2:
@@ -99,7 +101,7 @@ def _of_disc(disc: Disc, polygon: Polygon) -> Iterator[Point]:
 
 
 def _foot(p: Flat, q: Flat) -> tuple[Fraction, Fraction]:
-    """Of the point of a segment next to the origin: its squared distance, its share of q."""
+    """(squared distance, share of q) of the point of segment pq that is nearest to the origin."""
     x, y = q[0] - p[0], q[1] - p[1]
     share = min(max(-(p[0] * x + p[1] * y) / (x * x + y * y), Fraction(0)), Fraction(1))
     foot = p[0] + share * x, p[1] + share * y
@@ -107,7 +109,7 @@ def _foot(p: Flat, q: Flat) -> tuple[Fraction, Fraction]:
 
 
 def outline(points: Iterator[Flat] | dict[Flat, Point] | list[Flat]) -> list[Flat]:
-    """The corners of the hull of points of a plane, counter-clockwise.
+    """The corners of the convex hull of points in a plane, counter-clockwise.
 
     Method: A. M. Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions" (1979).
     """
@@ -126,12 +128,12 @@ def outline(points: Iterator[Flat] | dict[Flat, Point] | list[Flat]) -> list[Fla
 
 
 def turn(p: Flat, q: Flat, r: Flat) -> Fraction:
-    """> 0 where r lies left of the line from p to q."""
+    """> 0: r lies to the left of the line from p to q; 0: on it."""
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 
 
 def _of_polygons(f: Polygon, g: Polygon, axis: IntVector) -> Iterator[Point]:
-    """The middle of what two polygons have in common, by clipping one at the sides of the other."""
+    """The middle of the intersection of two polygons. One is clipped at the sides of the other."""
     high = max(range(3), key=lambda k: abs(axis[k]))
     i, j = (high + 1) % 3, (high + 2) % 3
     loops = [
@@ -152,7 +154,8 @@ def _of_polygons(f: Polygon, g: Polygon, axis: IntVector) -> Iterator[Point]:
 
 
 def sides(loop: list[Flat]) -> Iterator[tuple[Flat, Flat]]:
-    """Lines of which a polygon lies left; of a segment both ways, and across its ends."""
+    """Lines with the polygon on their left. For a segment: the line in both directions, and the
+    lines across its ends."""
     if len(loop) == 2:
         p, q = loop
         x, y = q[0] - p[0], q[1] - p[1]

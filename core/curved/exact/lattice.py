@@ -1,7 +1,7 @@
 """Vectors and points of two bodies as integers, and numbers of the form q + sqrt(p).
 
-float64 numbers are dyadic: coordinates times one power of two are integers, for which Python has no
-limit. A point between them is homogeneous: (X, Y, Z, W), W > 0, stands for (X, Y, Z) / W.
+float64 numbers are dyadic: coordinates times one power of two are integers, and Python integers
+have no limit. Other points are homogeneous: (X, Y, Z, W) with W > 0 means (X, Y, Z) / W.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ IntVector = tuple[int, int, int]
 Point = tuple[int, int, int, int]
 Rational = tuple[Fraction, Fraction, Fraction]
 
-# Bits beyond its integer part to which an irrational root is taken where a figure is asked for.
+# Fractional bits of an irrational root when a figure is computed.
 ROOT_BITS = 128
 
 
@@ -26,13 +26,13 @@ def bits_of(numbers: Iterable[float]) -> int:
 
 
 def integer(number: float, bits: int) -> int:
-    """The number times 2**bits, which is one."""
+    """The number times 2**bits, which has to be an integer."""
     numerator, denominator = number.as_integer_ratio()
     return (numerator << bits) // denominator
 
 
 def dot(p: tuple[int, ...], q: tuple[int, ...]) -> int:
-    """Of the first three components."""
+    """The dot product of the first three components."""
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]
 
 
@@ -94,16 +94,18 @@ def direction_of(v: Iterable[float]) -> IntVector:
 
 
 class Reach(Struct, frozen=True):
-    """q + sqrt(p), p >= 0: how far a body reaches along an axis, lattice units times its length."""
+    """The support q + sqrt(p), p >= 0, of a body along an axis, in lattice units times the length
+    of the axis."""
 
     q: int
     p: int = 0
 
 
 def sign_of_gap(a: Reach, b: Reach) -> int:
-    """Of -(a + b), exactly: of the gap along n, where A reaches a along n and B reaches b along -n.
+    """The exact sign of the gap -(a + b) along n. a: the support of A along n; b: of B along -n.
 
-    c - sqrt(p) - sqrt(s), c > 0, has the sign of c^2 - p - s - 2 sqrt(p s), and so on once more.
+    For c > 0, c - sqrt(p) - sqrt(s) has the sign of c^2 - p - s - 2 sqrt(p s). Squaring once more
+    removes the last root.
     """
     c = -(a.q + b.q)
     if c < 0:
@@ -116,11 +118,11 @@ def sign_of_gap(a: Reach, b: Reach) -> int:
 
 
 def sign_of_difference(a: Reach, b: Reach) -> int:
-    """Of a - b, exactly."""
+    """The exact sign of a - b."""
     c = a.q - b.q
     if c < 0:
         return -sign_of_difference(b, a)
-    # c + sqrt(p) against sqrt(s): their squares differ by rest + 2 c sqrt(p).
+    # The squares of c + sqrt(p) and sqrt(s) differ by rest + 2 c sqrt(p).
     rest = c * c + a.p - b.p
     twice = 4 * c * c * a.p
     if rest >= 0:
@@ -130,14 +132,14 @@ def sign_of_difference(a: Reach, b: Reach) -> int:
 
 
 def gap_bounds(a: Reach, b: Reach) -> tuple[Fraction, Fraction]:
-    """Around the same number, -(a + b)."""
+    """Bounds of the gap -(a + b)."""
     c = Fraction(-(a.q + b.q))
     roots = [root_bounds(a.p), root_bounds(b.p)]
     return c - sum(high for _, high in roots), c - sum(low for low, _ in roots)
 
 
 def root_bounds(square: int) -> tuple[Fraction, Fraction]:
-    """Around its square root; equal where that is an integer."""
+    """Bounds of the square root; equal if the root is an integer."""
     whole = math.isqrt(square)
     if whole * whole == square:
         return Fraction(whole), Fraction(whole)

@@ -1,4 +1,4 @@
-"""Exact decisions about a pair: both bodies on one integer lattice, and the proofs there."""
+"""Exact decisions about a pair: puts both bodies on one integer lattice and proves there."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from satcheck.core.shapes import ShapeImage, half_sizes
 
 
 class Faces(Struct, frozen=True):
-    """vertices: (n, 3), world; triangles: (m, 3), outward, all of a solid, or one by itself."""
+    """vertices: (n, 3), world; triangles: (m, 3), outward, all of a solid, or a single one."""
 
     vertices: Floats
     triangles: Triangles
@@ -37,7 +37,7 @@ class Faces(Struct, frozen=True):
 
 Side = ShapeImage | Faces
 _ALONE = np.array([[0, 1, 2]], dtype=np.uint32)
-# Of the triangles that a face stands on a few points of contact are enough.
+# A face may stand on many triangles. A few points of contact are enough.
 MOST_CONTACTS = 8
 
 
@@ -68,19 +68,20 @@ def bits_of_array(numbers: Floats) -> int:
 
 
 def proven(a: Body, b: Body, bounds: Signed, move: Vector = ORIGIN) -> tuple[Signed, Proof | None]:
-    """The signed distance of A, moved, and B with what exact arithmetic adds to its bounds."""
+    """The signed distance of A, translated by `move`, and B. Exact arithmetic narrows its
+    bounds."""
     proof, bits = proof_of(a, b, bounds, move)
     return (bounds if proof is None else with_proof(bounds, proof, bits)), proof
 
 
 def proof_of(a: Body, b: Body, bounds: Signed, move: Vector = ORIGIN) -> tuple[Proof | None, int]:
-    """And the bits of the lattice that it is on."""
+    """(proof, bits of its lattice)."""
     first, second, lattice = on_lattice(a, b, move)
     return prove(first, second, candidates(first, second, _toward(bounds, a, b))), lattice.bits
 
 
 def on_lattice(a: Body, b: Body, move: Vector = ORIGIN) -> tuple[ExactBody, ExactBody, Lattice]:
-    """Both as exact bodies, A moved. One of them at least is curved."""
+    """Both as exact bodies; A is translated by `move`. At least one is curved."""
     sides = _side_of(a, move), _side_of(b, ORIGIN)
     lattice = Lattice(sides)
     return lattice.body(sides[0]), lattice.body(sides[1]), lattice
@@ -105,7 +106,7 @@ def _middle(body: Body) -> list[float]:
 
 
 def with_proof(bounds: Signed, proof: Proof, bits: int) -> Signed:
-    """The proof's outcome, and bounds as narrow as both make them."""
+    """The outcome of the proof, and the intersection of both bounds."""
     if proof.outcome == "free":
         lower = max(bounds.lower, 0.0)
         return replace(
@@ -140,7 +141,7 @@ def with_proof(bounds: Signed, proof: Proof, bits: int) -> Signed:
 
 
 def length_below(gap: Fraction, axis: IntVector, bits: int) -> float:
-    """A gap in lattice units times the length of the axis, in world units, rounded down."""
+    """A gap in world units, rounded down. gap: in lattice units times the length of the axis."""
     low, high = root_bounds(dot(axis, axis))
     exact = gap / (high if gap > 0 else low) / (1 << bits)
     nearest = float(exact)
@@ -148,7 +149,7 @@ def length_below(gap: Fraction, axis: IntVector, bits: int) -> float:
 
 
 def apart(ends: tuple[Point, Point], bits: int) -> float:
-    """How far two points are apart, world units, rounded up."""
+    """The distance of two points, world units, rounded up."""
     p, q = ends
     w = p[3] * q[3]
     square = sum((p[k] * q[3] - q[k] * p[3]) ** 2 for k in range(3))
@@ -170,16 +171,17 @@ def unit(axis: IntVector) -> Vector:
 
 
 def refined(image: ShapeImage, corners: Floats, bounds: Sequence[Signed]) -> list[Signed]:
-    """The signed distances of triangles with what exact arithmetic adds to their bounds.
+    """The signed distances of triangles.
 
-    corners: (n, 3, 3), world, of the triangles; the shape is A."""
+    Exact arithmetic narrows their bounds. corners: (n, 3, 3), world, of the triangles; the shape is
+    A."""
     lattice = Lattice((image, Faces(corners.reshape(-1, 3), _ALONE)))
     shape = CurvedBody(image, lattice.bits, lattice.matrix_bits)
-    known: list[IntVector] = []  # one of them is the axis of most others
+    known: list[IntVector] = []  # axes that often prove other triangles too
     touched, results = 0, []
     for points, signed in zip(corners, bounds, strict=True):
         triangle = PolytopeBody(points, _ALONE, lattice.bits)
-        if not triangle.face_normals():  # without an area it is its neighbours' edges
+        if not triangle.face_normals():  # without area: only edges of its neighbours
             results.append(signed)
             continue
         toward = direction_of(signed.normal or (0.0, 0.0, 1.0))

@@ -24,20 +24,20 @@ from satcheck.core.tolerances import CHAIN_ROUNDOFFS, UNIT_ROUNDOFF
 Floats = npt.NDArray[np.float64]
 Triangles = npt.NDArray[np.uint32]
 
-# At most so many features of a kind are tried: where a body stands on more, a few of them prove
-# the same as all.
+# At most this many features of a kind are tried. If a body stands on more, a few prove the same as
+# all.
 MOST = 4
-# Vertices this close to the support along an estimated axis, relative to the size, may be those
-# that the body stands on. That is far more than the axis is off: one too many costs only time.
+# Vertices this close to the support along an estimated axis, relative to the size, may be contact
+# points. The share is far above the error of the axis; extra vertices cost only time.
 NEAR = 1e-5
-# Up to so many vertices each one is compared exactly.
+# Up to this many vertices, all are compared exactly.
 _FEW = 16
 _ROUNDED = CHAIN_ROUNDOFFS * UNIT_ROUNDOFF
 
 
 class PolytopeBody:
-    """vertices: (n, 3), world, times 2**bits integers; triangles: (m, 3), outward, all of the
-    border, or the one that the body is."""
+    """vertices: (n, 3), world; times 2**bits they are integers. triangles: (m, 3), outward, the
+    whole border; a single triangle is a flat body."""
 
     def __init__(self, vertices: Floats, triangles: Triangles, bits: int) -> None:
         self.vertices, self.triangles, self.bits = vertices, triangles, bits
@@ -52,13 +52,13 @@ class PolytopeBody:
         return vertex
 
     def _plane(self, triangle: int) -> tuple[IntVector, int]:
-        """An outward normal, and its product with the points of the plane."""
+        """(outward normal, its product with the points of the plane)."""
         a, b, c = (self._vertex(k) for k in self.triangles[triangle].tolist())
         n = cross(sub(b, a), sub(c, a))
         return n, dot(n, a)
 
     def _farthest(self, n: IntVector) -> tuple[int, list[int]]:
-        """The largest product of n with a vertex, and all vertices that have it."""
+        """(the largest product of n with a vertex, the vertices that reach it)."""
         candidates = list(range(len(self.vertices)))
         if len(candidates) > _FEW:
             products = self.vertices @ _floats(n)
@@ -81,7 +81,7 @@ class PolytopeBody:
         return Polygon(tuple((*self._vertex(k), 1) for k in farthest))
 
     def side(self, p: Point) -> int:
-        """1 inside, 0 on the border, -1 outside. A triangle has no inside: 0 on it."""
+        """1 inside, 0 on the border, -1 outside. A flat body has no inside: 0 on it."""
         if self.flat:
             return 0 if self._is_on_triangle(p) else -1
         side = 1
@@ -95,7 +95,7 @@ class PolytopeBody:
         return side
 
     def _faces_near(self, p: Point) -> list[int]:
-        """All but those that float64 proves the point to lie behind."""
+        """The faces, except those that the point is behind, as proven in float64."""
         scale = p[3] << self.bits
         point = np.array([c / scale for c in p[:3]])
         a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
@@ -118,7 +118,7 @@ class PolytopeBody:
         return True
 
     def face_normals(self) -> set[IntVector]:
-        """Outward, exact, each once."""
+        """The outward normals, exact, each once."""
         normals = {shortened(self._plane(k)[0]) for k in range(len(self.triangles))}
         return {n for n in normals if any(n)}
 
@@ -126,7 +126,7 @@ class PolytopeBody:
         return [(*self._vertex(k), 1) for k in range(len(self.vertices))]
 
     def _near(self, toward: IntVector) -> npt.NDArray[np.bool_]:
-        """Of each vertex, whether it reaches about as far along the axis as any."""
+        """(n,): whether each vertex is nearly the farthest along the axis."""
         products = self.vertices @ _floats(toward)
         spread = np.linalg.norm(np.ptp(self.vertices, axis=0))
         near: npt.NDArray[np.bool_] = products >= products.max() - NEAR * spread
@@ -137,7 +137,7 @@ class PolytopeBody:
         return np.unique(np.sort(ends, axis=1), axis=0)
 
     def normals(self, toward: IntVector) -> list[IntVector]:
-        """Of faces, outward, those that look along `toward` most."""
+        """Outward normals of the faces that point most along `toward`."""
         near = np.flatnonzero(self._near(toward)[self.triangles].any(axis=1))
         a, b, c = (self.vertices[self.triangles[near, k]] for k in range(3))
         crossed = np.cross(b - a, c - a)
@@ -153,7 +153,7 @@ class PolytopeBody:
         return list(dict.fromkeys(n for n in normals if any(n)))[:MOST]
 
     def lines(self, toward: IntVector) -> list[tuple[IntVector, IntVector]]:
-        """Edges, those across the axis first."""
+        """Edges as (point, direction); those across the axis first."""
         edges, near = self._edges(), self._near(toward)
         edges = edges[near[edges].any(axis=1)]
         edges = edges[(self.vertices[edges[:, 1]] != self.vertices[edges[:, 0]]).any(axis=1)]
@@ -169,6 +169,6 @@ class PolytopeBody:
 
 
 def _floats(n: IntVector) -> Floats:
-    """Along n, about 1 long."""
+    """A float64 vector along n, of length about 1."""
     largest = max(abs(c) for c in n)
     return np.array([c / largest for c in n])

@@ -1,8 +1,8 @@
-"""Separated, touching or penetrating, proven along an exact axis.
+"""Proves along an exact axis that two bodies are separated, touching or penetrating.
 
-Candidates for the axis are near an estimated one. Flat faces give their normals. Otherwise contacts
-hang on points and straight lines: the axis runs between two points, across two lines, from a line
-to a point across the line.
+Candidates for the axis are near an estimated one. Flat faces give their normals. All other contacts
+depend on points and straight lines. The axis then connects two points, is perpendicular to two
+lines, or connects a line to a point, perpendicular to the line.
 """
 
 from __future__ import annotations
@@ -31,16 +31,15 @@ from satcheck.core.curved.exact.lattice import (
 )
 from satcheck.core.curved.exact.polytope_body import PolytopeBody
 
-# "free": the axis separates them with no gap, and no common point was found.
+# "free": the axis separates the bodies without a gap, and no common point was found.
 Outcome = Literal["separated", "touching", "penetrating", "free"]
 Gap = tuple[Fraction, Fraction]
 
-# Of the axes along which they overlap, those with the least overlap are looked at for a common
-# point inside.
+# The number of axes, those with the least overlap, that are searched for a common inner point.
 MOST_OVERLAPS = 4
-# Some roundoffs of a coordinate, relative to the size of the body.
+# Steps of a few roundoffs of a coordinate, relative to the size of the body.
 PULLS = tuple(Fraction(1, 1 << k) for k in (48, 52, 56, 60, 64))
-# Far beyond the bits of irrational roots that are left out.
+# A share far larger than the error of a truncated irrational root.
 _NEXT_TO = Fraction(1, 1 << 100)
 NO_GAP: Gap = (Fraction(0), Fraction(0))
 
@@ -49,9 +48,10 @@ ExactBody = CurvedBody | PolytopeBody
 
 
 class Proof(Struct, frozen=True):
-    """axis: from A to B; gap: bounds along it, in lattice units times its length, < 0 where they
-    overlap, 0 also where they are beside each other. point: of both, on the lattice: inside A where
-    they penetrate, and inside B if it has an inside. ends: a point of each, across the gap."""
+    """axis: from A to B. gap: its bounds along the axis, in lattice units times the length of the
+    axis; < 0: overlap; 0: the axis separates without a gap. point: a common point, on the lattice;
+    if the bodies penetrate, it is inside A, and inside B if B has an inside. ends: a point of each
+    body, connected by the axis."""
 
     outcome: Outcome
     axis: IntVector
@@ -63,9 +63,9 @@ class Proof(Struct, frozen=True):
 def prove(
     a: ExactBody, b: ExactBody, axes: Iterable[IntVector], *, contact: bool = True
 ) -> Proof | None:
-    """What the first of the axes proves that says anything about them. B alone may be flat.
+    """The proof by the first axis that proves something; None: no axis does.
 
-    contact: a common point is looked for where there is no gap.
+    Only B may be flat. contact: search a common point if there is no gap.
     """
     overlaps = []
     free: Proof | None = None
@@ -93,8 +93,8 @@ def prove(
 
 
 def _contact(a: ExactBody, b: ExactBody, n: IntVector) -> Proof:
-    """Where they touch. Without a gap every root is rational, so the faces are exact, and of those
-    all but two discs are searched completely."""
+    """Searches a common point. Without a gap every root is rational, so the faces are exact. The
+    search is complete except for two discs."""
     f, g = a.face(n), b.face(negated(n))
     for p in common_points(f, g, n):
         if a.side(p) >= 0 and b.side(p) >= 0:
@@ -104,7 +104,7 @@ def _contact(a: ExactBody, b: ExactBody, n: IntVector) -> Proof:
 
 
 def _ends(a: ExactBody, b: ExactBody, n: IntVector, gap: Gap) -> tuple[Point, Point] | None:
-    """Points of both that the axis joins, where there are some; if their coordinates are
+    """A point of each body, connected by the axis; None: not found. If the coordinates are
     irrational, points next to them."""
     step = gap[0] / dot(n, n)
     middles = a.middle, b.middle
@@ -118,8 +118,8 @@ def _ends(a: ExactBody, b: ExactBody, n: IntVector, gap: Gap) -> tuple[Point, Po
 
 
 def _point_inside(a: ExactBody, b: ExactBody, n: IntVector, gap: Gap) -> Point | None:
-    """Half way between their faces; of a flat B on it."""
-    # B's face is moved into the plane of A's; from there the way back is along -n.
+    """A common inner point: half way between the faces, or on B if it is flat."""
+    # B's face is moved into the plane of A's face. The way back is along -n.
     step = -gap[0] / dot(n, n)
     back = step if b.flat else step / 2
     for p in common_points(a.face(n), b.face(negated(n)).moved(n, step), n):
@@ -134,8 +134,8 @@ def _is_inside(a: ExactBody, b: ExactBody, p: Point) -> bool:
 
 
 def _pulled_in(a: ExactBody, b: ExactBody, n: IntVector) -> Iterator[Point]:
-    """Where one body reaches farthest into the other, and a little towards its own middle: of faces
-    that are nearly, and not quite, across the axis."""
+    """Points where one body is deepest in the other, moved a little towards its middle. They help
+    if a face is nearly, but not exactly, perpendicular to the axis."""
     for body, face in ((a, a.face(n)), (b, b.face(negated(n)))):
         if isinstance(face, Polygon):
             middle = body.middle

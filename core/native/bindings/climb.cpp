@@ -45,9 +45,9 @@ Rung rung_from(const std::string& name) {
 }
 
 ClimbRequest request_from(const PairTuple& pair, MethodChoice method, bool alone = false) {
-  const auto& [a, b, asked_gap, tolerance, depth_a, depth_b, wants_distance] = pair;
+  const auto& [a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance] = pair;
   if (!a || !b) throw std::invalid_argument("a pair lacks a body");
-  return {a, b, asked_gap, tolerance, depth_a, depth_b, wants_distance, alone, method};
+  return {a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance, alone, method};
 }
 
 void bind_geometry(nb::module_& m) {
@@ -140,7 +140,7 @@ void bind_result(nb::module_& m) {
 
 relation      of the bodies, without a touch band; "indeterminate" if `hole` leaves it open.
 settled       a rung decided the pair. Else a higher rung may decide more: the bodies are apart by gap_lower, but not
-              by more than asked_gap, or they may overlap.
+              by more than gap_limit, or they may overlap.
 proven        the relation is proven. gap_lower: a proven lower bound of the distance; 0.0: none is known.
 signed_distance  of two convex bodies, by their hulls; it decides everything about them.
 crossing      indices of one triangle of each body that meet. point: a common point, rounded.
@@ -151,7 +151,7 @@ least_depth   a proven lower bound of the depth of an overlap that triangles dec
 deepest       the greatest such bound. way_out: a translation of A within the band that frees it.
 gap           of separate surfaces. gap_of_holes: the fill of a hole may be this near, nearer than gap.
 box_gap       a proven lower bound of the gap of the world boxes; 0.0 if they meet.
-boxes         oriented boxes: "apart" by more than asked_gap, "meet", the reason why they prove no more than the world
+boxes         oriented boxes: "apart" by more than gap_limit, "meet", the reason why they prove no more than the world
               boxes ("sheared", "unturned"), or "".
 hulls         the depth of two convex bodies; else the distance of separate hulls, or the overlap.
 triangles     the relation of the meshes.
@@ -222,8 +222,8 @@ void bind_climb(nb::module_& m) {
   bind_result(m);
   nb::class_<Climbing>(m, "Climbing", R"(Climbs with many pairs in threads, while the caller can do other work.
 
-A pair is (a, b, asked_gap, tolerance, depth_a, depth_b, wants_distance). A climb ends at a rung that proves a gap
-beyond asked_gap, or at the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
+A pair is (a, b, gap_limit, tolerance, depth_a, depth_b, wants_distance). A climb ends at a rung that proves a gap
+beyond gap_limit, or at the rung `last`: "aabb", "obb", "hull" or "triangles". tolerance: half width of the touch band.
 depth_a, depth_b: a point deeper than that in A and in B shows an overlap that no tolerance of the surfaces explains.
 wants_distance: measure every gap. threads: 0: one a core; on one thread the pairs climb when the results are taken.
 alone: there is one pair, and no other needs its bodies. method: between convex hulls, as in check_pairs.)")

@@ -64,7 +64,7 @@ class Climber {
   void climb_rungs() {
     const bool apart = timed(kBoxes, [&] {
       climb_.box_gap = box_gap(request_.a->bounds(), request_.b->bounds());
-      return climb_.box_gap > request_.asked_gap;
+      return climb_.box_gap > request_.gap_limit;
     });
     if (takes(Rung::aabb) && apart) return;
     if (takes(Rung::obb) && timed(kOriented, [&] { return oriented_boxes_settle(); })) return;
@@ -88,7 +88,7 @@ class Climber {
 
   bool oriented_boxes_settle() {
     double pad_a = request_.a->resolution(), pad_b = request_.b->resolution();
-    if (pad_a + pad_b < request_.asked_gap) pad_a = pad_b = 0.5 * request_.asked_gap;
+    if (pad_a + pad_b < request_.gap_limit) pad_a = pad_b = 0.5 * request_.gap_limit;
     const OrientedBox a = request_.a->oriented_box(pad_a), b = request_.b->oriented_box(pad_b);
     if (!a.turned && !b.turned) {
       climb_.boxes = BoxOutcome::unturned;
@@ -172,7 +172,7 @@ class Climber {
   // Hulls can be closer than a gap that is asked about.
   bool hulls_leave_gap_open() const {
     if (climb_.both_convex || last_ != Rung::triangles) return false;
-    return !(gap_of_hulls(climb_) > request_.asked_gap);
+    return !(gap_of_hulls(climb_) > request_.gap_limit);
   }
 
   bool boxes_nest() const {
@@ -189,7 +189,7 @@ class Climber {
 
   // Where a surface has to be to matter for the relation to this body, and for a gap that is asked about.
   Aabb reach_of(const PlacedGeometry& body) const {
-    const double reach = 2 * request_.asked_gap;
+    const double reach = 2 * request_.gap_limit;
     return {body.bounds().min - Vec3{reach, reach, reach}, body.bounds().max + Vec3{reach, reach, reach}};
   }
 
@@ -238,7 +238,7 @@ class Climber {
 
   // A gap that exceeds the touch band by more than rounding needs no figure.
   bool measure_gap() {
-    if (request_.asked_gap == 0) return false;
+    if (request_.gap_limit == 0) return false;
     if (!a_) make_whole_surfaces();
     const double rounding = chain_rounding(largest_coordinate());
     climb_.gap = mesh_distance(*a_, *b_, request_.wants_distance ? INFINITY : request_.tolerance + rounding);

@@ -1,6 +1,6 @@
 // The ladder: each rung settles the pairs that it can decide and leaves the others to the next rung.
 //
-// aabb -> obb -> hull -> triangles. The climb ends at a rung that proves a gap beyond `asked_gap`. After the triangles
+// aabb -> obb -> hull -> triangles. The climb ends at a rung that proves a gap beyond `gap_limit`. After the triangles
 // it tests the touch band, unless that needs a search. Then it derives the verdict.
 #pragma once
 
@@ -18,13 +18,13 @@ namespace satcheck {
 
 enum class Rung : std::uint8_t { aabb, obb, hull, triangles };
 
-// One pair. asked_gap: the size of a larger gap is not needed. tolerance: half width of the touch band. depth_a, depth_b:
+// One pair. gap_limit: the size of a larger gap is not needed. tolerance: half width of the touch band. depth_a, depth_b:
 // a point deeper than this in closed bodies A and B shows an overlap that no tolerance of their surfaces explains.
 // wants_distance: measure every gap; else only gaps within the band.
 struct ClimbRequest {
   PlacedGeometry* a;
   PlacedGeometry* b;
-  double asked_gap, tolerance, depth_a, depth_b;
+  double gap_limit, tolerance, depth_a, depth_b;
   bool wants_distance;
   // No other pair needs these bodies, so data made for this pair serve no other.
   bool alone = false;

@@ -60,8 +60,8 @@ Verdict verdict_of(const ClimbRequest& request, const Climb& climb) {
   if (climb.triangles) return by_triangles(climb);
   if (const PairResult* convex = signed_distance(climb)) return by_convex_hulls(request, climb, *convex);
   if (climb.hulls && climb.hulls->outcome == Outcome::separated) return apart(gap_of_hulls(climb));
-  if (climb.boxes == BoxOutcome::apart) return apart(std::nextafter(request.asked_gap, INFINITY));
-  if (climb.box_gap > 0) return apart(climb.box_gap, climb.box_gap > request.asked_gap);
+  if (climb.boxes == BoxOutcome::apart) return apart(std::nextafter(request.gap_limit, INFINITY));
+  if (climb.box_gap > 0) return apart(climb.box_gap, climb.box_gap > request.gap_limit);
   return {};
 }
 

@@ -28,7 +28,7 @@ def test_a_pair_is_ignored_when_both_are_in_one_ignored_group(ignored):
         for i, j in combinations(range(len(GROUPS)), 2)
         if not set(GROUPS[i]) & set(GROUPS[j]) & set(ignored)
     }
-    assert set(placed_bodies.book.asked_pairs()) == asked
+    assert set(placed_bodies.book.checked_pairs()) == asked
     assert placed_bodies.book.count() == (len(asked), 0)
 
 

@@ -68,7 +68,7 @@ def test_an_open_body_resolves_nothing(tmp_path):
 
 
 def test_only_on_triangles():
-    with pytest.raises(SatcheckError, match="components is found on triangles"):
+    with pytest.raises(SatcheckError, match="components needs triangles"):
         Settings(components=True, accuracy="hull")
-    with pytest.raises(SatcheckError, match="components is about bodies in space"):
+    with pytest.raises(SatcheckError, match="components needs bodies in space"):
         Settings(components=True, planar="xy")

@@ -12,7 +12,7 @@ from satcheck.audit.bodies.pair import Pair
 from satcheck.audit.bodies.placed_body import PlacedBody, SharedMesh
 from satcheck.audit.motion.moving_pair import MovingPair
 from satcheck.audit.motion.track import STANDS, track_of
-from satcheck.audit.request.planner import asked_by
+from satcheck.audit.request.planner import request_for
 from satcheck.audit.request.settings import Settings
 from satcheck.core import Mesh
 from satcheck.scene.motion import Path as MotionPath
@@ -26,7 +26,7 @@ def pair_of(a: Lists, b: Lists, **settings: object) -> Pair:
     with tempfile.TemporaryDirectory() as folder:
         scene = scene_of(Path(folder), a=a, b=b)
     placed = [PlacedBody(body, SharedMesh(body.file, asked)) for body in scene.bodies]
-    return Pair(placed[0], placed[1], asked, asked_by(asked))
+    return Pair(placed[0], placed[1], asked, request_for(asked))
 
 
 def moving(

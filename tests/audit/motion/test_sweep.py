@@ -67,7 +67,7 @@ def test_what_fills_a_hole_is_not_passed_over():
     there = PosePath((Waypoint(0.0, ORIGIN), Waypoint(1.0, (0.5, 0.5, -5.0))))
     found = swept(ball, there, open_box())
     assert found.relation == "separated"
-    assert found.reason == "what fills the holes of b was not swept"
+    assert found.reason == "the fills of the holes of b were not swept"
     away = swept(ball, Translation((0.0, 0.0, 5.0)), open_box())
     assert away.reason is None
     assert swept(ball, there, open_box(), allow_open=True).reason is None

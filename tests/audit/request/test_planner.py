@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from satcheck.audit.request.planner import ALWAYS, FOR_MESHES, Planner, asked_by
+from satcheck.audit.request.planner import ALWAYS, FOR_MESHES, Planner, request_for
 from satcheck.audit.request.rule_book import RuleBook, Subject, Terms
 from satcheck.audit.request.settings import Settings
 from satcheck.scene import Rule, Selector
@@ -20,17 +20,17 @@ def terms(**keys) -> Terms:
 
 
 def test_only_the_overlap_is_a_matter_of_course_in_a_scene() -> None:
-    assert asked_by(Settings(), composed=True).by == {"overlap": ALWAYS}
+    assert request_for(Settings(), composed=True).by == {"overlap": ALWAYS}
 
 
 def test_the_depth_of_mesh_files_is_asked_by_default() -> None:
-    assert asked_by(Settings()).by == {
+    assert request_for(Settings()).by == {
         "overlap": ALWAYS,
         "depth": FOR_MESHES,
         "thickness": FOR_MESHES,
     }
-    assert asked_by(Settings(depth=False)).by == {"overlap": ALWAYS}
-    assert not asked_by(Settings(thickness=False)).wants("thickness")
+    assert request_for(Settings(depth=False)).by == {"overlap": ALWAYS}
+    assert not request_for(Settings(thickness=False)).wants("thickness")
 
 
 @pytest.mark.parametrize(
@@ -45,12 +45,12 @@ def test_the_depth_of_mesh_files_is_asked_by_default() -> None:
     ],
 )
 def test_a_flag_asks_for_its_effect_alone(settings, effect, flag) -> None:
-    asked = asked_by(Settings(**settings), composed=True)
+    asked = request_for(Settings(**settings), composed=True)
     assert asked.by == {"overlap": ALWAYS, effect: flag}
 
 
 def test_the_flag_of_the_depth_asks_for_the_thickness_too() -> None:
-    asked = asked_by(Settings(depth=True), composed=True)
+    asked = request_for(Settings(depth=True), composed=True)
     assert asked.by == {"overlap": ALWAYS, "depth": "--depth", "thickness": "--depth"}
 
 
@@ -64,31 +64,31 @@ def test_the_flag_of_the_depth_asks_for_the_thickness_too() -> None:
     ],
 )
 def test_a_rule_asks_for_what_it_needs(keys, effect) -> None:
-    asked = asked_by(Settings(), terms(**keys), composed=True)
+    asked = request_for(Settings(), terms(**keys), composed=True)
     assert asked.by == {"overlap": ALWAYS, effect: next(iter(keys))}
 
 
 def test_a_depth_rule_asks_whatever_the_flags_say() -> None:
-    assert asked_by(Settings(depth=False), terms(max_depth=0.1)).wants("depth")
+    assert request_for(Settings(depth=False), terms(max_depth=0.1)).wants("depth")
 
 
 def test_a_rule_stands_above_the_flags() -> None:
     settings = Settings(clearance=1.0, tolerance=0.1)
-    asked = asked_by(settings, terms(clearance=2.0, tolerance=0.2, severity="warning"))
+    asked = request_for(settings, terms(clearance=2.0, tolerance=0.2, severity="warning"))
     assert (asked.clearance, asked.tolerance, asked.severity) == (2.0, 0.2, "warning")
     assert asked.rule("severity") == "severity"
-    assert asked_by(settings).rule("severity") is None
+    assert request_for(settings).rule("severity") is None
 
 
 def test_a_clearance_of_nothing_is_none() -> None:
-    asked = asked_by(Settings(clearance=1.0), terms(clearance=0.0))
+    asked = request_for(Settings(clearance=1.0), terms(clearance=0.0))
     assert asked.clearance is None
     assert not asked.wants("distance")
 
 
 @pytest.mark.parametrize("limit", ["max_depth", "max_thickness", "max_volume"])
 def test_what_may_overlap_keeps_no_clearance(limit) -> None:
-    asked = asked_by(Settings(clearance=1.0), terms(clearance=2.0, **{limit: 0.1}))
+    asked = request_for(Settings(clearance=1.0), terms(clearance=2.0, **{limit: 0.1}))
     assert asked.limited
     assert not asked.wants("distance")
     assert asked.clearance is None
@@ -116,9 +116,9 @@ def test_no_pair_is_asked_further_than_its_reach() -> None:
         reach = planner.reach(dict(enumerate(resolution)))
         for i in range(4):
             for j in range(i):
-                gap = planner.asked_gap(i, j, resolution[i] + resolution[j])
+                gap = planner.gap_limit(i, j, resolution[i] + resolution[j])
                 assert gap <= reach[i] + reach[j] + 1e-15
-    assert Planner(Settings(), book).asked_gap(0, 1, 0.3) == 1.0  # the last rule decides
+    assert Planner(Settings(), book).gap_limit(0, 1, 0.3) == 1.0  # the last rule decides
 
 
 @pytest.mark.parametrize(
@@ -131,5 +131,5 @@ def test_a_limit_of_nothing_asks_too(effect: str, key: str) -> None:
     book = RuleBook([Subject("a"), Subject("b")], [rule(where="zero", **{key: 0.0}), none])
     planner = Planner(Settings(), book, composed=True)
     assert planner.request(0, 1).by[effect] == "zero"
-    assert planner.who_asks(effect) == ("zero",)
-    assert planner.who_asks("distance") == ()
+    assert planner.requested_by(effect) == ("zero",)
+    assert planner.requested_by("distance") == ()

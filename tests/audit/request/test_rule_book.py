@@ -80,7 +80,7 @@ def test_as_if_every_pair_were_gone_through(seed: int) -> None:
             assert book.longest("clearance")[i] >= (one.clearance or 0.0)
         total += not skipped
         asked = not skipped and not book.terms(i, j).allows
-        assert book.is_asked(i, j) == asked
+        assert book.is_checked(i, j) == asked
         allowed += not skipped and not asked
         kinds = tuple(sorted((book.kind_of[i], book.kind_of[j])))
         assert not (asked and ((i, j) in book.exempt_named() or kinds in book.exempt_kinds()))

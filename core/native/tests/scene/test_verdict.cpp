@@ -27,7 +27,7 @@ void boxes_settle_what_is_beyond_the_question() {
   CHECK(met.relation == Relation::penetrating && !met.settled && !met.proven && !met.band);
   climb.boxes = BoxOutcome::apart;
   const Verdict oriented = verdict(climb);
-  CHECK(oriented.relation == Relation::separated && oriented.settled && oriented.gap > kRequest.asked_gap);
+  CHECK(oriented.relation == Relation::separated && oriented.settled && oriented.gap > kRequest.gap_limit);
 }
 
 PairResult hulls(Outcome outcome, double lower, double upper) {
