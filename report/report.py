@@ -165,10 +165,11 @@ class Finding(Value, frozen=True, kw_only=True):
     distance: the gap of bodies without a common interior; also None if it was not requested, or if
     it is known to exceed the clearance without being measured. distance_bounds: contain the true
     gap if polygons replace curves in a check in a plane; distance is then the gap of the polygons.
-    thickness: of an overlap, the diameter of the largest ball that lies in both bodies: the upper
-    end of thickness_bounds, which contain it. ball: as thick as their lower end; None where that is
-    0. None, too, where nobody asked, and where a body is not closed. volume: what both have in
-    common; volume_error: about how far off that is, not proven (0.0: the volume is exactly 0.0).
+    thickness: of an overlap, the diameter of the largest ball that lies in both bodies, stated as
+    the upper end of thickness_bounds, which contain it. ball: a ball of their lower end; None if
+    that is 0. Both are also None if they were not requested, or if a body is not closed. volume: of
+    the overlap. volume_error: the approximate error of the volume, not proven (0.0: the volume is
+    exactly 0.0).
     None of these weakens the quality.
     depth_bounds: contain the true depth. depth: their upper end. mtv: about -depth * normal; it may
     be a little longer, so that the moved mesh is verified free. motion: the sweep; None: the bodies
